@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rheonet {
+
+/// A place in a netlist. Files are numbered in the order in which they were read; lines and columns count from 1, columns
+/// in characters (UTF-8 code points). file = -1: the command line (the text is then in `Sources`).
+struct Spot {
+  int file = -1;
+  int line = 0;
+  int column = 0;
+};
+
+/// The text of every file read, kept for excerpts.
+struct Sources {
+  struct File { std::filesystem::path path; std::string text; };
+  std::vector<File> files;
+};
+
+enum class Severity { error, warning };
+
+/// One mistake: what was found, which rule, what would mend it.
+struct Diagnostic {
+  Severity severity = Severity::error;
+  Spot spot;
+  std::string message;  ///< one sentence, no final full stop: what was found and what was expected
+  std::string hint;     ///< what would mend it ("did you mean `stiffness`?"); may be empty
+};
+
+/// As a compiler prints it:
+///
+///     scene.toml:3:12: error: unknown element type `sprong`
+///       3 | k1 = { type = "sprong", between = ["a", "ground"] }
+///         |               ^
+///       did you mean `spring`?
+std::string format(const Diagnostic& diagnostic, const Sources& sources);
+
+/// The nearest of `known` by edit distance (Damerau-Levenshtein), "" if none is within a third of the length (at least 2).
+std::string nearest(std::string_view word, const std::vector<std::string>& known);
+
+}  // namespace rheonet

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <string>
+
+namespace rheonet {
+
+/// Exponents of the SI base units a mechanical quantity is made of. Radians count as pure numbers. Exponents are real,
+/// because the damping of a power-law dashpot has the unit N (s/m)^n.
+struct Dimension {
+  double metre = 0;
+  double kilogram = 0;
+  double second = 0;
+
+  friend Dimension operator*(Dimension a, Dimension b) {
+    return {a.metre + b.metre, a.kilogram + b.kilogram, a.second + b.second};
+  }
+  friend Dimension operator/(Dimension a, Dimension b) { return a * b.power(-1); }
+  Dimension power(double n) const { return {n * metre, n * kilogram, n * second}; }
+  bool is_number() const { return same(Dimension{}); }
+  /// Equal up to the rounding of fractional exponents (1e-9).
+  bool same(Dimension other) const;
+};
+
+/// Translation: positions in m, forces in N, masses in kg. Rotation: angles in rad, torques in N*m, inertias in kg*m^2.
+enum class Domain { translation, rotation };
+
+/// What a value of a netlist is; its dimension follows from the domain.
+enum class Quantity {
+  number,     ///< dimensionless
+  time,       ///< s
+  frequency,  ///< Hz (cycles a second); a unit with rad in it is an angular frequency and is divided by 2 pi
+  angle,      ///< rad, whatever the domain (the phase of a signal)
+  position,   ///< m | rad; displacements too
+  velocity,   ///< m/s | rad/s
+  force,      ///< N | N*m
+  stiffness,  ///< N/m | N*m/rad
+  damping,    ///< N*(s/m)^n | N*m*(s/rad)^n, n the value of the flow index that goes with it
+  mass,       ///< kg | kg*m^2
+};
+
+/// `flow_index` is n above; it matters for damping only.
+Dimension dimension_of(Quantity quantity, Domain domain, double flow_index = 1);
+
+/// The word of an error text: "stiffness", "torque" in a rotational scene, ...
+std::string name_of(Quantity quantity, Domain domain);
+
+/// The SI unit as a user would type it: "N/m", "N*m/rad", "N*(s/m)^0.5"; "1" for a number.
+std::string unit_of(Quantity quantity, Domain domain, double flow_index = 1);
+
+/// A dimension without a quantity, for error texts: "kg*m^2*s^-2".
+std::string to_string(Dimension dimension);
+
+}  // namespace rheonet

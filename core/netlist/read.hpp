@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/netlist/declaration.hpp"
+#include "core/netlist/diagnostic.hpp"
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+struct ReadOptions {
+  std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
+  std::optional<double> accuracy;             ///< as after --accuracy; wins over the file
+  std::vector<std::filesystem::path> library; ///< folders that `include` falls back on
+};
+
+struct ReadResult {
+  std::optional<Scene> scene;             ///< absent if there is any error
+  std::vector<Diagnostic> diagnostics;    ///< every mistake found, in the order of files and lines
+  Sources sources;
+};
+
+/// Reads and checks a netlist; never throws for what a file contains. A file that cannot be opened is a diagnostic too.
+ReadResult read_scene(const std::filesystem::path& file, Declarations declarations, const ReadOptions& options = {});
+
+/// The same from text; `name` is what messages call it, `folder` where its includes and tables are looked for.
+ReadResult read_scene_text(std::string text, const std::string& name, const std::filesystem::path& folder,
+                           Declarations declarations, const ReadOptions& options = {});
+
+/// The JSON Schema (draft 2020-12) of the netlist format, for editors, made from the same declarations.
+std::string json_schema(Declarations declarations);
+
+}  // namespace rheonet

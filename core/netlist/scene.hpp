@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/netlist/diagnostic.hpp"
+#include "core/netlist/dimension.hpp"
+#include "core/netlist/signal.hpp"
+
+namespace rheonet {
+
+/// Index into Scene::nodes. Ground is always node 0.
+using NodeId = int;
+inline constexpr NodeId ground = 0;
+
+/// Marks an initial value or parameter that the user did not give.
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+struct SceneNode {
+  std::string name;             ///< its path: `drum`, `pivot.mid`, `bingham.node1`
+  double position = not_given;  ///< m | rad
+  double velocity = not_given;  ///< m/s | rad/s
+  Spot spot;                    ///< where it is first named; of its `[nodes]` entry if it has one
+};
+
+struct SceneElement {
+  std::string name;    ///< its path: `k1`, `pivot.k1`, `chain.17`
+  int declaration = 0; ///< index into the declarations that the scene was read with
+  NodeId a = ground;
+  NodeId b = ground;   ///< ground for an element `at` one node
+  bool at = false;     ///< written with `at`
+  std::vector<double> values;   ///< SI, one for each declared parameter; not_given for signals and absent initial values
+  std::vector<Signal> signals;  ///< the signals, in order of declaration, of the parameters in signal_parameters
+  std::vector<int> signal_parameters;  ///< indices into Declaration::parameters
+  Spot spot;           ///< of its name
+};
+
+/// A composed element (series, parallel, repeat, an instance of a model with two ports). Its force is the signed sum of
+/// the forces of the elements that touch its first node from inside.
+struct SceneAssembly {
+  struct Term { int element; double sign; };
+  std::string name;
+  NodeId a = ground;
+  NodeId b = ground;
+  std::vector<Term> force;
+  Spot spot;
+};
+
+struct Record {
+  enum class Subject { node, element, assembly };
+  enum class Channel { position, velocity, displacement, force };
+  std::string path;  ///< as in the header row: `k1.force`
+  Subject subject = Subject::node;
+  int index = 0;     ///< into nodes, elements or assemblies
+  Channel channel = Channel::position;
+};
+
+/// A netlist, checked and flattened: every value in SI, every reference resolved; models, series, parallel, repeat gone.
+struct Scene {
+  std::string title;
+  Domain domain = Domain::translation;
+  std::vector<SceneNode> nodes;          ///< [0] is ground
+  std::vector<SceneElement> elements;    ///< in the order of the file
+  std::vector<SceneAssembly> assemblies;
+  std::vector<Record> records;           ///< in the order asked for; everything, in the order of the file, if not asked
+
+  double start = 0;         ///< s
+  double stop = 0;          ///< s, > start
+  double accuracy = 1e-6;   ///< relative, 1e-12 .. 0.1
+  double output_every = 0;  ///< s: rows at start + k output_every, k = 0 .. output_intervals
+  std::int64_t output_intervals = 0;
+  bool output_events = false;  ///< also a pair of rows at every event
+};
+
+}  // namespace rheonet

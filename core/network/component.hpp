@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/netlist/declaration.hpp"
+
+namespace rheonet {
+
+/// What a branch is to the structure of a network; the analysis of a network asks for nothing else.
+enum class Role {
+  deflection,  ///< force from an own deflection p: f = force(p), p' = w - creep(f). Springs and all laws with a memory
+  rate,        ///< force from the relative velocity: f = force(w), or w = rate(f). Dashpots
+  mass,        ///< inertia of a node
+  motion,      ///< prescribes a node's motion
+  force,       ///< applies a given force
+  nothing,     ///< carries no force: what a law becomes at a limit of its parameters
+};
+
+/// A change of a law's memory (a reversal, a yield) to be located in time.
+struct Event {
+  int element = 0;     ///< index into the batch
+  const char* what = "";  ///< "reversal", "yield": for event statistics
+};
+
+/// All elements of one deflection law, in contiguous arrays. One call evaluates them all.
+///
+/// The memory of an element (side of a loop, point of the last reversal) is constant between events.
+class DeflectionBatch {
+ public:
+  virtual ~DeflectionBatch() = default;
+  virtual std::size_t size() const = 0;
+
+  /// Forces f[i] and creep rates c[i] at deflections p[i].
+  virtual void evaluate(const double* p, double* f, double* c) const = 0;
+  /// The same with the derivatives with respect to p.
+  virtual void linearise(const double* p, double* f, double* df, double* c, double* dc) const = 0;
+
+  /// True if c is identically 0 for element i: its deflection is then the relative displacement of its ends but for a
+  /// constant, and a function of time alone where both ends are prescribed.
+  virtual bool creeps(std::size_t i) const = 0;
+
+  /// The deflection at which the element's force is f at the start (its memory is reset to a virgin one).
+  virtual double start(std::size_t i, double f) = 0;
+
+  /// How many event functions each element has (0 for laws without memory).
+  virtual int events() const = 0;
+  /// Event functions of element i at deflection p and velocity w, positive as long as the memory stays as it is. `noise`
+  /// is the velocity below which a reversal means nothing.
+  virtual void event_functions(std::size_t i, double p, double w, double noise, double* g) const = 0;
+  /// Changes the memory of element i as its event `which` demands. The force is the same before and after.
+  virtual const char* switch_memory(std::size_t i, int which, double p, double w) = 0;
+  /// The deflection jumps from p to p + jump at one instant (its end is moved by a step): the memory follows.
+  virtual void jump(std::size_t i, double p, double jump) = 0;
+  /// Makes the memory fit a motion that begins with the sign of `direction` (-1 or 1).
+  virtual void set_direction(std::size_t i, double p, int direction) = 0;
+
+  virtual double stored_energy(std::size_t i, double p) const = 0;
+  /// Power turned into heat at deflection p and velocity w; never negative.
+  virtual double dissipated_power(std::size_t i, double p, double w) const = 0;
+};
+
+/// All elements of one rate law.
+class RateBatch {
+ public:
+  virtual ~RateBatch() = default;
+  virtual std::size_t size() const = 0;
+  /// Element i is to be solved for its force (w = rate(f)) instead of f = force(w), because its slope df/dw is infinite
+  /// at rest.
+  virtual bool by_force(std::size_t i) const = 0;
+  /// Impulse that a displacement step of 1 at infinite rate needs: the damping of a linear dashpot, infinite or 0 for
+  /// others.
+  virtual double impulse(std::size_t i) const = 0;
+  /// in[i] is w (by_force: f), out[i] is f (by_force: w).
+  virtual void evaluate(const double* in, double* out) const = 0;
+  virtual void linearise(const double* in, double* out, double* derivative) const = 0;
+};
+
+/// A law at a limit of its parameters is another law.
+struct Limit {
+  std::string when;     ///< "damping = inf", for the reference
+  std::string becomes;  ///< a component's type; "" for nothing (no force at all)
+  std::function<bool(std::span<const double>)> applies;
+  std::function<std::vector<double>(std::span<const double>)> values;  ///< parameters of the law that it becomes
+};
+
+using Values = std::vector<std::span<const double>>;  ///< for each element of a batch its declared parameters
+
+/// Everything that the simulator knows of an element type. One file in components/ makes one, and registers it.
+struct Component {
+  Declaration declaration;
+  Role role = Role::deflection;
+  std::vector<Limit> limits;  ///< tried in order; the first that applies replaces the element
+  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection;  ///< for Role::deflection
+  std::function<std::unique_ptr<RateBatch>(const Values&)> rate;              ///< for Role::rate
+  std::string drawing;  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
+};
+
+/// The components in alphabetical order of their types.
+const std::vector<const Component*>& components();
+/// Their declarations, in the same order (an element's `declaration` is an index into both).
+Declarations declarations();
+/// nullptr if there is none.
+const Component* find_component(const std::string& type);
+
+/// Put one at namespace scope in each file of components/.
+struct RegisterComponent {
+  explicit RegisterComponent(Component component);
+};
+
+}  // namespace rheonet

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rheonet::test {
+
+/// The rows of a run, by column name; `time` is a column like the others.
+struct Trajectory {
+  std::map<std::string, std::vector<double>> columns;
+  std::vector<std::string> header;
+
+  /// Fails the test if there is no such column.
+  const std::vector<double>& operator[](const std::string& name) const;
+  const std::vector<double>& time() const { return (*this)["time"]; }
+  /// Largest magnitude of a column.
+  double scale(const std::string& name) const;
+};
+
+/// Reads and runs a netlist given as text (accuracy 0: as the text says). A netlist that is refused, or a run that fails,
+/// throws std::runtime_error with the message that a user would see.
+Trajectory simulate(const std::string& toml, double accuracy = 0);
+
+/// The message that `simulate` would throw; "" if it does not.
+std::string refusal(const std::string& toml);
+
+}  // namespace rheonet::test
