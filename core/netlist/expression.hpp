@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/netlist/dimension.hpp"
+#include "core/netlist/units.hpp"
+
+namespace rheonet {
+
+/// A value with its dimension, in SI. A plain number has no unit: it is taken as SI whatever quantity it is used for. The
+/// result of an expression is plain if all its parameters are.
+struct Number {
+  double value = 0;
+  Dimension dimension;
+  bool plain = true;
+};
+
+/// Names that an expression may use, innermost first; `outer` is searched for those not found.
+struct Environment {
+  std::map<std::string, Number, std::less<>> names;
+  const Environment* outer = nullptr;
+
+  const Number* find(std::string_view name) const;
+};
+
+/// Evaluates "2*B", "sqrt(k*m)", "if"-style `a > b ? a : b`, ... with muParser; `pi` is known. The dimension of the result
+/// follows from those of the parameters: adding metres to seconds, or the sine of a length, is an error. Unknown names are
+/// errors with the nearest name as hint.
+std::variant<Number, TextError> evaluate_expression(std::string_view text, const Environment& environment);
+
+/// A value as a string: "2 in*ozf" (a number, a space, a unit), "inf", or an expression.
+std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment);
+
+/// The SI value of `number` as `quantity`, or what is wrong with its dimension: "`stiffness` is a torque per angle
+/// (N*m/rad), but `2 mm` is a length (m)". A frequency given in rad/s or rpm is divided by 2 pi.
+std::variant<double, TextError> as_quantity(const Number& number, Quantity quantity, Domain domain,
+                                            double flow_index = 1);
+
+}  // namespace rheonet

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "core/netlist/dimension.hpp"
+
+namespace rheonet {
+
+/// A unit as typed: 1 of it is `factor` of the SI unit of the same dimension.
+struct Unit {
+  double factor = 1;
+  Dimension dimension;
+  double radian = 0;  ///< exponent of rad in it, which `dimension` ignores: tells rad/s from Hz
+};
+
+/// Why a piece of text is no unit or no expression. `offset` counts characters from the start of the text.
+struct TextError {
+  std::size_t offset = 0;
+  std::string message;
+  std::string hint;
+};
+
+/// Reads products, quotients and powers of the units that UDUNITS-2 knows, and of dyn, deg, rev, P (poise), which it knows
+/// by other names: "N*m*s/rad", "in*ozf", "N*(s/m)^0.5", "N s/m", "cSt". Units with an offset (degC) are refused.
+std::variant<Unit, TextError> parse_unit(std::string_view text);
+
+}  // namespace rheonet

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <cstdio>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+/// A scene that can be read but not simulated. `what()` names elements or nodes, and the time where there is one.
+struct SimulationError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct RunSettings {
+  std::FILE* csv = nullptr;                    ///< receives the rows as they come; nullptr: nowhere
+  const std::atomic<bool>* interrupt = nullptr;  ///< becomes true when the user wants to stop: the run throws SimulationError
+  std::function<void(double fraction)> progress;  ///< called now and then with the fraction of the run that is done
+};
+
+/// What a run took, and its energy account [J].
+struct Summary {
+  int unknowns = 0;
+  bool sparse = false;  ///< KLU rather than dense linear algebra
+  long steps = 0;
+  long rejected_steps = 0;
+  long residual_evaluations = 0;
+  long jacobian_evaluations = 0;
+  long events = 0;    ///< reversals, yields, and discontinuities of signals
+  long restarts = 0;  ///< of the integrator
+  double supplied = 0;    ///< by motions and forces
+  double stored = 0;      ///< gain of kinetic and elastic energy since the start
+  double dissipated = 0;
+  double missing = 0;     ///< supplied - stored - dissipated: 0 but for the error of the solution
+  double wall_seconds = 0;
+  double cpu_seconds = 0;
+  std::vector<std::string> notes;  ///< what was assumed, and what a user should know of the result
+};
+
+/// Simulates a scene and writes its records. Throws SimulationError; the rows up to there have then been written.
+Summary run(const Scene& scene, const RunSettings& settings = {});
+
+/// Everything that can be said without integrating: structure, consistent start. Throws SimulationError; returns notes.
+std::vector<std::string> check(const Scene& scene);
+
+}  // namespace rheonet
