@@ -22,12 +22,6 @@ enum class Role {
   nothing,     ///< carries no force: what a law becomes at a limit of its parameters
 };
 
-/// A change of a law's memory (a reversal, a yield) to be located in time.
-struct Event {
-  int element = 0;     ///< index into the batch
-  const char* what = "";  ///< "reversal", "yield": for event statistics
-};
-
 /// All elements of one deflection law, in contiguous arrays. One call evaluates them all.
 ///
 /// The memory of an element (side of a loop, point of the last reversal) is constant between events.
@@ -45,20 +39,22 @@ class DeflectionBatch {
   /// constant, and a function of time alone where both ends are prescribed.
   virtual bool creeps(std::size_t i) const = 0;
 
-  /// The deflection at which the element's force is f at the start (its memory is reset to a virgin one).
-  virtual double start(std::size_t i, double f) = 0;
+  /// The deflection of element i at the start, when the relative displacement of its ends is d: a spring's follows from
+  /// d, that of a law with a memory from its initial force.
+  virtual double start(std::size_t i, double d) = 0;
 
-  /// How many event functions each element has (0 for laws without memory).
-  virtual int events() const = 0;
+  /// How many event functions element i has (0 for laws without memory).
+  virtual int events(std::size_t i) const = 0;
   /// Event functions of element i at deflection p and velocity w, positive as long as the memory stays as it is. `noise`
   /// is the velocity below which a reversal means nothing.
   virtual void event_functions(std::size_t i, double p, double w, double noise, double* g) const = 0;
-  /// Changes the memory of element i as its event `which` demands. The force is the same before and after.
+  /// Changes the memory of element i as its event `which` demands, and says what happened ("reversal", "yield"). The
+  /// force is the same before and after.
   virtual const char* switch_memory(std::size_t i, int which, double p, double w) = 0;
   /// The deflection jumps from p to p + jump at one instant (its end is moved by a step): the memory follows.
   virtual void jump(std::size_t i, double p, double jump) = 0;
-  /// Makes the memory fit a motion that begins with the sign of `direction` (-1 or 1).
-  virtual void set_direction(std::size_t i, double p, int direction) = 0;
+  /// Makes the memory fit a motion at velocity w that begins in `direction` (-1 or 1); true if that changed it.
+  virtual bool set_direction(std::size_t i, double p, double w, int direction) = 0;
 
   virtual double stored_energy(std::size_t i, double p) const = 0;
   /// Power turned into heat at deflection p and velocity w; never negative.
@@ -98,6 +94,8 @@ struct Component {
   std::vector<Limit> limits;  ///< tried in order; the first that applies replaces the element
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection;  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate;              ///< for Role::rate
+  /// What is wrong with a set of values that are each within their bounds; "" if nothing.
+  std::function<std::string(std::span<const double>)> check;
   std::string drawing;  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
 };
 

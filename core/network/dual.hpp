@@ -36,6 +36,7 @@ inline Dual exp(Dual x) {
   return {e, e * x.derivative};
 }
 inline Dual expm1(Dual x) { return {std::expm1(x.value), std::exp(x.value) * x.derivative}; }
+inline Dual log1p(Dual x) { return {std::log1p(x.value), x.derivative / (1 + x.value)}; }
 inline Dual sqrt(Dual x) {
   const double r = std::sqrt(x.value);
   return {r, x.derivative / (2 * r)};

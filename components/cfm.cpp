@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include "components/solid_friction.hpp"
+#include "core/network/law_batch.hpp"
+
+namespace rheonet {
+namespace {
+
+constexpr double any = -std::numeric_limits<double>::infinity();
+
+// Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
+// deflection p with p' = w - f/B the force is that model's: df/dp = E.
+struct Cfm : SolidFriction {
+  static constexpr bool creeping = true;
+  double B;  // N s/m
+
+  explicit Cfm(std::span<const double> v) : SolidFriction{.sigma = v[0], .Fc = v[1], .i = v[3]}, B(v[2]) {
+    if (!std::isnan(v[4])) u_ref = 1 - v[4] / Fc;
+    held = i < 1 && u_ref <= 0;
+  }
+
+  template <class T>
+  T creep(const T& f) const {
+    return f / B;
+  }
+  double start(double) const { return 0; }
+
+  int event_count() const { return i < 1 ? 2 : 1; }
+  void event_functions(double p, double w, double noise, double* g) const {
+    g[0] = s * w + noise;  // reversal
+    if (i < 1) g[1] = held ? s * w - Fc / B + noise : travel_to_bound() - s * (p - p_ref);
+  }
+  const char* switch_memory(int which, double p, double) {
+    if (which == 0) {
+      turn(p, -s);
+      return "reversal";
+    }
+    if (!held) {
+      held = true;
+      return "yield";
+    }
+    release(p);
+    return "release";
+  }
+  bool set_direction(double p, double w, int direction) {
+    bool changed = false;
+    if (direction != s) {
+      turn(p, direction);
+      changed = true;
+    }
+    if (held && s * w < Fc / B) {
+      release(p);
+      changed = true;
+    }
+    return changed;
+  }
+  void jump(double p, double jump) {
+    if (jump == 0) return;
+    const double direction = jump < 0 ? -1 : 1;
+    if (direction != s) turn(p, direction);
+    held = held || (i < 1 && s * (p + jump - p_ref) >= travel_to_bound());
+  }
+  double dissipated_power(double p, double w) const {
+    const double f = force(p), creeping_off = f / B;
+    return f * creeping_off + heating(p, w - creeping_off);
+  }
+
+ private:
+  // Below Fc/B the dashpot within takes up more than the motion brings: the force leaves its bound.
+  void release(double p) {
+    held = false;
+    u_ref = 0;
+    p_ref = p;
+  }
+};
+
+bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
+
+std::string start_within_bound(std::span<const double> v) {
+  return std::isnan(v[4]) || std::abs(v[4]) <= v[1] ? "" : "`f0` lies beyond `coulomb`, a force that it cannot have";
+}
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "cfm",
+            .ports = Declaration::Ports::between,
+            .parameters =
+                {
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "sigma",
+                     .description = "slope df/dd at f = 0 (rest stiffness); 0 means no force"},
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .symbol = "Fc",
+                     .description = "largest force, reached above the velocity Fc/B; 0 means no force"},
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .symbol = "B",
+                     .description = "force per velocity in slow steady motion; 0 means no force"},
+                    {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
+                     .upper = 100, .symbol = "i", .description = "shape of the loop, as for `sfm`"},
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
+                     .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
+                },
+            .summary = "combined friction model: solid friction that relaxes",
+            .law = "df/dt = E (w - f/B),  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
+            .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 14-17",
+            .notes = "In steady motion f = B w below Fc/B, Fc s above. Stores f^2/(2 sigma), dissipates "
+                     "f^2/B + f (w - f/B)(1 - u^i) with u = 1 - s f/Fc.",
+        },
+    .role = Role::deflection,
+    .limits = {{.when = "stiffness = 0, coulomb = 0 or damping = 0", .becomes = "", .applies = no_force, .values = {}}},
+    .deflection = deflection_batch<Cfm>,
+    .check = start_within_bound,
+    .drawing = "M0 .5 H.1 M.1 .25 H.9 V.75 H.1 Z M.2 .7 C.35 .35 .5 .35 .8 .35 M.3 .2 H.7 M.9 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

@@ -1,0 +1,66 @@
+#include <cmath>
+#include <limits>
+
+#include "core/network/law_batch.hpp"
+
+namespace rheonet {
+namespace {
+
+// Newton (n = 1) and the power law of Ostwald and de Waele: f = B |w|^n sgn w.
+struct Dashpot {
+  double B;  // N (s/m)^n
+  double n;  // flow index
+
+  explicit Dashpot(std::span<const double> v) : B(v[0]), n(v[1]) {}
+
+  // Below n = 1 the slope df/dw is infinite at rest, but dw/df is not.
+  bool by_force() const { return n < 1; }
+  double impulse() const { return n == 1 ? B : n < 1 ? 0 : std::numeric_limits<double>::infinity(); }
+
+  template <class T>
+  T force(const T& w) const {
+    return n == 1 ? B * w : B * signed_power(w, n);
+  }
+  template <class T>
+  T rate(const T& f) const {
+    return signed_power(f / B, 1 / n);
+  }
+
+ private:
+  template <class T>
+  static T signed_power(const T& x, double exponent) {
+    using std::abs, std::pow;
+    if (exponent == 2) return x * abs(x);
+    const T magnitude = pow(T(abs(x)), exponent);
+    return value_of(x) < 0 ? T(-magnitude) : magnitude;
+  }
+};
+
+bool no_damping(std::span<const double> v) { return v[0] == 0; }
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "dashpot",
+            .ports = Declaration::Ports::between,
+            .parameters =
+                {
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .flow_index = "flow_index",
+                     .symbol = "B", .description = "force at unit velocity (the consistency); 0 means no dashpot"},
+                    {.name = "flow_index", .quantity = Quantity::number, .fallback = 1.0, .lower = 0.05, .lower_open = false,
+                     .upper = 20, .symbol = "n",
+                     .description = "1: Newtonian; below 1: pseudoplastic; above 1: dilatant; 7/4 and 2: turbulent drag"},
+                },
+            .summary = "dashpot, linear or with a power law",
+            .law = "f = B abs(w)^n sgn(w)",
+            .source = "I. Newton 1687, W. Ostwald 1925, A. de Waele 1923; P. L. Dahl 1982, Eqs. 2, 3",
+            .notes = "Dissipates f w, stores nothing. The unit of B goes with n: N*(s/m)^n.",
+        },
+    .role = Role::rate,
+    .limits = {{.when = "damping = 0", .becomes = "", .applies = no_damping, .values = {}}},
+    .rate = rate_batch<Dashpot>,
+    .drawing = "M0 .5 H.45 M.45 .3 V.7 M.3 .2 H.65 V.8 H.3 M.65 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

@@ -1,0 +1,88 @@
+#include <cmath>
+
+#include "components/solid_friction.hpp"
+#include "core/network/law_batch.hpp"
+
+namespace rheonet {
+namespace {
+
+constexpr double any = -std::numeric_limits<double>::infinity();
+
+// Solid friction model: df/dt = E w, E = sigma |1 - s f/Fc|^i sgn(1 - s f/Fc), s = sgn w. The deflection is the relative
+// displacement, counted from the start.
+struct Sfm : SolidFriction {
+  static constexpr bool creeping = false;
+
+  explicit Sfm(std::span<const double> v) : SolidFriction{.sigma = v[0], .Fc = v[1], .i = v[2]} {
+    if (!std::isnan(v[3])) u_ref = 1 - v[3] / Fc;
+    held = i < 1 && u_ref <= 0;
+  }
+
+  template <class T>
+  T creep(const T&) const {
+    return T(0.0);
+  }
+  double start(double) const { return 0; }
+
+  int event_count() const { return i < 1 ? 2 : 1; }
+  void event_functions(double p, double w, double noise, double* g) const {
+    g[0] = s * w + noise;  // reversal
+    if (i < 1) g[1] = held ? 1 : travel_to_bound() - s * (p - p_ref);
+  }
+  const char* switch_memory(int which, double p, double) {
+    if (which == 0) {
+      turn(p, -s);
+      return "reversal";
+    }
+    held = true;
+    return "yield";
+  }
+  bool set_direction(double p, double, int direction) {
+    if (direction == s) return false;
+    turn(p, direction);
+    return true;
+  }
+  void jump(double p, double jump) {
+    if (jump != 0) set_direction(p, 0, jump < 0 ? -1 : 1);
+    held = held || (i < 1 && s * (p + jump - p_ref) >= travel_to_bound());
+  }
+  double dissipated_power(double p, double w) const { return heating(p, w); }
+};
+
+bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
+
+std::string start_within_bound(std::span<const double> v) {
+  return std::isnan(v[3]) || std::abs(v[3]) <= v[1] ? "" : "`f0` lies beyond `coulomb`, a force that it cannot have";
+}
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "sfm",
+            .ports = Declaration::Ports::between,
+            .parameters =
+                {
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "sigma",
+                     .description = "slope df/dd at f = 0 (rest stiffness of the bristles); 0 means no force"},
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .symbol = "Fc",
+                     .description = "force of steady sliding; 0 means no force"},
+                    {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
+                     .upper = 100, .symbol = "i",
+                     .description = "shape of the loop: 0 is Prandtl's elastic-plastic law, 1 brittle, above 1 ductile"},
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
+                     .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
+                },
+            .summary = "solid friction model: dry friction with presliding displacement",
+            .law = "df/dt = E w,  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
+            .source = "P. R. Dahl, A solid friction model, 1968; P. L. Dahl 1982, Eqs. 8-11, 18",
+            .notes = "Rate-independent; abs(f) <= Fc. Stores f^2/(2 sigma), dissipates f w (1 - u^i) with u = 1 - s f/Fc.",
+        },
+    .role = Role::deflection,
+    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}}},
+    .deflection = deflection_batch<Sfm>,
+    .check = start_within_bound,
+    .drawing = "M0 .5 H.15 M.15 .3 V.7 M.15 .7 C.3 .3 .5 .3 .85 .3 M.85 .3 C.7 .7 .5 .7 .15 .7 M.85 .3 V.7 M.85 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include "core/network/dual.hpp"
+
+namespace rheonet {
+
+/// Dahl's solid friction between two reversals, in closed form (P. L. Dahl 1982, Eqs. 8-11, 18). The law
+///
+///     df/dp = E = sigma |u|^i sgn u,   u = 1 - s f/Fc,   s the direction of motion (a constant between reversals)
+///
+/// depends on f alone, so that f is a function of the deflection p alone. With x = s (p - p_ref) and q = 1 - i:
+///
+///     u^q = u_ref^q - q sigma x/Fc    (i = 1: u = u_ref exp(-sigma x/Fc)),     f = s Fc (1 - u),   0 <= u <= 2
+///
+/// For i < 1 the bound u = 0 is reached at a finite x; from there on the friction is `held` at s Fc until it is released.
+struct SolidFriction {
+  double sigma;  ///< N/m
+  double Fc;     ///< N
+  double i;      ///< exponent
+
+  // Memory: constant between events.
+  double s = 1;
+  double p_ref = 0;  ///< m
+  double u_ref = 1;
+  bool held = false;
+
+  /// Force at deflection p [N]; |force| <= Fc wherever the law itself can go.
+  template <class T>
+  T force(const T& p) const {
+    using std::exp, std::log1p, std::pow;
+    if (held) return T(s * Fc);
+    const double q = 1 - i;
+    const T z = (sigma / Fc * s) * (p - p_ref);
+    if (u_ref == 0) {  // leaving the bound backwards (i < 1), or on it for good
+      if (i >= 1 || value_of(z) >= 0) return T(s * Fc);
+      const T u = pow(T(-q * z), 1 / q);
+      return value_of(u) < 2 ? T(s * Fc * (1 - u)) : beyond(z, -std::pow(2, q) / q);
+    }
+    // Where u = 2 the force is -s Fc: no state of the law lies beyond. Iterates of a solver may: go on along the tangent.
+    const double z2 = q == 0 ? std::log(u_ref / 2) : (std::pow(u_ref, q) - std::pow(2, q)) / q;
+    if (value_of(z) < z2) return beyond(z, z2);
+    const T y = z * std::pow(u_ref, -q);
+    if (q == 0) return T(s * Fc * (1 - u_ref * exp(T(-y))));
+    if (q * value_of(y) >= 1) return T(s * Fc);
+    return T(s * Fc * (1 - u_ref * exp(T(log1p(T(-q * y)) / q))));
+  }
+
+  double u(double p) const { return 1 - s * force(p) / Fc; }
+
+  /// Deflection travelled since p_ref at which the bound is reached; infinite for i >= 1.
+  double travel_to_bound() const {
+    return i < 1 ? Fc / sigma * std::pow(u_ref, 1 - i) / (1 - i) : std::numeric_limits<double>::infinity();
+  }
+
+  /// Starts a new branch at deflection p in direction `direction`; the force stays as it is.
+  void turn(double p, double direction) {
+    const double f = force(p);
+    s = direction;
+    u_ref = 1 - s * f / Fc;
+    p_ref = p;
+    held = i < 1 && u_ref <= 0;
+  }
+
+  /// Bristles that bend elastically store f^2/(2 sigma); the rest of the work f dp becomes heat: f w (1 - u^i) >= 0.
+  double stored_energy(double p) const {
+    const double f = force(p);
+    return f * f / (2 * sigma);
+  }
+  double heating(double p, double w) const {
+    const double f = force(p);
+    const double u = 1 - s * f / Fc;
+    return f * w * (1 - (held ? 0 : std::pow(std::max(u, 0.0), i)));
+  }
+
+ private:
+  template <class T>
+  T beyond(const T& z, double z2) const {
+    return T(s * Fc * (-1 + std::pow(2, i) * (z - z2)));
+  }
+};
+
+}  // namespace rheonet

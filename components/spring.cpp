@@ -1,0 +1,55 @@
+#include <cmath>
+
+#include "core/network/law_batch.hpp"
+
+namespace rheonet {
+namespace {
+
+// Hooke: f = k (d - d0). The deflection is p = d - d0.
+struct Spring : MemorylessLaw {
+  double k;            // N/m
+  double rest;         // m
+  double preload;      // N, or not given
+
+  explicit Spring(std::span<const double> v) : k(v[0]), rest(v[1]), preload(v[2]) {}
+
+  template <class T>
+  T force(const T& p) const {
+    return k * p;
+  }
+  double start(double d) const { return std::isnan(preload) ? d - rest : preload / k; }
+  double stored_energy(double p) const { return k * p * p / 2; }
+  double dissipated_power(double, double) const { return 0; }
+};
+
+bool no_stiffness(std::span<const double> v) { return v[0] == 0; }
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "spring",
+            .ports = Declaration::Ports::between,
+            .parameters =
+                {
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "k",
+                     .description = "force per displacement; 0 means no spring"},
+                    {.name = "rest", .quantity = Quantity::position, .fallback = 0.0,
+                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0",
+                     .description = "displacement at which the spring is free of force"},
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial,
+                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0",
+                     .description = "force at the start; given, it takes the place of `rest`"},
+                },
+            .summary = "linear spring",
+            .law = "f = k (d - d0)",
+            .source = "R. Hooke, De potentia restitutiva, 1678; P. L. Dahl 1982, Eq. 21",
+            .notes = "Stores k (d - d0)^2/2, dissipates nothing.",
+        },
+    .role = Role::deflection,
+    .limits = {{.when = "stiffness = 0", .becomes = "", .applies = no_stiffness, .values = {}}},
+    .deflection = deflection_batch<Spring>,
+    .drawing = "M0 .5 H.2 L.25 .3 L.35 .7 L.45 .3 L.55 .7 L.65 .3 L.75 .7 L.8 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

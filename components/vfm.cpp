@@ -1,0 +1,65 @@
+#include <cmath>
+
+#include "core/network/law_batch.hpp"
+
+namespace rheonet {
+namespace {
+
+// Viscous friction model: (B/sigma) df/dt + f = B w. With the deflection p = f/sigma: p' = w - f/B.
+struct Vfm : MemorylessLaw {
+  static constexpr bool creeping = true;
+  double B;       // N s/m
+  double sigma;   // N/m
+  double f0;      // N
+
+  explicit Vfm(std::span<const double> v) : B(v[0]), sigma(v[1]), f0(std::isnan(v[3]) ? 0 : v[3]) {}
+
+  template <class T>
+  T force(const T& p) const {
+    return sigma * p;
+  }
+  template <class T>
+  T creep(const T& f) const {
+    return f / B;
+  }
+  double start(double) const { return f0 / sigma; }
+  double stored_energy(double p) const { return sigma * p * p / 2; }
+  double dissipated_power(double p, double) const {
+    const double f = force(p);
+    return f * f / B;
+  }
+};
+
+bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "vfm",
+            .ports = Declaration::Ports::between,
+            .parameters =
+                {
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .symbol = "B",
+                     .description = "force per velocity in steady motion; 0 means no force"},
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "sigma",
+                     .description = "force per displacement just after a reversal (rest stiffness); 0 means no force"},
+                    {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false,
+                     .later = "a delay is not simulated in this version", .symbol = "TD",
+                     .description = "transport delay of the velocity"},
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial,
+                     .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0",
+                     .description = "force at the start (0 unless given)"},
+                },
+            .summary = "viscous friction model: a lag in front of Newton's law",
+            .law = "(B/sigma) df/dt + f = B w",
+            .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24 (J. C. Maxwell 1867 by its form)",
+            .notes = "Stores f^2/(2 sigma), dissipates f^2/B.",
+        },
+    .role = Role::deflection,
+    .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}}},
+    .deflection = deflection_batch<Vfm>,
+    .drawing = "M0 .5 H.1 M.1 .3 H.9 V.7 H.1 Z M.2 .6 C.4 .6 .4 .4 .8 .4 M.9 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

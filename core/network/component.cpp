@@ -1,0 +1,45 @@
+#include "core/network/component.hpp"
+
+#include <algorithm>
+
+namespace rheonet {
+
+namespace {
+
+struct Registry {
+  std::vector<std::unique_ptr<Component>> owned;
+  std::vector<const Component*> sorted;
+  std::vector<const Declaration*> declarations;
+};
+
+// A function's static: components register while other files' static objects may not exist yet.
+Registry& registry() {
+  static Registry instance;
+  return instance;
+}
+
+}  // namespace
+
+RegisterComponent::RegisterComponent(Component component) {
+  Registry& r = registry();
+  r.owned.push_back(std::make_unique<Component>(std::move(component)));
+  r.sorted.push_back(r.owned.back().get());
+  std::sort(r.sorted.begin(), r.sorted.end(), [](const Component* a, const Component* b) {
+    return a->declaration.type < b->declaration.type;
+  });
+  r.declarations.clear();
+  for (const Component* c : r.sorted) r.declarations.push_back(&c->declaration);
+}
+
+const std::vector<const Component*>& components() { return registry().sorted; }
+
+Declarations declarations() { return registry().declarations; }
+
+const Component* find_component(const std::string& type) {
+  for (const Component* c : components()) {
+    if (c->declaration.type == type) return c;
+  }
+  return nullptr;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "core/network/component.hpp"
+#include "core/network/dual.hpp"
+
+namespace rheonet {
+
+/// What a deflection law without memory need not write again. Derive a law from it and hide what differs:
+///
+///     struct Law : MemorylessLaw {
+///       explicit Law(std::span<const double> values);                // in the order of the declaration
+///       template <class T> T force(const T& p) const;                // f = force(p)
+///       template <class T> T creep(const T& f) const;                // p' = w - creep(f)
+///       double start(double d);                                      // p at the start
+///       double stored_energy(double p) const;
+///       double dissipated_power(double p, double w) const;
+///     };
+struct MemorylessLaw {
+  static constexpr bool creeping = false;
+  int event_count() const { return 0; }
+  template <class T>
+  T creep(const T&) const {
+    return T(0.0);
+  }
+  void event_functions(double, double, double, double*) const {}
+  const char* switch_memory(int, double, double) { return ""; }
+  void jump(double, double) {}
+  bool set_direction(double, double, int) { return false; }
+};
+
+/// A batch of one deflection law.
+template <class Law>
+class DeflectionBatchOf final : public DeflectionBatch {
+ public:
+  explicit DeflectionBatchOf(const Values& values) {
+    laws_.reserve(values.size());
+    for (std::span<const double> v : values) laws_.emplace_back(v);
+  }
+
+  std::size_t size() const override { return laws_.size(); }
+
+  void evaluate(const double* p, double* f, double* c) const override {
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+      f[i] = laws_[i].force(p[i]);
+      c[i] = laws_[i].creep(f[i]);
+    }
+  }
+
+  void linearise(const double* p, double* f, double* df, double* c, double* dc) const override {
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+      const Dual force = laws_[i].force(Dual(p[i], 1));
+      const Dual creep = laws_[i].creep(force);
+      f[i] = force.value;
+      df[i] = force.derivative;
+      c[i] = creep.value;
+      dc[i] = creep.derivative;
+    }
+  }
+
+  bool creeps(std::size_t) const override { return Law::creeping; }
+  double start(std::size_t i, double d) override { return laws_[i].start(d); }
+  int events(std::size_t i) const override { return laws_[i].event_count(); }
+  void event_functions(std::size_t i, double p, double w, double noise, double* g) const override {
+    laws_[i].event_functions(p, w, noise, g);
+  }
+  const char* switch_memory(std::size_t i, int which, double p, double w) override {
+    return laws_[i].switch_memory(which, p, w);
+  }
+  void jump(std::size_t i, double p, double jump) override { laws_[i].jump(p, jump); }
+  bool set_direction(std::size_t i, double p, double w, int direction) override {
+    return laws_[i].set_direction(p, w, direction);
+  }
+  double stored_energy(std::size_t i, double p) const override { return laws_[i].stored_energy(p); }
+  double dissipated_power(std::size_t i, double p, double w) const override { return laws_[i].dissipated_power(p, w); }
+
+ private:
+  std::vector<Law> laws_;
+};
+
+/// A batch of one rate law:
+///
+///     struct Law {
+///       explicit Law(std::span<const double> values);
+///       bool by_force() const;
+///       double impulse() const;
+///       template <class T> T force(const T& w) const;   // f = force(w)
+///       template <class T> T rate(const T& f) const;    // its inverse; called only if by_force()
+///     };
+template <class Law>
+class RateBatchOf final : public RateBatch {
+ public:
+  explicit RateBatchOf(const Values& values) {
+    laws_.reserve(values.size());
+    for (std::span<const double> v : values) laws_.emplace_back(v);
+  }
+
+  std::size_t size() const override { return laws_.size(); }
+  bool by_force(std::size_t i) const override { return laws_[i].by_force(); }
+  double impulse(std::size_t i) const override { return laws_[i].impulse(); }
+
+  void evaluate(const double* in, double* out) const override {
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+      out[i] = laws_[i].by_force() ? laws_[i].rate(in[i]) : laws_[i].force(in[i]);
+    }
+  }
+
+  void linearise(const double* in, double* out, double* derivative) const override {
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+      const Dual x(in[i], 1);
+      const Dual y = laws_[i].by_force() ? laws_[i].rate(x) : laws_[i].force(x);
+      out[i] = y.value;
+      derivative[i] = y.derivative;
+    }
+  }
+
+ private:
+  std::vector<Law> laws_;
+};
+
+template <class Law>
+std::unique_ptr<DeflectionBatch> deflection_batch(const Values& values) {
+  return std::make_unique<DeflectionBatchOf<Law>>(values);
+}
+
+template <class Law>
+std::unique_ptr<RateBatch> rate_batch(const Values& values) {
+  return std::make_unique<RateBatchOf<Law>>(values);
+}
+
+}  // namespace rheonet
