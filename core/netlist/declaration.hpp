@@ -19,20 +19,20 @@ struct Parameter {
     initial,  ///< an initial value (`f0`, `d0`): optional, absent means "not given"
   };
 
-  std::string name;
+  std::string name = {};
   Quantity quantity = Quantity::number;
   Kind kind = Kind::value;
-  std::optional<double> fallback;  ///< absent: the user must give it (an `initial` is always optional)
+  std::optional<double> fallback = {};  ///< absent: the user must give it (an `initial` is always optional)
   double lower = 0;                ///< inclusive, unless lower_open
   bool lower_open = true;
   double upper = std::numeric_limits<double>::infinity();  ///< inclusive if finite; values are finite in any case ...
   bool may_be_infinite = false;                            ///< ... unless the law has a limit there: "inf" is accepted
-  std::string flow_index;        ///< for damping: the parameter whose value is the n in N*(s/m)^n; "" means n = 1
-  std::string same_as;           ///< if not given: the value of this other parameter (`breakaway` = `coulomb`)
-  std::string rotational_name;   ///< its name in a rotational scene, if another (`inertia` for `mass`)
-  std::string later;             ///< not empty: refused by name, with this reason, when given
-  std::string symbol;            ///< as in the law
-  std::string description;
+  std::string flow_index = {};        ///< for damping: the parameter whose value is the n in N*(s/m)^n; "" means n = 1
+  std::string same_as = {};           ///< if not given: the value of this other parameter (`breakaway` = `coulomb`)
+  std::string rotational_name = {};   ///< its name in a rotational scene, if another (`inertia` for `mass`)
+  std::string later = {};             ///< not empty: refused by name, with this reason, when given
+  std::string symbol = {};            ///< as in the law
+  std::string description = {};
 
   const std::string& name_in(Domain domain) const {
     return domain == Domain::rotation && !rotational_name.empty() ? rotational_name : name;
@@ -43,15 +43,15 @@ struct Parameter {
 struct Declaration {
   enum class Ports { between, at, at_or_between };
 
-  std::string type;
-  std::string rotational_type;  ///< an alias in rotational scenes (`inertia`, `torque`); "" if none
+  std::string type = {};
+  std::string rotational_type = {};  ///< an alias in rotational scenes (`inertia`, `torque`); "" if none
   Ports ports = Ports::between;
-  std::vector<Parameter> parameters;
-  std::vector<std::string> one_of;  ///< exactly one of these parameters must be given (`position` or `velocity`)
-  std::string summary;  ///< one line
-  std::string law;      ///< as a textbook prints it
-  std::string source;   ///< citation
-  std::string notes;    ///< sign, range of validity, what is stored and what is dissipated
+  std::vector<Parameter> parameters = {};
+  std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)
+  std::string summary = {};  ///< one line
+  std::string law = {};      ///< as a textbook prints it
+  std::string source = {};   ///< citation
+  std::string notes = {};    ///< sign, range of validity, what is stored and what is dissipated
 };
 
 using Declarations = std::span<const Declaration* const>;

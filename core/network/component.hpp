@@ -79,24 +79,24 @@ class RateBatch {
 
 /// A law at a limit of its parameters is another law.
 struct Limit {
-  std::string when;     ///< "damping = inf", for the reference
-  std::string becomes;  ///< a component's type; "" for nothing (no force at all)
-  std::function<bool(std::span<const double>)> applies;
-  std::function<std::vector<double>(std::span<const double>)> values;  ///< parameters of the law that it becomes
+  std::string when = {};     ///< "damping = inf", for the reference
+  std::string becomes = {};  ///< a component's type; "" for nothing (no force at all)
+  std::function<bool(std::span<const double>)> applies = {};
+  std::function<std::vector<double>(std::span<const double>)> values = {};  ///< parameters of the law that it becomes
 };
 
 using Values = std::vector<std::span<const double>>;  ///< for each element of a batch its declared parameters
 
 /// Everything that the simulator knows of an element type. One file in components/ makes one, and registers it.
 struct Component {
-  Declaration declaration;
+  Declaration declaration = {};
   Role role = Role::deflection;
-  std::vector<Limit> limits;  ///< tried in order; the first that applies replaces the element
-  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection;  ///< for Role::deflection
-  std::function<std::unique_ptr<RateBatch>(const Values&)> rate;              ///< for Role::rate
+  std::vector<Limit> limits = {};  ///< tried in order; the first that applies replaces the element
+  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
+  std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   /// What is wrong with a set of values that are each within their bounds; "" if nothing.
-  std::function<std::string(std::span<const double>)> check;
-  std::string drawing;  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
+  std::function<std::string(std::span<const double>)> check = {};
+  std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
 };
 
 /// The components in alphabetical order of their types.
