@@ -16,6 +16,8 @@ struct Number {
   double value = 0;
   Dimension dimension;
   bool plain = true;
+  double radian = 0;  ///< exponent of rad, as in Unit; `pi` counts as an angle, so that omega/(2*pi) has none
+  double hertz = 0;   ///< exponent of Hz, as in Unit
 };
 
 /// Names that an expression may use, innermost first; `outer` is searched for those not found.

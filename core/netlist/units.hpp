@@ -13,10 +13,12 @@ namespace rheonet {
 struct Unit {
   double factor = 1;
   Dimension dimension;
-  double radian = 0;  ///< exponent of rad in it, which `dimension` ignores: tells rad/s from Hz
+  double radian = 0;  ///< exponent of rad in it, which `dimension` ignores: tells rad/s from 1/s
+  double hertz = 0;   ///< exponent of Hz in it: tells Hz, which is no angular velocity, from 1/s, which may be one
 };
 
-/// Why a piece of text is no unit or no expression. `offset` counts characters from the start of the text.
+/// Why a piece of text is no unit or no expression. `offset` counts characters (code points) from the start of the
+/// text.
 struct TextError {
   std::size_t offset = 0;
   std::string message;
