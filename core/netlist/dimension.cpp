@@ -1,0 +1,130 @@
+#include "core/netlist/dimension.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace rheonet {
+
+namespace {
+
+// Exponents that stand for the same one differ by the rounding of a few products; two that differ do so by more than
+// any flow index is ever typed with.
+constexpr double exponent_tolerance = 1e-9;
+
+bool near(double a, double b) { return std::abs(a - b) <= exponent_tolerance; }
+
+std::string damping_unit(Domain domain, double n) {
+  const bool rotation = domain == Domain::rotation;
+  const std::string force = rotation ? "N*m" : "N";
+  if (near(n, 0)) return force;
+  if (near(n, 1)) return force + (rotation ? "*s/rad" : "*s/m");
+  return fmt::format("{}*(s/{})^{:.12g}", force, rotation ? "rad" : "m", n);
+}
+
+}  // namespace
+
+bool Dimension::same(Dimension other) const {
+  return near(metre, other.metre) && near(kilogram, other.kilogram) && near(second, other.second);
+}
+
+Dimension dimension_of(Quantity quantity, Domain domain, double flow_index) {
+  const Dimension time{0, 0, 1};
+  const Dimension length = domain == Domain::rotation ? Dimension{} : Dimension{1, 0, 0};
+  const Dimension mass = domain == Domain::rotation ? Dimension{2, 1, 0} : Dimension{0, 1, 0};
+  const Dimension force = domain == Domain::rotation ? Dimension{2, 1, -2} : Dimension{1, 1, -2};
+  switch (quantity) {
+    case Quantity::number:
+    case Quantity::angle:
+      return {};
+    case Quantity::time:
+      return time;
+    case Quantity::frequency:
+      return time.power(-1);
+    case Quantity::position:
+      return length;
+    case Quantity::velocity:
+      return length / time;
+    case Quantity::force:
+      return force;
+    case Quantity::stiffness:
+      return force / length;
+    case Quantity::damping:
+      return force * (time / length).power(flow_index);
+    case Quantity::mass:
+      return mass;
+  }
+  return {};
+}
+
+std::string name_of(Quantity quantity, Domain domain) {
+  const bool rotation = domain == Domain::rotation;
+  switch (quantity) {
+    case Quantity::number:
+      return "number";
+    case Quantity::time:
+      return "time";
+    case Quantity::frequency:
+      return "frequency";
+    case Quantity::angle:
+      return "angle";
+    case Quantity::position:
+      return rotation ? "angle" : "length";
+    case Quantity::velocity:
+      return rotation ? "angular velocity" : "velocity";
+    case Quantity::force:
+      return rotation ? "torque" : "force";
+    case Quantity::stiffness:
+      return rotation ? "torsional stiffness" : "stiffness";
+    case Quantity::damping:
+      return rotation ? "torsional damping" : "damping";
+    case Quantity::mass:
+      return rotation ? "moment of inertia" : "mass";
+  }
+  return {};
+}
+
+std::string unit_of(Quantity quantity, Domain domain, double flow_index) {
+  const bool rotation = domain == Domain::rotation;
+  switch (quantity) {
+    case Quantity::number:
+      return "1";
+    case Quantity::time:
+      return "s";
+    case Quantity::frequency:
+      return "Hz";
+    case Quantity::angle:
+      return "rad";
+    case Quantity::position:
+      return rotation ? "rad" : "m";
+    case Quantity::velocity:
+      return rotation ? "rad/s" : "m/s";
+    case Quantity::force:
+      return rotation ? "N*m" : "N";
+    case Quantity::stiffness:
+      return rotation ? "N*m/rad" : "N/m";
+    case Quantity::damping:
+      return damping_unit(domain, flow_index);
+    case Quantity::mass:
+      return rotation ? "kg*m^2" : "kg";
+  }
+  return {};
+}
+
+std::string to_string(Dimension dimension) {
+  std::string text;
+  const auto append = [&text](const char* base, double exponent) {
+    if (near(exponent, 0)) return;
+    if (!text.empty()) text += '*';
+    text += base;
+    if (near(exponent, 1)) return;
+    // Rounded to the tolerance, so that 2.9999999999 shows as what it is taken for.
+    text += fmt::format("^{:.9g}", std::round(exponent / exponent_tolerance) * exponent_tolerance);
+  };
+  append("kg", dimension.kilogram);
+  append("m", dimension.metre);
+  append("s", dimension.second);
+  return text.empty() ? "1" : text;
+}
+
+}  // namespace rheonet
