@@ -40,6 +40,7 @@ struct Diagnostic {
 std::string format(const Diagnostic& diagnostic, const Sources& sources);
 
 /// The nearest of `known` by edit distance (Damerau-Levenshtein), "" if none is within a third of the length (at least 2).
+/// Upper and lower case count as the same; they only decide between equally near names.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace rheonet

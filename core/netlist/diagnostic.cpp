@@ -1,0 +1,119 @@
+#include "core/netlist/diagnostic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace rheonet {
+
+namespace {
+
+// Characters of a line that an excerpt shows: netlists written by programs may have all their points on one line.
+constexpr std::size_t excerpt_width = 120;
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Line `number` (from 1) without its end, "" if there is none.
+std::string_view line_of(std::string_view text, int number) {
+  for (int n = 1; n < number; ++n) {
+    const auto end = text.find('\n');
+    if (end == text.npos) return {};
+    text.remove_prefix(end + 1);
+  }
+  text = text.substr(0, text.find('\n'));
+  if (text.ends_with('\r')) text.remove_suffix(1);
+  return text;
+}
+
+std::vector<std::string_view> characters_of(std::string_view line) {
+  std::vector<std::string_view> characters;
+  for (std::size_t begin = 0; begin < line.size();) {
+    std::size_t end = begin + 1;
+    while (end < line.size() && continues_character(line[end])) ++end;
+    characters.push_back(line.substr(begin, end - begin));
+    begin = end;
+  }
+  return characters;
+}
+
+/// The line with a caret under character `column`, both behind a margin. A tab stands in both lines, so that the caret
+/// is in its place whatever the width of a tab.
+std::string excerpt(std::string_view line, int line_number, int column) {
+  const auto characters = characters_of(line);
+  const auto caret = static_cast<std::size_t>(std::max(column, 1) - 1);
+  std::size_t first = 0;
+  std::size_t last = characters.size();
+  if (last > excerpt_width) {
+    first = std::min(caret - std::min(caret, excerpt_width / 2), last - excerpt_width);
+    last = first + excerpt_width;
+  }
+  const std::string margin = fmt::format("{:>5} | ", line_number);
+  std::string shown = margin;
+  std::string below = std::string(margin.size() - 2, ' ') + "| ";
+  if (first > 0) shown += "...", below += "   ";
+  for (std::size_t i = first; i < last; ++i) {
+    shown += characters[i];
+    if (i < caret) below += characters[i] == "\t" ? '\t' : ' ';
+  }
+  if (last < characters.size()) shown += "...";
+  return column > 0 ? shown + '\n' + below + '^' : shown;
+}
+
+/// Damerau-Levenshtein distance (optimal string alignment: insert, delete, replace, swap neighbours).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    before_last = std::exchange(last, row);
+  }
+  return last[b.size()];
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower;
+}
+
+}  // namespace
+
+std::string format(const Diagnostic& diagnostic, const Sources& sources) {
+  const auto& [severity, spot, message, hint] = diagnostic;
+  const auto* file = spot.file >= 0 && spot.file < std::ssize(sources.files)
+                         ? &sources.files[static_cast<std::size_t>(spot.file)]
+                         : nullptr;
+  std::string text = file ? file->path.string() : "command line";
+  if (file && spot.line > 0) text += fmt::format(":{}:{}", spot.line, std::max(spot.column, 1));
+  text += severity == Severity::error ? ": error: " : ": warning: ";
+  text += message;
+  if (file && spot.line > 0) text += '\n' + excerpt(line_of(file->text, spot.line), spot.line, spot.column);
+  if (!hint.empty()) text += "\n  " + hint;
+  return text;
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+  const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
+  const std::string lower = lower_case(word);
+  std::pair best{limit + 1, std::size_t{0}};
+  std::string name;
+  for (const std::string& candidate : known) {
+    const std::size_t longer = std::max(word.size(), candidate.size());
+    if (longer - std::min(word.size(), candidate.size()) > limit) continue;
+    // A wrong case is the smallest of mistakes.
+    const std::pair distance{edit_distance(lower, lower_case(candidate)), edit_distance(word, candidate)};
+    // Nothing in common: no hint is better than any two letters for any other two.
+    if (distance.first >= longer) continue;
+    if (distance < best) best = distance, name = candidate;
+  }
+  return name;
+}
+
+}  // namespace rheonet
