@@ -54,12 +54,6 @@ struct Cfm : SolidFriction {
     }
     return changed;
   }
-  void jump(double p, double jump) {
-    if (jump == 0) return;
-    const double direction = jump < 0 ? -1 : 1;
-    if (direction != s) turn(p, direction);
-    held = held || (i < 1 && s * (p + jump - p_ref) >= travel_to_bound());
-  }
   double dissipated_power(double p, double w) const {
     const double f = force(p), creeping_off = f / B;
     return f * creeping_off + heating(p, w - creeping_off);

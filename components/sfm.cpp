@@ -42,10 +42,6 @@ struct Sfm : SolidFriction {
     turn(p, direction);
     return true;
   }
-  void jump(double p, double jump) {
-    if (jump != 0) set_direction(p, 0, jump < 0 ? -1 : 1);
-    held = held || (i < 1 && s * (p + jump - p_ref) >= travel_to_bound());
-  }
   double dissipated_power(double p, double w) const { return heating(p, w); }
 };
 

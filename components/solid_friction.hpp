@@ -64,6 +64,20 @@ struct SolidFriction {
     held = i < 1 && u_ref <= 0;
   }
 
+  /// The deflection jumps from p to p + jump along the law. Returns the heat.
+  double jump(double p, double jump) {
+    if (jump == 0) return 0;
+    const double direction = jump < 0 ? -1 : 1;
+    if (direction != s) turn(p, direction);
+    // Work done along the curve, by the midpoint rule: good to 1e-6 of it, for the energy account alone.
+    constexpr int slices = 1000;
+    double work = 0;
+    for (int k = 0; k < slices; ++k) work += force(p + jump * (k + 0.5) / slices) * jump / slices;
+    const double before = stored_energy(p);
+    held = held || (i < 1 && s * (p + jump - p_ref) >= travel_to_bound());
+    return work - (stored_energy(p + jump) - before);
+  }
+
   /// Bristles that bend elastically store f^2/(2 sigma); the rest of the work f dp becomes heat: f w (1 - u^i) >= 0.
   double stored_energy(double p) const {
     const double f = force(p);

@@ -51,8 +51,9 @@ class DeflectionBatch {
   /// Changes the memory of element i as its event `which` demands, and says what happened ("reversal", "yield"). The
   /// force is the same before and after.
   virtual const char* switch_memory(std::size_t i, int which, double p, double w) = 0;
-  /// The deflection jumps from p to p + jump at one instant (its end is moved by a step): the memory follows.
-  virtual void jump(std::size_t i, double p, double jump) = 0;
+  /// The deflection jumps from p to p + jump at one instant (an end is moved by a step): the memory follows. Returns the
+  /// energy that this turns into heat.
+  virtual double jump(std::size_t i, double p, double jump) = 0;
   /// Makes the memory fit a motion at velocity w that begins in `direction` (-1 or 1); true if that changed it.
   virtual bool set_direction(std::size_t i, double p, double w, int direction) = 0;
 

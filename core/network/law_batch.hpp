@@ -27,7 +27,7 @@ struct MemorylessLaw {
   }
   void event_functions(double, double, double, double*) const {}
   const char* switch_memory(int, double, double) { return ""; }
-  void jump(double, double) {}
+  double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
 };
 
@@ -69,7 +69,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
   const char* switch_memory(std::size_t i, int which, double p, double w) override {
     return laws_[i].switch_memory(which, p, w);
   }
-  void jump(std::size_t i, double p, double jump) override { laws_[i].jump(p, jump); }
+  double jump(std::size_t i, double p, double jump) override { return laws_[i].jump(p, jump); }
   bool set_direction(std::size_t i, double p, double w, int direction) override {
     return laws_[i].set_direction(p, w, direction);
   }

@@ -3,18 +3,13 @@
 #include <atomic>
 #include <cstdio>
 #include <functional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/netlist/scene.hpp"
+#include "core/network/error.hpp"
 
 namespace rheonet {
-
-/// A scene that can be read but not simulated. `what()` names elements or nodes, and the time where there is one.
-struct SimulationError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 struct RunSettings {
   std::FILE* csv = nullptr;                    ///< receives the rows as they come; nullptr: nowhere

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <vector>
+
+#include "core/network/network.hpp"
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// Everything that is a given function of time: prescribed motions and applied forces, each on the smooth stretch of its
+/// signal that holds now.
+class Drive {
+ public:
+  /// Positions of velocity-driven nodes start from `positions` (one for each node of the scene).
+  Drive(const Network& network, double start, const std::vector<double>& positions);
+
+  /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.
+  void enter(double t);
+  /// The next instant at which a signal or one of its derivatives jumps; infinite if none does.
+  double next_break() const { return next_break_; }
+  /// Position steps at the last `enter` (at the start: from before the run), for each motion.
+  const std::vector<double>& steps() const { return steps_; }
+
+  /// Evaluates all at time t (remembered: a second call at the same t costs nothing).
+  void evaluate(double t);
+
+  // For each motion:
+  std::vector<double> position, velocity, acceleration;
+  // For each force:
+  std::vector<double> force, force_rate;
+
+  /// Largest angular frequency of the present stretches [rad/s]: 0 if nothing oscillates.
+  double fastest() const;
+
+ private:
+  struct Motion {
+    Signal signal;
+    bool by_position;
+    Piece piece;
+    double anchor_time = 0, anchor = 0;  ///< position at a time, from which a velocity is integrated
+  };
+  struct Force { Signal signal; Piece piece; };
+  double position_of(const Motion& m, double t) const;
+
+  std::vector<Motion> motions_;
+  std::vector<Force> forces_;
+  std::vector<double> steps_;
+  double next_break_ = 0;
+  double time_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+#include "core/network/component.hpp"
+#include "core/network/error.hpp"
+
+namespace rheonet {
+
+/// A law between two nodes.
+struct Branch {
+  int element;  ///< index into Scene::elements
+  NodeId a, b;
+};
+
+/// The branches [first, first + batch->size()) of one component.
+template <class Batch>
+struct Laws {
+  const Component* component;
+  int first;
+  std::unique_ptr<Batch> batch;
+};
+
+/// A scene's elements by what they are to the structure; laws sorted by type, so that each type is one contiguous batch.
+/// Elements at a limit of their parameters have become the law of the limit.
+struct Network {
+  struct Mass { int element; NodeId node; double mass; };
+  struct Motion { int element; NodeId node; Signal signal; bool position; };
+  struct Force { int element; NodeId a, b; Signal signal; };
+  /// Where an element went: a branch of `deflections` or `rates`, or an index into masses, motions, forces.
+  struct Place { Role role; int index; };
+
+  const Scene* scene = nullptr;
+  std::vector<Branch> deflections;
+  std::vector<Laws<DeflectionBatch>> deflection_laws;
+  std::vector<Branch> rates;
+  std::vector<Laws<RateBatch>> rate_laws;
+  std::vector<Mass> masses;
+  std::vector<Motion> motions;
+  std::vector<Force> forces;
+  std::vector<Place> places;  ///< one for each element of the scene
+  std::vector<std::string> notes;
+
+  const std::string& name_of(const Branch& branch) const {
+    return scene->elements[static_cast<std::size_t>(branch.element)].name;
+  }
+  const std::string& node_name(NodeId node) const { return scene->nodes[static_cast<std::size_t>(node)].name; }
+};
+
+/// The scene must outlive the network. Throws SimulationError for elements that no network can have.
+Network build_network(const Scene& scene);
+
+}  // namespace rheonet

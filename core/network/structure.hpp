@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "core/network/network.hpp"
+
+namespace rheonet {
+
+/// What determines the velocity of a node.
+enum class Kind {
+  known,    ///< ground, or a prescribed motion
+  massive,  ///< its momentum: m dv/dt = sum of forces
+  viscous,  ///< massless, joined by dashpots to a known or massive node: its velocity follows from its force balance
+  floating  ///< massless, held by springs and laws with a memory alone: its balance contains no velocity
+};
+
+/// Where the velocities of a network come from: the analysis that makes the equations have index 1 for any wiring.
+///
+/// Floating nodes that dashpots join to each other form one group (a single floating node is a group of its own). The
+/// velocity of a group as a whole is in no equation; with deflections as unknowns it need not be. A spanning tree of the
+/// deflection branches, rooted in all other nodes together, reaches every group. Each tree branch gives the balance of
+/// forces of one group; each of the other branches closes a loop in which the relative velocities p' + creep sum to 0,
+/// so that the groups' velocities cancel. (Loop and cut-set equations of circuit theory: Desoer and Kuh, Basic Circuit
+/// Theory, 1969, chapter 11; index of the nodal equations: Estevez Schwarz and Tischendorf 2000.)
+struct Structure {
+  struct Group {
+    std::vector<NodeId> nodes;  ///< the first one is the group's reference
+    int tree_branch = -1;       ///< deflection branch that leads towards the root
+    NodeId node = ground;       ///< its end in this group
+    NodeId parent = ground;     ///< its other end, in a group nearer to the root or at it
+    double sign = 1;            ///< +1 if the branch's first end is in this group
+    int depth = 0;              ///< tree branches to the root
+  };
+  /// sum of flows[k].sign (p' + creep)_k + sum of velocities[k].sign v_k; ground has no term, its velocity is 0.
+  struct Term { int index; double sign; };
+  struct Loop {
+    int branch;                    ///< the deflection branch that closes the loop: its own flow has sign +1
+    std::vector<Term> flows;       ///< deflection branches
+    std::vector<Term> velocities;  ///< nodes: velocity, for floating nodes that relative to the group's reference
+  };
+
+  std::vector<Kind> kind;        ///< of each node
+  std::vector<int> motion;       ///< of each node: index of the motion that prescribes it, -1
+  std::vector<int> group;        ///< of each node: index into groups, -1
+  std::vector<double> mass;      ///< of each node
+  std::vector<Group> groups;     ///< sorted by depth: a parent comes before its children
+  std::vector<Loop> loops;       ///< one for each deflection branch that is not in the tree and not between known nodes
+                                 ///< with a law that does not creep
+  std::vector<char> driven;      ///< of each deflection branch: its deflection is a function of time alone
+};
+
+/// The velocity of a node, negated, as such a sum along the tree (`branch` is -1); for a node that is not floating just
+/// its own velocity.
+Structure::Loop minus_velocity(const Structure& structure, NodeId node);
+
+/// Throws SimulationError where a motion is prescribed twice or nothing determines the motion of a node.
+Structure analyse(const Network& network);
+
+}  // namespace rheonet
