@@ -6,14 +6,14 @@
 #include <cctype>
 #include <utility>
 
+#include "core/netlist/characters.hpp"
+
 namespace rheonet {
 
 namespace {
 
 // Characters of a line that an excerpt shows: netlists written by programs may have all their points on one line.
 constexpr std::size_t excerpt_width = 120;
-
-bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// Line `number` (from 1) without its end, "" if there is none.
 std::string_view line_of(std::string_view text, int number) {
@@ -27,21 +27,10 @@ std::string_view line_of(std::string_view text, int number) {
   return text;
 }
 
-std::vector<std::string_view> characters_of(std::string_view line) {
-  std::vector<std::string_view> characters;
-  for (std::size_t begin = 0; begin < line.size();) {
-    std::size_t end = begin + 1;
-    while (end < line.size() && continues_character(line[end])) ++end;
-    characters.push_back(line.substr(begin, end - begin));
-    begin = end;
-  }
-  return characters;
-}
-
 /// The line with a caret under character `column`, both behind a margin. A tab stands in both lines, so that the caret
 /// is in its place whatever the width of a tab.
 std::string excerpt(std::string_view line, int line_number, int column) {
-  const auto characters = characters_of(line);
+  const std::u32string characters = decode(line);
   const auto caret = static_cast<std::size_t>(std::max(column, 1) - 1);
   std::size_t first = 0;
   std::size_t last = characters.size();
@@ -53,10 +42,8 @@ std::string excerpt(std::string_view line, int line_number, int column) {
   std::string shown = margin;
   std::string below = std::string(margin.size() - 2, ' ') + "| ";
   if (first > 0) shown += "...", below += "   ";
-  for (std::size_t i = first; i < last; ++i) {
-    shown += characters[i];
-    if (i < caret) below += characters[i] == "\t" ? '\t' : ' ';
-  }
+  shown += encode(std::u32string_view(characters).substr(first, last - first));
+  for (std::size_t i = first; i < std::min(caret, last); ++i) below += characters[i] == U'\t' ? '\t' : ' ';
   if (last < characters.size()) shown += "...";
   return column > 0 ? shown + '\n' + below + '^' : shown;
 }

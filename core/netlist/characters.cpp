@@ -1,0 +1,69 @@
+#include "core/netlist/characters.hpp"
+
+#include <algorithm>
+
+namespace rheonet {
+
+namespace {
+
+// Where bytes that are not UTF-8 go: code points that encode no text (surrogates), and back.
+constexpr char32_t stray = 0xDC00;
+
+bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Number of bytes of the character that begins with `c`; 0 if none does.
+std::size_t length(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte < 0x80 ? 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 0;
+}
+
+}  // namespace
+
+std::u32string decode(std::string_view text) {
+  std::u32string characters;
+  characters.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t bytes = length(text[0]);
+    if (bytes == 0 || bytes > text.size() ||
+        !std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(bytes), continues)) {
+      characters += stray + static_cast<unsigned char>(text[0]);
+      text.remove_prefix(1);
+      continue;
+    }
+    char32_t c = static_cast<unsigned char>(text[0]);
+    if (bytes > 1) c &= 0x7FU >> bytes;
+    for (std::size_t i = 1; i < bytes; ++i) c = c << 6U | (static_cast<unsigned char>(text[i]) & 0x3FU);
+    characters += c;
+    text.remove_prefix(bytes);
+  }
+  return characters;
+}
+
+std::string encode(std::u32string_view characters) {
+  std::string text;
+  for (const char32_t c : characters) {
+    const auto tail = [&](unsigned shift) { text += static_cast<char>(0x80U | ((c >> shift) & 0x3FU)); };
+    if (c < 0x80) {
+      text += static_cast<char>(c);
+    } else if (c < 0x800) {
+      text += static_cast<char>(0xC0U | c >> 6U);
+      tail(0);
+    } else if (c >= stray && c < stray + 0x100) {
+      text += static_cast<char>(c - stray);
+    } else if (c < 0x10000) {
+      text += static_cast<char>(0xE0U | c >> 12U);
+      tail(6);
+      tail(0);
+    } else {
+      text += static_cast<char>(0xF0U | c >> 18U);
+      tail(12);
+      tail(6);
+      tail(0);
+    }
+  }
+  return text;
+}
+
+std::size_t count_characters(std::string_view text) { return decode(text).size(); }
+
+}  // namespace rheonet
