@@ -27,7 +27,7 @@ std::string_view line_of(std::string_view text, int number) {
   return text;
 }
 
-/// The line with a caret under character `column`, both behind a margin. A tab stands in both lines, so that the caret
+/// The line with a caret under character `column`, both behind a margin with the line's number, if not 0. A tab stands in both lines, so that the caret
 /// is in its place whatever the width of a tab.
 std::string excerpt(std::string_view line, int line_number, int column) {
   const std::u32string characters = decode(line);
@@ -38,7 +38,7 @@ std::string excerpt(std::string_view line, int line_number, int column) {
     first = std::min(caret - std::min(caret, excerpt_width / 2), last - excerpt_width);
     last = first + excerpt_width;
   }
-  const std::string margin = fmt::format("{:>5} | ", line_number);
+  const std::string margin = line_number > 0 ? fmt::format("{:>5} | ", line_number) : "      | ";
   std::string shown = margin;
   std::string below = std::string(margin.size() - 2, ' ') + "| ";
   if (first > 0) shown += "...", below += "   ";
@@ -82,6 +82,8 @@ std::string format(const Diagnostic& diagnostic, const Sources& sources) {
   text += severity == Severity::error ? ": error: " : ": warning: ";
   text += message;
   if (file && spot.line > 0) text += '\n' + excerpt(line_of(file->text, spot.line), spot.line, spot.column);
+  if (spot.file < 0 && spot.line > 0 && spot.line <= std::ssize(sources.command_line))
+    text += '\n' + excerpt(sources.command_line[static_cast<std::size_t>(spot.line - 1)], 0, spot.column);
   if (!hint.empty()) text += "\n  " + hint;
   return text;
 }

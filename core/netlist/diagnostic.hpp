@@ -8,7 +8,7 @@
 namespace rheonet {
 
 /// A place in a netlist. Files are numbered in the order in which they were read; lines and columns count from 1, columns
-/// in characters (UTF-8 code points). file = -1: the command line (the text is then in `Sources`).
+/// in characters (UTF-8 code points). file = -1: the command line; lines then count `Sources::command_line`.
 struct Spot {
   int file = -1;
   int line = 0;
@@ -19,6 +19,7 @@ struct Spot {
 struct Sources {
   struct File { std::filesystem::path path; std::string text; };
   std::vector<File> files;
+  std::vector<std::string> command_line;  ///< options that messages point into, as typed: "--set k1.stiffness=3"
 };
 
 enum class Severity { error, warning };

@@ -1,0 +1,187 @@
+#include "core/netlist/document.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <toml++/toml.h>
+
+#include "core/netlist/toml_scan.hpp"
+
+namespace rheonet {
+
+namespace {
+
+Spot spot_of(const toml::source_position& position, int file) {
+  return {file, static_cast<int>(position.line), static_cast<int>(position.column)};
+}
+
+TomlValue convert(const toml::node& node, int file) {
+  TomlValue value;
+  value.spot = spot_of(node.source().begin, file);
+  if (const auto* table = node.as_table()) {
+    value.kind = TomlValue::Kind::table;
+    value.entries.reserve(table->size());
+    for (const auto& [key, item] : *table)
+      value.entries.push_back({std::string(key.str()), spot_of(key.source().begin, file), convert(item, file)});
+    // toml++ keeps tables sorted by key; the order of a netlist is that of its file.
+    std::sort(value.entries.begin(), value.entries.end(), [](const TomlEntry& a, const TomlEntry& b) {
+      return std::pair(a.spot.line, a.spot.column) < std::pair(b.spot.line, b.spot.column);
+    });
+  } else if (const auto* array = node.as_array()) {
+    value.kind = TomlValue::Kind::array;
+    value.items.reserve(array->size());
+    for (const auto& item : *array) value.items.push_back(convert(item, file));
+  } else if (const auto* text = node.as_string()) {
+    value.kind = TomlValue::Kind::string;
+    value.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.kind = TomlValue::Kind::number;
+    value.number = static_cast<double>(integer->get());
+  } else if (const auto* number = node.as_floating_point()) {
+    value.kind = TomlValue::Kind::number;
+    value.number = number->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    value.kind = TomlValue::Kind::boolean;
+    value.boolean = boolean->get();
+  } else {
+    value.kind = TomlValue::Kind::date;
+  }
+  return value;
+}
+
+std::string_view line_of(std::string_view text, int number) {
+  for (int n = 1; n < number; ++n) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  text = text.substr(0, text.find('\n'));
+  return text.substr(0, text.find('\r'));
+}
+
+/// The rest of a line from a column on, up to the end of the value there.
+std::string_view word_at(std::string_view line, int column) {
+  int n = 1;
+  while (!line.empty() && n < column) {
+    do line.remove_prefix(1);
+    while (!line.empty() && (static_cast<unsigned char>(line.front()) & 0xC0U) == 0x80U);
+    ++n;
+  }
+  line = line.substr(0, line.find_first_of(",]}#"));
+  while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
+  return line;
+}
+
+/// The column of the last `key` before `column` on the line; `column` if there is none.
+int column_of_key(std::string_view line, std::string_view key, int column) {
+  const std::size_t found = line.substr(0, static_cast<std::size_t>(column)).rfind(key);
+  if (found == line.npos) return column;
+  const auto before = line.substr(0, found);
+  return 1 + static_cast<int>(std::count_if(before.begin(), before.end(), [](char c) {
+           return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+         }));
+}
+
+/// What toml++ says, in the words of this project and with what would mend it.
+void report(const toml::parse_error& e, std::string_view text, int file, Mistakes& mistakes) {
+  std::string description(e.description());
+  Spot spot = spot_of(e.source().begin, file);
+  const std::string_view line = line_of(text, spot.line);
+  const auto says = [&](std::string_view words) { return description.find(words) != description.npos; };
+  const auto quoted = [&]() -> std::string {  // the last 'word' of the description
+    const auto last = description.rfind('\'');
+    const auto first = last == description.npos || last == 0 ? description.npos : description.rfind('\'', last - 1);
+    return first == description.npos ? "" : description.substr(first + 1, last - first - 1);
+  };
+  if (says("cannot redefine existing table '") && says("table header")) {
+    mistakes.error(spot, "table `" + quoted() + "` is given twice", "put the entries of both under one header");
+  } else if (says("cannot redefine existing") && !quoted().empty()) {
+    spot.column = column_of_key(line, quoted(), spot.column - 1);
+    mistakes.error(spot, "key `" + quoted() + "` is given twice", "a key may stand only once in a table");
+  } else if (says("could not determine value type")) {
+    const std::string word(word_at(line, spot.column));
+    mistakes.error(spot, "`" + word + "` is not a value", "a text stands in quotes: \"" + word + "\"");
+  } else if (says("expected '=', saw")) {
+    mistakes.error(spot, "expected `=` after the key, found `" + quoted() + "`");
+  } else if (says("key-value pair: expected a comment or whitespace")) {
+    mistakes.error(spot, "unexpected `" + std::string(word_at(line, spot.column)) + "` after the value",
+                   "a quantity or an expression stands in quotes (\"3 N/m\"), each key on its own line");
+  } else if (says("dangling comma")) {
+    mistakes.error(spot, "an inline table may not end with a comma", "remove the comma before `}`");
+  } else if (says("inline table: expected key or closing '}', saw '\\n'") || says("saw '\n'")) {
+    mistakes.error(spot, "the line ends within an inline table or a header",
+                   "an inline table `{ ... }` stands on one line; a long one can be a table of its own: "
+                   "[elements.name]");
+  } else if (says("end-of-file")) {
+    mistakes.error(spot, "the file ends where a value or a closing bracket is expected");
+  } else if (says("TOML_MAX_NESTED_VALUES")) {
+    mistakes.error(spot, "arrays and tables are nested deeper than 256 levels",
+                   "a model in [models] can hold a part of it");
+  } else {
+    constexpr std::string_view prefix = "Error while ";
+    if (description.starts_with(prefix)) description.erase(0, prefix.size());
+    mistakes.error(spot, "not valid TOML: " + description);
+  }
+}
+
+}  // namespace
+
+const TomlEntry* TomlValue::find(std::string_view key) const {
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const TomlEntry& e) { return e.key == key; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+TomlEntry* TomlValue::find(std::string_view key) {
+  return const_cast<TomlEntry*>(static_cast<const TomlValue*>(this)->find(key));
+}
+
+std::string describe(const TomlValue& value) {
+  switch (value.kind) {
+    case TomlValue::Kind::string:
+      return "the string \"" + value.text + "\"";
+    case TomlValue::Kind::number:
+      return fmt::format("the number {}", value.number);
+    case TomlValue::Kind::boolean:
+      return value.boolean ? "`true`" : "`false`";
+    case TomlValue::Kind::array:
+      return "an array";
+    case TomlValue::Kind::table:
+      return "a table";
+    case TomlValue::Kind::date:
+      return "a date or time";
+  }
+  return {};
+}
+
+std::optional<TomlValue> parse_toml(int file, const Sources& sources, Mistakes& mistakes) {
+  const std::string& text = sources.files[static_cast<std::size_t>(file)].text;
+  if (!scan_toml(text, file, mistakes)) return {};
+  try {
+    return convert(toml::parse(text), file);
+  } catch (const toml::parse_error& e) {
+    report(e, text, file, mistakes);
+    return {};
+  }
+}
+
+std::optional<TomlValue> parse_toml_value(std::string_view text, Spot spot) {
+  constexpr std::string_view key = "v=";
+  const auto shift = [&](auto& self, TomlValue& value) -> void {
+    const auto move = [&](Spot& s) { s = {spot.file, spot.line, s.column - static_cast<int>(key.size()) + spot.column - 1}; };
+    move(value.spot);
+    for (TomlValue& item : value.items) self(self, item);
+    for (TomlEntry& entry : value.entries) {
+      move(entry.spot);
+      self(self, entry.value);
+    }
+  };
+  if (text.find('\n') != text.npos) return {};
+  const Sources none;
+  Mistakes ignored(none);
+  if (!scan_toml(text, 0, ignored)) return {};
+  try {
+    TomlValue document = convert(toml::parse(std::string(key) + std::string(text)), 0);
+    shift(shift, document);
+    return std::move(document.entries.front().value);
+  } catch (const toml::parse_error&) {
+    return {};
+  }
+}
+
+}  // namespace rheonet

@@ -1,0 +1,108 @@
+#include "core/netlist/mistakes.hpp"
+
+#include <algorithm>
+
+#include "core/netlist/document.hpp"
+
+namespace rheonet {
+
+namespace {
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Index of character `column` (from 1) of line `line` (from 1) in `text`.
+std::size_t index_of(std::string_view text, int line, int column) {
+  std::size_t at = 0;
+  for (int n = 1; n < line && at < text.size(); ++n) {
+    at = text.find('\n', at);
+    at = at == text.npos ? text.size() : at + 1;
+  }
+  for (int n = 1; n < column && at < text.size(); ++n) {
+    ++at;
+    while (at < text.size() && continues_character(text[at])) ++at;
+  }
+  return at;
+}
+
+/// How many characters of source make the character of a basic string that begins at `at`.
+std::size_t escaped_length(std::string_view text, std::size_t at) {
+  if (text[at] != '\\' || at + 1 >= text.size()) return 1;
+  return text[at + 1] == 'u' ? 6 : text[at + 1] == 'U' ? 10 : 2;
+}
+
+}  // namespace
+
+void Mistakes::error(Spot spot, std::string message, std::string hint) {
+  add(Severity::error, spot, std::move(message), std::move(hint));
+}
+
+void Mistakes::warning(Spot spot, std::string message, std::string hint) {
+  add(Severity::warning, spot, std::move(message), std::move(hint));
+}
+
+void Mistakes::add(Severity severity, Spot spot, std::string message, std::string hint) {
+  if (severity == Severity::error) ++errors_;
+  if (!seen_.insert({spot.file, spot.line, spot.column, message}).second) return;
+  if (path_) message += " (in `" + *path_ + "`)";
+  all_.push_back({severity, spot, std::move(message), std::move(hint)});
+}
+
+Spot Mistakes::inside(const TomlValue& value, std::size_t offset) const {
+  Spot spot = value.spot;
+  std::string_view text;
+  std::size_t at = 0;
+  if (spot.file >= 0) {
+    text = sources_.files[static_cast<std::size_t>(spot.file)].text;
+    at = index_of(text, spot.line, spot.column);
+  } else {
+    text = sources_.command_line[static_cast<std::size_t>(spot.line - 1)];
+    at = index_of(text, 1, spot.column);
+  }
+  const auto advance = [&](std::size_t characters) {
+    for (; characters > 0 && at < text.size(); --characters) {
+      if (text[at] == '\n' && spot.file >= 0) {
+        ++spot.line;
+        spot.column = 0;
+      }
+      ++at;
+      ++spot.column;
+      while (at < text.size() && continues_character(text[at])) ++at;
+    }
+  };
+  // A string without quotes: a value of the command line that is taken literally.
+  const char quote = at < text.size() ? text[at] : '\0';
+  const bool quoted = quote == '"' || quote == '\'';
+  if (quoted) {
+    const bool long_string = text.substr(at, 3) == std::string(3, quote);
+    advance(long_string ? 3 : 1);
+    if (long_string && text.substr(at, 2) == "\r\n") advance(1);
+    if (long_string && at < text.size() && text[at] == '\n') advance(1);
+  }
+  for (; offset > 0 && at < text.size(); --offset) advance(quote == '"' ? escaped_length(text, at) : 1);
+  return spot;
+}
+
+std::vector<Diagnostic> Mistakes::sorted() const {
+  std::vector<Diagnostic> result = all_;
+  std::stable_sort(result.begin(), result.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    const auto rank = [](const Spot& s) { return std::tuple(s.file < 0, s.file, s.line, s.column); };
+    return rank(a.spot) < rank(b.spot);
+  });
+  return result;
+}
+
+std::string list_names(const std::vector<std::string>& names, std::string_view last_word) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 < names.size() ? std::string(", ") : ' ' + std::string(last_word) + ' ';
+    text += '`' + names[i] + '`';
+  }
+  return text;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known, std::string otherwise) {
+  const std::string name = nearest(word, known);
+  return name.empty() ? otherwise : "did you mean `" + name + "`?";
+}
+
+}  // namespace rheonet
