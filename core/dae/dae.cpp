@@ -1,0 +1,241 @@
+#include "core/dae/dae.hpp"
+
+#include <fmt/format.h>
+
+#include <queue>
+
+namespace rheonet {
+
+Dae::Dae(const Network& network, const Structure& structure, const std::vector<char>& needed)
+    : network_(&network), structure_(&structure) {
+  const std::size_t nodes = network.scene->nodes.size(), nd = network.deflections.size(), nr = network.rates.size();
+  number_unknowns();
+  derive_positions(needed);
+
+  for (const Structure::Loop& loop : structure.loops) add_row(ip_[at(loop.branch)], false, loop);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (ix_[n] >= 0) add_row(ix_[n], true, minus_velocity(structure, static_cast<NodeId>(n)));
+  }
+  for (const Structure::Group& g : structure.groups) group_row_.push_back(ip_[at(g.tree_branch)]);
+
+  offset_.assign(nd, 0);
+  v_.assign(nodes, 0);
+  a_.assign(nodes, 0);
+  rate_in_.assign(nr, 0);
+  rate_out_ = rate_d_ = rate_in_;
+  df_.assign(nd, 0);
+  dc_ = df_;
+  view_.velocity = view_.nodal = view_.applied = view_.position = v_;
+  view_.p = view_.f = view_.creep = view_.flow = df_;
+  view_.rate_velocity = view_.rate_force = rate_in_;
+  build_pattern();
+}
+
+void Dae::number_unknowns() {
+  const Network& network = *network_;
+  iv_.assign(network.scene->nodes.size(), -1);
+  ix_ = iv_;
+  ip_.assign(network.deflections.size(), -1);
+  if_.assign(network.rates.size(), -1);
+  // Unknowns that belong together stand together: it keeps the columns of a chain near each other.
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    const Kind kind = structure_->kind[n];
+    const int group = structure_->group[n];
+    const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == static_cast<NodeId>(n);
+    if (kind != Kind::known && !reference) iv_[n] = size_++;
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    if (!structure_->driven[j]) ip_[j] = size_++;
+  }
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->by_force(i)) if_[at(laws.first) + i] = size_++;
+    }
+  }
+}
+
+void Dae::derive_positions(const std::vector<char>& needed) {
+  const Network& network = *network_;
+  const std::size_t nodes = iv_.size();
+  std::vector<std::vector<int>> branches(nodes);
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->creeps(i)) continue;
+      const int j = laws.first + static_cast<int>(i);
+      branches[at(network.deflections[at(j)].a)].push_back(j);
+      branches[at(network.deflections[at(j)].b)].push_back(j);
+    }
+  }
+  derived_.assign(nodes, {});
+  std::vector<char> reached(nodes, 0);
+  std::vector<NodeId> order;
+  std::queue<NodeId> queue;
+  const auto spread = [&] {
+    while (!queue.empty()) {
+      const NodeId node = queue.front();
+      queue.pop();
+      order.push_back(node);
+      for (int j : branches[at(node)]) {
+        const Branch& b = network.deflections[at(j)];
+        const NodeId other = b.a == node ? b.b : b.a;
+        if (reached[at(other)]) continue;
+        reached[at(other)] = 1;
+        derived_[at(other)] = {j, node, b.a == other ? 1.0 : -1.0};
+        queue.push(other);
+      }
+    }
+  };
+  const auto root = [&](NodeId node) {
+    reached[at(node)] = 1;
+    queue.push(node);
+  };
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (structure_->kind[n] == Kind::known) root(static_cast<NodeId>(n));
+  }
+  spread();
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (!needed[n] || reached[n]) continue;
+    ix_[n] = size_++;
+    root(static_cast<NodeId>(n));
+    spread();
+  }
+  std::vector<char> wanted(nodes, 0);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (auto node = static_cast<NodeId>(n); needed[n] && !wanted[at(node)]; node = derived_[at(node)].parent) {
+      wanted[at(node)] = 1;
+      if (derived_[at(node)].branch < 0) break;
+    }
+  }
+  for (NodeId node : order) {
+    if (wanted[at(node)]) position_order_.push_back(node);
+  }
+}
+
+void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
+  Row r{.row = row, .position = position, .flow_begin = static_cast<int>(flows_.size()), .flow_end = 0,
+        .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0};
+  flows_.insert(flows_.end(), loop.flows.begin(), loop.flows.end());
+  for (const Structure::Term& term : loop.velocities) {
+    // The reference of a group has no velocity of its own.
+    if (structure_->kind[at(term.index)] == Kind::known || iv_[at(term.index)] >= 0) velocities_.push_back(term);
+  }
+  r.flow_end = static_cast<int>(flows_.size());
+  r.velocity_end = static_cast<int>(velocities_.size());
+  rows_.push_back(r);
+}
+
+namespace {
+
+/// An entry of the Jacobian while the pattern is built.
+struct Draft { int ticket; double constant, mass; };
+
+}  // namespace
+
+void Dae::build_pattern() {
+  const Network& network = *network_;
+  PatternBuilder builder;
+  std::vector<Draft> drafts;
+  std::vector<Scatter> scatter;
+  const auto put = [&](int row, int column, double constant, double mass) {
+    if (column >= 0) drafts.push_back({builder.ticket(row, column), constant, mass});
+  };
+  const auto depend = [&](int row, int column, Source source, int index, double sign) {
+    if (column >= 0) scatter.push_back({builder.ticket(row, column), source, index, sign});
+  };
+
+  // Balances: a branch adds +f at its first node and -f at its second; a group's row is the sum over its nodes.
+  const auto balance_row = [&](NodeId node) { return iv_[at(node)]; };
+  const auto group_row = [&](NodeId node) {
+    const int g = structure_->group[at(node)];
+    return g < 0 ? -1 : group_row_[at(g)];
+  };
+  for (std::size_t j = 0; j < network.deflections.size(); ++j) {
+    const Branch& b = network.deflections[j];
+    const int index = static_cast<int>(j);
+    if (balance_row(b.a) >= 0) depend(balance_row(b.a), ip_[j], Source::force, index, 1);
+    if (balance_row(b.b) >= 0) depend(balance_row(b.b), ip_[j], Source::force, index, -1);
+    if (group_row(b.a) == group_row(b.b)) continue;  // within one group the two ends cancel
+    if (group_row(b.a) >= 0) depend(group_row(b.a), ip_[j], Source::force, index, 1);
+    if (group_row(b.b) >= 0) depend(group_row(b.b), ip_[j], Source::force, index, -1);
+  }
+  for (std::size_t r = 0; r < network.rates.size(); ++r) {
+    const Branch& b = network.rates[r];
+    const int index = static_cast<int>(r);
+    for (const auto& [node, sign] : {std::pair{b.a, 1.0}, std::pair{b.b, -1.0}}) {
+      const int row = balance_row(node);
+      if (row < 0) continue;
+      if (if_[r] >= 0) {
+        put(row, if_[r], sign, 0);
+      } else {
+        depend(row, iv_[at(b.a)], Source::rate, index, sign);
+        depend(row, iv_[at(b.b)], Source::rate, index, -sign);
+      }
+    }
+    if (if_[r] >= 0) {
+      put(if_[r], iv_[at(b.a)], 1, 0);
+      put(if_[r], iv_[at(b.b)], -1, 0);
+      depend(if_[r], if_[r], Source::rate, index, -1);
+    }
+  }
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    if (structure_->kind[n] == Kind::massive) put(iv_[n], iv_[n], 0, structure_->mass[n]);
+  }
+  for (const Row& row : rows_) {
+    if (row.position) put(row.row, row.row, 0, 1);
+    for (int k = row.flow_begin; k < row.flow_end; ++k) {
+      const auto [j, sign] = flows_[at(k)];
+      put(row.row, ip_[at(j)], 0, sign);
+      std::size_t i = 0;
+      if (batch_of(j, i).creeps(i)) depend(row.row, ip_[at(j)], Source::creep, j, sign);
+    }
+    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+      put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
+    }
+  }
+
+  std::vector<int> entry;
+  pattern_ = builder.build(size_, entry);
+  constant_.assign(at(pattern_.entries()), 0);
+  mass_ = constant_;
+  differential_.assign(at(size_), 0);
+  for (const Draft& d : drafts) {
+    constant_[at(entry[at(d.ticket)])] += d.constant;
+    mass_[at(entry[at(d.ticket)])] += d.mass;
+  }
+  for (int e = 0; e < pattern_.entries(); ++e) {
+    if (mass_[at(e)] != 0) differential_[at(pattern_.row[at(e)])] = 1;
+  }
+  for (Scatter& s : scatter) s.entry = entry[at(s.entry)];
+  scatter_ = std::move(scatter);
+}
+
+DeflectionBatch& Dae::batch_of(int branch, std::size_t& i) {
+  return const_cast<DeflectionBatch&>(std::as_const(*this).batch_of(branch, i));
+}
+
+const DeflectionBatch& Dae::batch_of(int branch, std::size_t& i) const {
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    if (branch < laws.first + static_cast<int>(laws.batch->size())) {
+      i = at(branch - laws.first);
+      return *laws.batch;
+    }
+  }
+  throw std::out_of_range("no such branch");
+}
+
+std::string Dae::describe(int unknown) const {
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    const std::string& name = network_->node_name(static_cast<NodeId>(n));
+    if (iv_[n] == unknown) return fmt::format("the velocity of node `{}`", name);
+    if (ix_[n] == unknown) return fmt::format("the position of node `{}`", name);
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    if (ip_[j] == unknown) return fmt::format("the force of `{}`", network_->name_of(network_->deflections[j]));
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) {
+    if (if_[r] == unknown) return fmt::format("the force of `{}`", network_->name_of(network_->rates[r]));
+  }
+  return "an unknown";
+}
+
+}  // namespace rheonet

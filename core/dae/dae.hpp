@@ -1,0 +1,132 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/dae/drive.hpp"
+#include "core/dae/matrix.hpp"
+#include "core/network/network.hpp"
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// The equations of a network, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a constant matrix.
+///
+/// Unknowns y, in this order:
+///   v  velocity of a massive or viscous node; of a floating node relative to its group's reference     [m/s]
+///   p  deflection of a branch, unless it is a function of time alone                                    [m]
+///   f  force of a dashpot that is solved for its force                                                  [N]
+///   x  position of a node that is asked for and does not follow from deflections                        [m]
+/// Equations, each in the row of the unknown that it stands for:
+///   v  balance of forces at the node:  sum f + m v' - applied = 0
+///   p  of a tree branch: balance of its group as a whole;  else the loop that the branch closes:
+///      sum +-(p' + creep) + sum +-v = 0
+///   f  v_a - v_b - rate(f) = 0
+///   x  x' - velocity = 0
+class Dae {
+ public:
+  /// `needed` marks the nodes whose positions are asked for (one flag a node). The network must outlive this.
+  Dae(const Network& network, const Structure& structure, const std::vector<char>& needed);
+
+  int size() const { return size_; }
+  const Network& network() const { return *network_; }
+  const Structure& structure() const { return *structure_; }
+  Drive& drive() { return *drive_; }
+
+  /// Initial values in y, before anything has moved; tells the drive where its nodes are. Notes what was assumed. Throws
+  /// SimulationError for start values that contradict each other.
+  void initial(double t, std::vector<double>& y);
+
+  // --- What IDA needs. No allocation.
+  void residual(double t, const double* y, const double* yp, double* r);
+  /// dF/dy + cj dF/dy' into `values`, in the order of `pattern()`.
+  void jacobian(double t, double cj, const double* y, const double* yp, double* values);
+  const Pattern& pattern() const { return pattern_; }
+
+  // --- What a consistent state needs (see consistency.hpp).
+  bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
+  /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that y' and jumps are solved with.
+  void consistency_matrix(double t, const double* y, double* values);
+  /// dF/dt at constant y for algebraic equations, 0 for differential ones. Call after `consistency_matrix`.
+  void time_derivative(double* r) const;
+  /// What jumps of node positions (`dx`) and of momenta (`impulse`), one for each node, add to the differential
+  /// equations integrated over the instant: M (y - y_before) + r = 0.
+  void jump_terms(const std::vector<double>& dx, const std::vector<double>& impulse, double* r) const;
+
+  // --- Everything that follows from a state; valid until the next call of any function above.
+  struct View {
+    std::vector<double> velocity;      ///< of each node [m/s]
+    std::vector<double> nodal;         ///< sum of the forces of the branches at each node [N]
+    std::vector<double> applied;       ///< sum of the applied forces at each node [N]
+    std::vector<double> p, f, creep;   ///< of each deflection branch
+    std::vector<double> flow;          ///< relative velocity of each deflection branch [m/s]
+    std::vector<double> rate_velocity, rate_force;  ///< of each rate branch
+    std::vector<double> position;      ///< of each known node, and of those marked as needed [m]
+  };
+  const View& view(double t, const double* y, const double* yp);
+  /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
+  double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
+
+  /// Index of an unknown; -1 if it is none.
+  int velocity_unknown(NodeId node) const { return iv_[at(node)]; }
+  int deflection_unknown(int branch) const { return ip_[at(branch)]; }
+  int force_unknown(int rate) const { return if_[at(rate)]; }
+  int position_unknown(NodeId node) const { return ix_[at(node)]; }
+  /// For messages: "the velocity of node `m`", "the deflection of `k1`".
+  std::string describe(int unknown) const;
+
+  /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed.
+  double supplied_power() const;
+  double dissipated_power() const;
+  double stored_energy() const;
+
+  /// For each deflection law: the batch with index i of branch first + i.
+  DeflectionBatch& batch_of(int branch, std::size_t& i);
+  const DeflectionBatch& batch_of(int branch, std::size_t& i) const;
+  /// What a motion applies to its node [N] in the state last viewed.
+  double reaction(NodeId node) const;
+  /// Acceleration of a known node [m/s^2] (0 for others) in the state last viewed.
+  double known_acceleration(NodeId node) const { return a_[at(node)]; }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  enum class Source : char { force, creep, rate };
+  struct Scatter { int entry; Source source; int index; double sign; };
+  /// A loop or a position: terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
+  struct Row { int row; bool position; int flow_begin, flow_end, velocity_begin, velocity_end; };
+
+  void number_unknowns();
+  void derive_positions(const std::vector<char>& needed);
+  void add_row(int row, bool position, const Structure::Loop& loop);
+  void build_pattern();
+  void add_balance(PatternBuilder& builder, NodeId node, int row);
+  void gather(double t, const double* y);
+  void sum_forces();
+  double known_position(NodeId node) const;
+
+  const Network* network_;
+  const Structure* structure_;
+  std::unique_ptr<Drive> drive_;
+  int size_ = 0;
+  std::vector<int> iv_, ip_, if_, ix_;
+  std::vector<Row> rows_;
+  std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes
+  std::vector<int> group_row_;   ///< of each group
+  std::vector<char> differential_;
+  Pattern pattern_;
+  std::vector<double> constant_, mass_;  ///< of each entry of the pattern
+  std::vector<int> entry_row_;           ///< of each entry
+  std::vector<Scatter> scatter_;
+
+  /// A position follows from a parent's through the deflection of `branch`: x = x_parent + sign (p + offset).
+  struct Derived { int branch = -1; NodeId parent = ground; double sign = 1; };
+  std::vector<Derived> derived_;
+  std::vector<NodeId> position_order_;  ///< needed for positions, parents first
+
+  std::vector<double> offset_;  ///< displacement minus deflection of each deflection branch that does not creep
+  // Work space of the residual.
+  std::vector<double> v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
+  View view_;
+};
+
+}  // namespace rheonet

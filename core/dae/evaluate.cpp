@@ -1,0 +1,233 @@
+#include <algorithm>
+
+#include "core/dae/dae.hpp"
+
+namespace rheonet {
+
+double Dae::known_position(NodeId node) const {
+  const int motion = structure_->motion[at(node)];
+  return motion < 0 ? 0 : drive_->position[at(motion)];
+}
+
+/// Velocities, deflections, and what the rate laws are evaluated with.
+void Dae::gather(double t, const double* y) {
+  drive_->evaluate(t);
+  for (std::size_t n = 0; n < v_.size(); ++n) {
+    if (iv_[n] >= 0) v_[n] = y[iv_[n]];
+  }
+  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
+    const std::size_t node = at(network_->motions[m].node);
+    v_[node] = drive_->velocity[m];
+    a_[node] = drive_->acceleration[m];
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = network_->deflections[j];
+    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : known_position(b.a) - known_position(b.b) - offset_[j];
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) {
+    const Branch& b = network_->rates[r];
+    rate_in_[r] = if_[r] >= 0 ? y[if_[r]] : v_[at(b.a)] - v_[at(b.b)];
+  }
+}
+
+/// Nodal sums of the forces of the branches, and of the applied forces.
+void Dae::sum_forces() {
+  std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
+  std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = network_->deflections[j];
+    view_.nodal[at(b.a)] += view_.f[j];
+    view_.nodal[at(b.b)] -= view_.f[j];
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) {
+    const Branch& b = network_->rates[r];
+    const double f = if_[r] >= 0 ? rate_in_[r] : rate_out_[r];
+    view_.nodal[at(b.a)] += f;
+    view_.nodal[at(b.b)] -= f;
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    view_.applied[at(f.a)] += drive_->force[k];
+    if (f.b >= 0) view_.applied[at(f.b)] -= drive_->force[k];
+  }
+}
+
+void Dae::residual(double t, const double* y, const double* yp, double* r) {
+  gather(t, y);
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&view_.p[k], &view_.f[k], &view_.creep[k]);
+  }
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&rate_in_[k], &rate_out_[k]);
+  }
+  sum_forces();
+
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    if (iv_[n] >= 0) r[iv_[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[iv_[n]];
+  }
+  for (std::size_t g = 0; g < group_row_.size(); ++g) {
+    double sum = 0;
+    for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
+    r[group_row_[g]] = sum;
+  }
+  for (std::size_t k = 0; k < if_.size(); ++k) {
+    const Branch& b = network_->rates[k];
+    if (if_[k] >= 0) r[if_[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
+  }
+  for (const Row& row : rows_) {
+    double sum = row.position ? yp[row.row] : 0;
+    for (int k = row.flow_begin; k < row.flow_end; ++k) {
+      const auto [j, sign] = flows_[at(k)];
+      sum += sign * (yp[ip_[at(j)]] + view_.creep[at(j)]);
+    }
+    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+      sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
+    }
+    r[row.row] = sum;
+  }
+}
+
+void Dae::jacobian(double t, double cj, const double* y, const double*, double* values) {
+  gather(t, y);
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&view_.p[k], &view_.f[k], &df_[k], &view_.creep[k], &dc_[k]);
+  }
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&rate_in_[k], &rate_out_[k], &rate_d_[k]);
+  }
+  for (std::size_t e = 0; e < constant_.size(); ++e) values[e] = constant_[e] + cj * mass_[e];
+  for (const Scatter& s : scatter_) {
+    const std::vector<double>& d = s.source == Source::force ? df_ : s.source == Source::creep ? dc_ : rate_d_;
+    values[s.entry] += s.sign * d[at(s.index)];
+  }
+}
+
+void Dae::consistency_matrix(double t, const double* y, double* values) {
+  jacobian(t, 0, y, nullptr, values);
+  for (std::size_t e = 0; e < constant_.size(); ++e) {
+    if (differential_[at(pattern_.row[e])]) values[e] = mass_[e];
+  }
+}
+
+void Dae::time_derivative(double* r) const {
+  std::fill(r, r + size_, 0.0);
+  const auto add = [&](NodeId node, double x) {
+    if (node < 0) return;
+    if (iv_[at(node)] >= 0 && !differential_[at(iv_[at(node)])]) r[iv_[at(node)]] += x;
+    if (const int g = structure_->group[at(node)]; g >= 0) r[group_row_[at(g)]] += x;
+  };
+  for (std::size_t k = 0; k < if_.size(); ++k) {
+    const Branch& b = network_->rates[k];
+    const double dw = a_[at(b.a)] - a_[at(b.b)];
+    if (if_[k] >= 0) {
+      r[if_[k]] += dw;
+    } else if (dw != 0) {
+      add(b.a, rate_d_[k] * dw);
+      add(b.b, -rate_d_[k] * dw);
+    }
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    add(network_->forces[k].a, -drive_->force_rate[k]);
+    add(network_->forces[k].b, drive_->force_rate[k]);
+  }
+}
+
+void Dae::jump_terms(const std::vector<double>& dx, const std::vector<double>& impulse, double* r) const {
+  std::fill(r, r + size_, 0.0);
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    if (structure_->kind[n] == Kind::massive) r[iv_[n]] = -impulse[n];
+  }
+  for (const Row& row : rows_) {
+    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+      r[row.row] += velocities_[at(k)].sign * dx[at(velocities_[at(k)].index)];
+    }
+  }
+}
+
+const Dae::View& Dae::view(double t, const double* y, const double* yp) {
+  gather(t, y);
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&view_.p[k], &view_.f[k], &view_.creep[k]);
+  }
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&rate_in_[k], &rate_out_[k]);
+  }
+  sum_forces();
+  view_.velocity = v_;
+  for (std::size_t g = 0; g < structure_->groups.size(); ++g) {
+    const Structure::Group& group = structure_->groups[g];
+    const std::size_t j = at(group.tree_branch);
+    const double base =
+        view_.velocity[at(group.parent)] - v_[at(group.node)] + group.sign * (yp[ip_[j]] + view_.creep[j]);
+    for (NodeId node : group.nodes) view_.velocity[at(node)] = base + v_[at(node)];
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = network_->deflections[j];
+    const bool floating = structure_->group[at(b.a)] >= 0 || structure_->group[at(b.b)] >= 0;
+    // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
+    view_.flow[j] = floating ? yp[ip_[j]] + view_.creep[j] : v_[at(b.a)] - v_[at(b.b)];
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) {
+    view_.rate_velocity[r] = if_[r] >= 0 ? rate_out_[r] : rate_in_[r];
+    view_.rate_force[r] = if_[r] >= 0 ? rate_in_[r] : rate_out_[r];
+  }
+  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
+    view_.position[at(network_->motions[m].node)] = drive_->position[m];
+  }
+  for (NodeId node : position_order_) {
+    const Derived& d = derived_[at(node)];
+    if (ix_[at(node)] >= 0) {
+      view_.position[at(node)] = y[ix_[at(node)]];
+    } else if (d.branch >= 0) {
+      view_.position[at(node)] = view_.position[at(d.parent)] + d.sign * (view_.p[at(d.branch)] + offset_[at(d.branch)]);
+    }
+  }
+  return view_;
+}
+
+double Dae::reaction(NodeId node) const {
+  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->mass[at(node)] * a_[at(node)];
+}
+
+double Dae::supplied_power() const {
+  double power = 0;
+  for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    power += drive_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
+  }
+  return power;
+}
+
+double Dae::dissipated_power() const {
+  double power = 0;
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      power += laws.batch->dissipated_power(i, view_.p[j], view_.flow[j]);
+    }
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
+  return power;
+}
+
+double Dae::stored_energy() const {
+  double energy = 0;
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      energy += laws.batch->stored_energy(i, view_.p[at(laws.first) + i]);
+    }
+  }
+  for (std::size_t n = 0; n < v_.size(); ++n) {
+    energy += structure_->mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
+  }
+  return energy;
+}
+
+}  // namespace rheonet
