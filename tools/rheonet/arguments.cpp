@@ -1,0 +1,168 @@
+#include "tools/rheonet/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <map>
+
+#include "core/netlist/diagnostic.hpp"
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+struct WrongCommandLine {
+  std::string message;
+  std::string hint;
+};
+
+constexpr const char* footer =
+    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted;\n"
+    "2 the scene or the command line is wrong.";
+
+bool is_override(const std::string& word) {
+  const std::size_t equals = word.find('=');
+  return equals != std::string::npos && equals > 0 && word[0] != '-' && word.find('/') > equals;
+}
+
+// `--set a=1 b=2 SCENE`: each PATH=VALUE that follows another gets a --set of its own, because an option that takes any
+// number of words would swallow the scene.
+std::vector<std::string> with_every_set(const std::vector<std::string>& words) {
+  std::vector<std::string> result;
+  bool after_override = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (after_override && is_override(words[i])) result.push_back("--set");
+    after_override =
+        words[i].starts_with("--set=") || (!result.empty() && result.back() == "--set" && is_override(words[i]));
+    result.push_back(words[i]);
+  }
+  return result;
+}
+
+std::vector<std::string> long_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
+  const std::string name = nearest(word, known);
+  return name.empty() ? "" : fmt::format("did you mean `{}`?", name);
+}
+
+// The first word that nobody asked for.
+void refuse_extra_words(const CLI::App& app) {
+  const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
+  const CLI::App* command = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
+  for (const CLI::App* level : {&app, command}) {
+    if (level == nullptr) continue;
+    for (const std::string& word : level->remaining()) {
+      if (is_option(word)) {
+        const std::string name = word.substr(0, word.find('='));
+        throw WrongCommandLine{fmt::format("unknown option `{}`", name), did_you_mean(name, long_options(*level))};
+      }
+      if (level == &app && command == nullptr) {
+        std::vector<std::string> commands;
+        for (const CLI::App* known : app.get_subcommands({})) commands.push_back(known->get_name());
+        std::string hint = did_you_mean(word, commands);
+        if (hint.empty() && word.ends_with(".toml")) hint = fmt::format("to simulate a scene: `rheonet run {}`", word);
+        throw WrongCommandLine{fmt::format("unknown command `{}`", word), hint};
+      }
+      throw WrongCommandLine{fmt::format("unexpected argument `{}`", word), ""};
+    }
+  }
+}
+
+double read_accuracy(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw WrongCommandLine{fmt::format("`--accuracy` takes a number such as 1e-6, not `{}`", text), ""};
+  }
+  return value;
+}
+
+ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
+  const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
+  say("error: {}\n", mistake.message);
+  if (!mistake.hint.empty()) say("  {}\n", mistake.hint);
+  say("  `rheonet {}--help` lists what there is\n", commands.empty() ? "" : commands.front()->get_name() + " ");
+  return wrong_input;
+}
+
+}  // namespace
+
+std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
+  Arguments arguments;
+  std::string accuracy;
+
+  CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses.", "rheonet");
+  app.set_version_flag("--version", "rheonet " RHEONET_VERSION);
+  app.footer(footer);
+  // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
+  app.allow_extras()->require_subcommand(0, 1);
+
+  const auto add_command = [&app](const char* name, const char* description) {
+    return app.add_subcommand(name, description)->allow_extras();
+  };
+  const auto add_scene = [&arguments](CLI::App* command) {
+    command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
+    command->add_option("--set", arguments.overrides, "override a value of the scene by its path; may be repeated")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUE");
+  };
+
+  CLI::App* run = add_command("run", "simulate a scene and write its records as CSV");
+  add_scene(run);
+  run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
+      ->type_name("FILE");
+  run->add_option("--accuracy", accuracy, "error of each recorded quantity relative to its largest magnitude")
+      ->type_name("E");
+  run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
+
+  CLI::App* check = add_command("check", "read and check a scene without simulating it");
+  add_scene(check);
+  check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
+
+  CLI::App* components = add_command("components", "describe the element types");
+  components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
+  components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
+
+  add_command("schema", "print the JSON Schema of a scene, for editors");
+
+  words = with_every_set(words);
+  std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
+  try {
+    try {
+      app.parse(words);
+    } catch (const CLI::Success& help_or_version) {
+      app.exit(help_or_version);
+      return done;
+    } catch (const CLI::ParseError& error) {
+      refuse_extra_words(app);  // a misspelt word is often why another is missing
+      throw WrongCommandLine{error.what(), ""};
+    }
+    refuse_extra_words(app);
+    if (!accuracy.empty()) arguments.accuracy = read_accuracy(accuracy);
+    if (app.get_subcommands().empty())
+      throw WrongCommandLine{"no command given", "to simulate a scene: `rheonet run SCENE`"};
+  } catch (const WrongCommandLine& mistake) {
+    return report(mistake, app);
+  }
+
+  using Command = Arguments::Command;
+  const std::map<std::string, Command> commands = {{"run", Command::run},
+                                                   {"check", Command::check},
+                                                   {"components", Command::components},
+                                                   {"schema", Command::schema}};
+  arguments.command = commands.at(app.get_subcommands().front()->get_name());
+  return arguments;
+}
+
+}  // namespace rheonet::tool

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/network/component.hpp"
+#include "core/result/run.hpp"
+#include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+std::string count(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+double flow_index_of(const Parameter& parameter, const Declaration& declaration, const SceneElement& element) {
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    if (declaration.parameters[i].name == parameter.flow_index) return element.values[i];
+  }
+  return 1;
+}
+
+void print_element(const SceneElement& element, const Scene& scene, int name_width) {
+  const Declaration& declaration = *declarations()[static_cast<std::size_t>(element.declaration)];
+  const auto node = [&scene](NodeId id) { return scene.nodes[static_cast<std::size_t>(id)].name; };
+  const std::string place = element.at ? "at " + node(element.a) : node(element.a) + " - " + node(element.b);
+
+  std::string values;
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const Parameter& parameter = declaration.parameters[i];
+    const std::string name = parameter.name_in(scene.domain);
+    if (std::find(element.signal_parameters.begin(), element.signal_parameters.end(), i) !=
+        element.signal_parameters.end()) {
+      values += fmt::format("  {}(t)", name);
+    } else if (!std::isnan(element.values[i])) {
+      const std::string unit =
+          unit_of(parameter.quantity, scene.domain, flow_index_of(parameter, declaration, element));
+      values += fmt::format("  {} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit);
+    }
+  }
+  fmt::print("  {:<{}}  {:<8}  {}{}\n", element.name, name_width, declaration.type, place, values);
+}
+
+void print_network(const Scene& scene) {
+  fmt::print("{} ({})\n", scene.title.empty() ? "untitled" : scene.title,
+             scene.domain == Domain::rotation ? "rotation" : "translation");
+  fmt::print("{:g} s to {:g} s, accuracy {:g}, {} output times, {}\n", scene.start, scene.stop, scene.accuracy,
+             scene.output_intervals + 1, count(scene.records.size(), "recorded quantity", "recorded quantities"));
+
+  std::size_t width = 0;
+  for (const SceneNode& node : scene.nodes) width = std::max(width, node.name.size());
+  for (const SceneElement& element : scene.elements) width = std::max(width, element.name.size());
+  for (const SceneAssembly& assembly : scene.assemblies) width = std::max(width, assembly.name.size());
+  const int name_width = static_cast<int>(width);
+
+  fmt::print("nodes:\n");
+  for (const SceneNode& node : scene.nodes) {
+    std::string start;
+    if (!std::isnan(node.position)) {
+      start += fmt::format("  position = {:.10g} {}", node.position, unit_of(Quantity::position, scene.domain));
+    }
+    if (!std::isnan(node.velocity)) {
+      start += fmt::format("  velocity = {:.10g} {}", node.velocity, unit_of(Quantity::velocity, scene.domain));
+    }
+    fmt::print("  {:<{}}{}\n", node.name, start.empty() ? 0 : name_width, start);
+  }
+  fmt::print("elements:\n");
+  for (const SceneElement& element : scene.elements) print_element(element, scene, name_width);
+  if (!scene.assemblies.empty()) fmt::print("assemblies:\n");
+  for (const SceneAssembly& assembly : scene.assemblies) {
+    fmt::print("  {:<{}}  {} - {}\n", assembly.name, name_width, scene.nodes[static_cast<std::size_t>(assembly.a)].name,
+               scene.nodes[static_cast<std::size_t>(assembly.b)].name);
+  }
+}
+
+}  // namespace
+
+ExitStatus check_scene(const Arguments& arguments) {
+  const ReadResult read = read_and_report(arguments);
+  if (!read.scene) return wrong_input;
+  const Scene& scene = *read.scene;
+  if (arguments.verbose) print_network(scene);
+  try {
+    for (const std::string& note : check(scene)) fmt::print("note: {}\n", note);
+  } catch (const SimulationError& error) {
+    say("error: {}\n", error.what());
+    return not_simulated;
+  }
+  fmt::print("{}: no mistake found ({}, {})\n", arguments.scene, count(scene.elements.size(), "element", "elements"),
+             count(scene.nodes.size() - 1, "node", "nodes"));
+  return done;
+}
+
+}  // namespace rheonet::tool

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "tools/rheonet/arguments.hpp"
+
+namespace rheonet::tool {
+
+/// `rheonet run`: reads, simulates, writes the rows and says what it took.
+ExitStatus run_scene(const Arguments& arguments);
+
+/// `rheonet check`: reads, and finds out what can be known without simulating.
+ExitStatus check_scene(const Arguments& arguments);
+
+/// `rheonet components`: prints the reference.
+ExitStatus print_components(const Arguments& arguments);
+
+}  // namespace rheonet::tool

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace rheonet::tool {
+
+/// The folders that `include = ["library/..."]` falls back on: the one that the environment variable RHEONET_LIBRARY
+/// names; without it the one installed beside the program; without that the netlists of the source tree.
+std::vector<std::filesystem::path> library_folders();
+
+}  // namespace rheonet::tool

@@ -1,0 +1,81 @@
+#include "tools/rheonet/output.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+namespace rheonet::tool {
+namespace {
+
+constexpr std::size_t buffer_size = 1 << 16;  // bytes: some hundred rows a system call
+
+}  // namespace
+
+Output::Output(const std::string& path, std::atomic<bool>& stop)
+    : path_(path), name_(path == "-" ? "standard output" : "`" + path + "`"), stop_(stop), buffer_(buffer_size) {
+  if (path == "-") {
+    descriptor_ = STDOUT_FILENO;
+  } else {
+    created_ = ::access(path.c_str(), F_OK) != 0;
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
+  }
+  // A stream of our own, because a plain one forgets why a write failed.
+  const cookie_io_functions_t functions{
+      .read = nullptr,
+      .write = [](void* self, const char* text,
+                  std::size_t size) { return static_cast<Output*>(self)->write(text, size); },
+      .seek = nullptr,
+      .close = nullptr,
+  };
+  file_ = ::fopencookie(this, "w", functions);
+  if (file_ == nullptr || std::setvbuf(file_, buffer_.data(), _IOFBF, buffer_.size()) != 0) {
+    throw std::system_error(errno, std::generic_category());
+  }
+}
+
+Output::~Output() { close(); }
+
+bool Output::is_terminal() const { return ::isatty(descriptor_) != 0; }
+
+long Output::write(const char* text, std::size_t size) {
+  if (error_ != 0) return 0;
+  if (!touched_) {
+    touched_ = true;
+    struct stat status {};
+    if (path_ != "-" && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
+        ::ftruncate(descriptor_, 0) != 0) {
+      error_ = errno;
+    }
+  }
+  std::size_t written = 0;
+  while (error_ == 0 && written < size) {
+    const ssize_t n = ::write(descriptor_, text + written, size - written);
+    if (n >= 0) {
+      written += static_cast<std::size_t>(n);
+    } else if (errno != EINTR) {
+      error_ = errno;
+    }
+  }
+  lines_ += std::count(text, text + written, '\n');
+  if (error_ != 0) stop_ = true;
+  return static_cast<long>(written);
+}
+
+int Output::close() {
+  if (file_ == nullptr) return error_;
+  std::fclose(file_);
+  file_ = nullptr;
+  // Some file systems report only here that the disk is full.
+  if (path_ != "-") {
+    if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
+    if (created_ && !touched_) ::unlink(path_.c_str());
+  }
+  return error_;
+}
+
+}  // namespace rheonet::tool

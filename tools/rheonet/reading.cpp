@@ -1,0 +1,24 @@
+#include "tools/rheonet/reading.hpp"
+
+#include "core/network/component.hpp"
+#include "tools/rheonet/library.hpp"
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+
+ReadResult read_and_report(const Arguments& arguments) {
+  ReadResult result =
+      read_scene(arguments.scene, declarations(),
+                 {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .library = library_folders()});
+  int errors = 0;
+  for (const Diagnostic& diagnostic : result.diagnostics) {
+    std::string text = format(diagnostic, result.sources);
+    if (!text.ends_with('\n')) text += '\n';
+    say("{}", text);
+    if (diagnostic.severity == Severity::error) ++errors;
+  }
+  if (errors > 1) say("{} errors\n", errors);
+  return result;
+}
+
+}  // namespace rheonet::tool

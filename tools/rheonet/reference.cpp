@@ -1,0 +1,190 @@
+#include "tools/rheonet/reference.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheonet::tool {
+namespace {
+
+/// A parameter in words, for both forms of the reference.
+struct Row {
+  std::string name, symbol, quantity, units, bounds, fallback, description;
+};
+
+std::string number(double x) { return fmt::format("{:g}", x); }
+
+const Parameter* find_parameter(const Declaration& declaration, const std::string& name) {
+  const auto found = std::find_if(declaration.parameters.begin(), declaration.parameters.end(),
+                                  [&name](const Parameter& p) { return p.name == name; });
+  return found == declaration.parameters.end() ? nullptr : &*found;
+}
+
+// A damping whose unit goes with a flow index is printed with the symbol of that index: N*(s/m)^n.
+std::string unit(const Parameter& parameter, const Declaration& declaration, Domain domain) {
+  const Parameter* index = find_parameter(declaration, parameter.flow_index);
+  if (index == nullptr) return unit_of(parameter.quantity, domain);
+  const std::string sample = "0.5";  // any index but 1, to have its exponent printed
+  std::string text = unit_of(parameter.quantity, domain, 0.5);
+  if (const std::size_t at = text.rfind(sample); at != std::string::npos) {
+    text.replace(at, sample.size(), index->symbol.empty() ? index->name : index->symbol);
+  }
+  return text;
+}
+
+std::string units(const Parameter& parameter, const Declaration& declaration) {
+  const std::string translation = unit(parameter, declaration, Domain::translation);
+  const std::string rotation = unit(parameter, declaration, Domain::rotation);
+  return translation == rotation ? translation : translation + " | " + rotation;
+}
+
+std::string quantity(const Parameter& parameter) {
+  const std::string translation = name_of(parameter.quantity, Domain::translation);
+  const std::string rotation = name_of(parameter.quantity, Domain::rotation);
+  return translation == rotation ? translation : translation + " | " + rotation;
+}
+
+std::string bounds(const Parameter& p) {
+  if (p.kind == Parameter::Kind::signal) return "a signal";
+  std::string text;
+  if (std::isinf(p.lower)) {
+    text = std::isinf(p.upper) ? "any" : "<= " + number(p.upper);
+  } else {
+    text = (p.lower_open ? "> " : ">= ") + number(p.lower);
+    if (!std::isinf(p.upper)) text += ", <= " + number(p.upper);
+  }
+  if (p.may_be_infinite) text += ", or inf";
+  return text;
+}
+
+std::string fallback(const Parameter& p, const Declaration& declaration) {
+  if (p.fallback) return number(*p.fallback);
+  if (!p.same_as.empty()) return p.same_as;
+  if (p.kind == Parameter::Kind::initial) return "not given";
+  const std::vector<std::string>& choice = declaration.one_of;
+  if (std::find(choice.begin(), choice.end(), p.name) != choice.end()) {
+    return fmt::format("one of {}", fmt::join(choice, ", "));
+  }
+  return "required";
+}
+
+Row row(const Parameter& p, const Declaration& declaration) {
+  return {
+      .name = p.rotational_name.empty() ? p.name : p.name + " | " + p.rotational_name,
+      .symbol = p.symbol,
+      .quantity = quantity(p),
+      .units = units(p, declaration),
+      .bounds = bounds(p),
+      .fallback = fallback(p, declaration),
+      .description = p.later.empty() ? p.description : p.description + " (refused for now: " + p.later + ")",
+  };
+}
+
+std::string ports(Declaration::Ports p) {
+  switch (p) {
+    case Declaration::Ports::between:
+      return "between = [a, b]";
+    case Declaration::Ports::at:
+      return "at = node";
+    case Declaration::Ports::at_or_between:
+      return "at = node, or between = [a, b]";
+  }
+  return "";
+}
+
+std::string becomes(const Limit& limit) { return limit.becomes.empty() ? "no force at all" : limit.becomes; }
+
+// Breaks a text into lines that leave room for the indent of what they explain.
+std::string wrapped(const std::string& text, std::size_t indent) {
+  constexpr std::size_t width = 100;
+  std::string result;
+  std::size_t column = indent;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (column > indent && column + 1 + word.size() > width) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    begin = end + 1;
+  }
+  return result;
+}
+
+// A bar would end the cell of a table.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text;
+}
+
+}  // namespace
+
+std::string as_text(const Component& component) {
+  const Declaration& d = component.declaration;
+  std::string text = d.type;
+  if (!d.rotational_type.empty()) text += " (in rotation also " + d.rotational_type + ")";
+  text += ": " + d.summary + "\n";
+  const auto line = [&text](const char* label, const std::string& value) {
+    if (!value.empty()) text += fmt::format("  {:<8}{}\n", label, wrapped(value, 10));
+  };
+  line("ports", ports(d.ports));
+  line("law", d.law);
+
+  const std::vector<std::string> titles = {"parameter", "symbol", "quantity", "unit", "value", "default"};
+  std::vector<std::vector<std::string>> table = {titles};
+  std::vector<std::string> descriptions = {""};
+  for (const Parameter& p : d.parameters) {
+    const Row r = row(p, d);
+    table.push_back({r.name, r.symbol, r.quantity, r.units, r.bounds, r.fallback});
+    descriptions.push_back(r.description);
+  }
+  std::vector<std::size_t> widths(titles.size());
+  for (const auto& cells : table) {
+    for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
+  }
+  for (std::size_t r = 0; r < table.size(); ++r) {
+    std::string cells = " ";
+    for (std::size_t i = 0; i < widths.size(); ++i) cells += fmt::format(" {:<{}} ", table[r][i], widths[i]);
+    text += cells.substr(0, cells.find_last_not_of(' ') + 1) + "\n";
+    if (!descriptions[r].empty()) text += "      " + wrapped(descriptions[r], 6) + "\n";
+  }
+
+  for (const Limit& limit : component.limits) line("limit", limit.when + ": " + becomes(limit));
+  line("notes", d.notes);
+  line("source", d.source);
+  return text;
+}
+
+std::string as_markdown(const std::vector<const Component*>& components) {
+  std::string text =
+      "<!-- generated by `rheonet components --markdown`: from here on nothing is written by hand -->\n\n"
+      "Where there are two units or names, the first is for `domain = \"translation\"`, the second for \"rotation\".\n";
+  for (const Component* component : components) {
+    const Declaration& d = component->declaration;
+    text += fmt::format("\n## `{}`{}\n\n{}\n\n", d.type,
+                        d.rotational_type.empty() ? "" : fmt::format(" (in rotation also `{}`)", d.rotational_type),
+                        d.summary);
+    text += fmt::format("    {}\n\n* Ports: `{}`\n", d.law, ports(d.ports));
+    for (const Limit& limit : component->limits) {
+      text +=
+          fmt::format("* {}: {}\n", limit.when, limit.becomes.empty() ? becomes(limit) : "a `" + becomes(limit) + "`");
+    }
+    if (!d.notes.empty()) text += fmt::format("* {}\n", d.notes);
+    if (!d.source.empty()) text += fmt::format("* Source: {}\n", d.source);
+    text += "\n| parameter | symbol | quantity | unit | value | default | |\n|---|---|---|---|---|---|---|\n";
+    for (const Parameter& p : d.parameters) {
+      const Row r = row(p, d);
+      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(r.name), cell(r.symbol), cell(r.quantity),
+                          cell(r.units), cell(r.bounds), cell(r.fallback), cell(r.description));
+    }
+  }
+  return text;
+}
+
+}  // namespace rheonet::tool

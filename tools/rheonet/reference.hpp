@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "core/network/component.hpp"
+
+namespace rheonet::tool {
+
+/// Everything that a user must know of an element type, as plain text for a terminal.
+std::string as_text(const Component& component);
+
+/// All element types as the generated part of components/README.md, its markers included.
+std::string as_markdown(const std::vector<const Component*>& components);
+
+}  // namespace rheonet::tool

@@ -1,0 +1,55 @@
+#include "tools/rheonet/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheonet::tool {
+namespace {
+
+std::string grouped(long n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t i = digits.size(); i > 3 + (n < 0 ? 1u : 0u); i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
+
+}  // namespace
+
+std::string in_time_units(double seconds) {
+  if (seconds < 1e-3) return fmt::format("{:.0f} us", seconds * 1e6);
+  if (seconds < 1) return fmt::format("{:#.3g} ms", seconds * 1e3);
+  if (seconds < 120) return fmt::format("{:#.3g} s", seconds);
+  const long whole = std::lround(seconds);
+  return fmt::format("{} min {} s", whole / 60, whole % 60);
+}
+
+std::string describe(const Summary& s, long rows, const std::string& destination) {
+  std::string text;
+  const auto line = [&text](const char* label, const std::string& value, const std::string& remark) {
+    text += fmt::format("  {:<22}{:>14}{}{}\n", label, value, remark.empty() ? "" : "  ", remark);
+  };
+  const auto energy = [&line](const char* label, double joules, const std::string& remark) {
+    line(label, fmt::format("{:.6g}", joules), "J" + remark);
+  };
+
+  line("rows", grouped(rows), "to " + destination);
+  line("unknowns", grouped(s.unknowns), s.sparse ? "sparse linear algebra (KLU)" : "dense linear algebra");
+  line("steps", grouped(s.steps), fmt::format("{} rejected", grouped(s.rejected_steps)));
+  line("residual evaluations", grouped(s.residual_evaluations), "");
+  line("Jacobian evaluations", grouped(s.jacobian_evaluations), "");
+  line("events", grouped(s.events), "reversals, yields, jumps and corners of signals");
+  line("restarts", grouped(s.restarts), "of the integrator");
+  line("wall time", in_time_units(s.wall_seconds), "");
+  line("CPU time", in_time_units(s.cpu_seconds), "");
+  energy("energy supplied", s.supplied, "");
+  energy("energy stored", s.stored, "  gained since the start");
+  energy("energy dissipated", s.dissipated, "");
+  const double largest = std::max({std::abs(s.supplied), std::abs(s.stored), std::abs(s.dissipated)});
+  energy("energy missing", s.missing,
+         largest > 0 ? fmt::format("  {:.1e} of the largest of these", std::abs(s.missing) / largest) : "");
+  for (const std::string& note : s.notes) text += fmt::format("  note: {}\n", note);
+  return text;
+}
+
+}  // namespace rheonet::tool

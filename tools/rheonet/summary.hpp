@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "core/result/run.hpp"
+
+namespace rheonet::tool {
+
+/// "812 us", "12.3 ms", "4.56 s", "3 min 20 s".
+std::string in_time_units(double seconds);
+
+/// What a run took and where the energy went, one line each, for a person to read.
+std::string describe(const Summary& summary, long rows, const std::string& destination);
+
+}  // namespace rheonet::tool
