@@ -50,4 +50,8 @@ std::string unit_of(Quantity quantity, Domain domain, double flow_index = 1);
 /// A dimension without a quantity, for error texts: "kg*m^2*s^-2".
 std::string to_string(Dimension dimension);
 
+/// The same in words, where it has a name: "a torque or an energy (N*m)". `radian` is the exponent of rad that came with
+/// it, which tells an angular velocity from a frequency.
+std::string describe(Dimension dimension, double radian = 0);
+
 }  // namespace rheonet

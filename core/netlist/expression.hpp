@@ -28,16 +28,19 @@ struct Environment {
   const Number* find(std::string_view name) const;
 };
 
-/// Evaluates "2*B", "sqrt(k*m)", "if"-style `a > b ? a : b`, ... with muParser; `pi` is known. The dimension of the result
+/// Evaluates "2*B", "sqrt(k*m)", "if"-style `a > b ? a : b`, ... with muParser; `pi` is known, and the functions sin, cos,
+/// tan, asin, acos, atan, atan2, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, log10, log2, sqrt, abs, floor, ceil,
+/// round, sign, min, max. The value is finite, unless a parameter is infinite. The dimension of the result
 /// follows from those of the parameters: adding metres to seconds, or the sine of a length, is an error. Unknown names are
 /// errors with the nearest name as hint.
 std::variant<Number, TextError> evaluate_expression(std::string_view text, const Environment& environment);
 
-/// A value as a string: "2 in*ozf" (a number, a space, a unit), "inf", or an expression.
+/// A value as a string: "10", "2 in*ozf" (a number, a space, a unit), "inf" (plain), or an expression.
 std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment);
 
-/// The SI value of `number` as `quantity`, or what is wrong with its dimension: "`stiffness` is a torque per angle
-/// (N*m/rad), but `2 mm` is a length (m)". A frequency given in rad/s or rpm is divided by 2 pi.
+/// The SI value of `number` as `quantity`, or what is wrong with its dimension: "expected a torsional stiffness (N*m/rad),
+/// found a length (m)". A frequency with one rad in its unit (rad/s, rpm) is divided by 2 pi; an angular velocity in Hz is
+/// refused, for want of knowing whether cycles or radians were meant.
 std::variant<double, TextError> as_quantity(const Number& number, Quantity quantity, Domain domain,
                                             double flow_index = 1);
 

@@ -64,3 +64,12 @@ TEST_CASE("a dimension prints as a product of base units") {
   CHECK(to_string({0, 0, 1}) == "s");
   CHECK(to_string({2.99999999999, 1e-12, 0}) == "m^3");
 }
+
+TEST_CASE("a dimension is described in words where it has a name") {
+  CHECK(describe({2, 1, -2}) == "a torque or an energy (N*m)");
+  CHECK(describe({2, 1, -2}, -1) == "a torsional stiffness (N*m/rad)");
+  CHECK(describe({0, 0, -1}, 1) == "an angular velocity (rad/s)");
+  CHECK(describe({0, 0, -1}) == "a frequency (1/s)");
+  CHECK(describe({1, 0, 0}, 1) == "a length (m)");
+  CHECK(describe({0.5, 1, -1.5}) == "a quantity in kg*m^0.5*s^-1.5");
+}

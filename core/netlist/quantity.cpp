@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/netlist/characters.hpp"
+#include "core/netlist/expression.hpp"
+
+namespace rheonet {
+
+namespace {
+
+using Result = std::variant<Number, TextError>;
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string_view without_spaces_before(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  return text;
+}
+
+/// A number at the start of a text, and what comes after it.
+struct Leading {
+  double value = 0;
+  bool in_range = true;
+  std::string_view number, rest;
+};
+
+std::optional<Leading> leading_number(std::string_view text) {
+  const std::size_t sign = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
+  // from_chars knows "inf" and "nan" too, but no plus.
+  const std::string_view digits = text.substr(sign);
+  if (digits.empty() || !(is_digit(digits[0]) || (digits.size() > 1 && digits[0] == '.' && is_digit(digits[1]))))
+    return {};
+  Leading leading;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), leading.value);
+  if (text[0] == '-') leading.value = -leading.value;
+  leading.in_range = error == std::errc{};
+  const auto length = static_cast<std::size_t>(end - text.data());
+  leading.number = text.substr(0, length);
+  leading.rest = text.substr(length);
+  return leading;
+}
+
+/// Whether what follows a number and a space is meant as a unit rather than as the rest of an expression.
+bool begins_unit(std::string_view rest) {
+  return !rest.empty() && std::string_view("+-*/^<>=!&|?:,.)").find(rest[0]) == std::string_view::npos;
+}
+
+/// A unit that is a fraction, such as ms, is 1/1000 and not 0.001: "1.1 ms" is then the double nearest to 0.0011.
+double multiplied(double value, double factor) {
+  const double inverse = std::round(1 / factor);
+  return factor < 1 && inverse * factor == 1 ? value / inverse : value * factor;
+}
+
+Result quantity(const Leading& leading, std::string_view unit_text, const Environment& environment) {
+  const auto parsed = parse_unit(unit_text);
+  if (const auto* unit = std::get_if<Unit>(&parsed))
+    return Number{multiplied(leading.value, unit->factor), unit->dimension, false, unit->radian, unit->hertz};
+  TextError error = std::get<TextError>(parsed);
+  // "2 B", where B is a parameter.
+  const std::string product = fmt::format("{}*{}", leading.number, unit_text);
+  if (std::holds_alternative<Number>(evaluate_expression(product, environment)))
+    error.hint = fmt::format("for a product with a parameter: `{}`", product);
+  else if (environment.find(unit_text.substr(0, unit_text.find_first_of(" */^()+-"))))
+    error.hint = "what follows a number and a space is a unit; a parameter is multiplied with `*`";
+  return error;
+}
+
+/// The hint for "1/3 m": an expression that would be one but for the unit at its end.
+std::string with_unit_at_end(std::string_view text, const Environment& environment) {
+  const std::size_t space = text.find_last_of(" \t");
+  if (space == text.npos) return "";
+  const std::string_view unit = text.substr(space + 1);
+  const auto value = evaluate_expression(text.substr(0, space), environment);
+  const auto* number = std::get_if<Number>(&value);
+  if (!number || !number->plain || !begins_unit(unit) || !std::holds_alternative<Unit>(parse_unit(unit))) return "";
+  return fmt::format("a quantity is one number, a space and a unit: \"{:.15g} {}\"", number->value, unit);
+}
+
+Result evaluate_trimmed(std::string_view text, const Environment& environment) {
+  const std::string_view magnitude = text.substr(text[0] == '-' || text[0] == '+' ? 1 : 0);
+  if (!environment.find(magnitude)) {
+    if (text == "inf" || text == "+inf") return Number{std::numeric_limits<double>::infinity(), {}};
+    if (magnitude == "inf") return TextError{0, "a value cannot be -infinity", "\"inf\" is the limit of a parameter"};
+    if (magnitude == "nan") return TextError{0, "a value cannot be \"nan\"", "give a number"};
+  }
+  const auto leading = leading_number(text);
+  if (leading) {
+    const std::string_view rest = without_spaces_before(leading->rest);
+    if (!leading->in_range && (rest.empty() || begins_unit(rest)))
+      return TextError{0, fmt::format("`{}` is beyond the range of numbers", leading->number), ""};
+    if (rest.empty()) return Number{leading->value, {}};
+    if (rest.size() < leading->rest.size() && begins_unit(rest)) {
+      Result result = quantity(*leading, rest, environment);
+      if (auto* error = std::get_if<TextError>(&result))
+        error->offset += count_characters(text.substr(0, text.size() - rest.size()));
+      return result;
+    }
+  }
+  Result result = evaluate_expression(text, environment);
+  if (auto* error = std::get_if<TextError>(&result)) {
+    std::string hint = with_unit_at_end(text, environment);
+    if (hint.empty() && leading && begins_unit(leading->rest) &&
+        std::holds_alternative<Unit>(parse_unit(leading->rest)))
+      hint = fmt::format("between a number and its unit stands a space: \"{} {}\"", leading->number, leading->rest);
+    if (!hint.empty()) error->hint = std::move(hint);
+  }
+  return result;
+}
+
+std::string with_article(const std::string& name) {
+  return (std::string_view("aeiou").find(name[0]) != std::string_view::npos ? "an " : "a ") + name;
+}
+
+/// What may have led to the wrong dimension.
+std::string hint_for(const Number& number, Quantity quantity, Domain domain, double flow_index) {
+  const bool rotation = domain == Domain::rotation;
+  const Domain other = rotation ? Domain::translation : Domain::rotation;
+  if (quantity == Quantity::damping && flow_index != 1 && number.dimension.same(dimension_of(quantity, domain)))
+    return fmt::format("with a flow index of {0:.12g}, force = damping * velocity^{0:.12g}", flow_index);
+  // An angle is a number: that one would fit says nothing of the domain.
+  const Dimension elsewhere = dimension_of(quantity, other, flow_index);
+  if (number.dimension.same(elsewhere) && !elsewhere.is_number())
+    return rotation ? "this scene is rotational (`domain = \"rotation\"`)"
+                    : "a rotational scene says so at its top: `domain = \"rotation\"`";
+  const Dimension acceleration{1, 0, -2};
+  if (number.dimension.same(dimension_of(quantity, domain, flow_index) * acceleration))
+    return "its weight is not its mass: `kg`, `lb` and `slug` are masses, `kgf` and `lbf` forces";
+  if ((number.dimension * acceleration).same(dimension_of(quantity, domain, flow_index)))
+    return "there is a mass in its unit where a force is needed: `kgf`, `lbf` and `N` are forces";
+  return "";
+}
+
+}  // namespace
+
+std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment) {
+  std::string_view trimmed = without_spaces_before(text);
+  const std::size_t before = text.size() - trimmed.size();
+  while (!trimmed.empty() && is_space(trimmed.back())) trimmed.remove_suffix(1);
+  if (trimmed.empty()) return TextError{0, "an empty text is no value", "give a number, a quantity or an expression"};
+  Result result = evaluate_trimmed(trimmed, environment);
+  if (auto* error = std::get_if<TextError>(&result)) error->offset += before;
+  return result;
+}
+
+std::variant<double, TextError> as_quantity(const Number& number, Quantity quantity, Domain domain, double flow_index) {
+  if (number.plain) return number.value;
+  const std::string unit = unit_of(quantity, domain, flow_index);
+  const std::string expected = quantity == Quantity::number
+                                   ? "a number without a unit"
+                                   : fmt::format("{} ({})", with_article(name_of(quantity, domain)), unit);
+  if (!number.dimension.same(dimension_of(quantity, domain, flow_index)))
+    return TextError{0, fmt::format("expected {}, found {}", expected, describe(number.dimension, number.radian)),
+                     hint_for(number, quantity, domain, flow_index)};
+  constexpr double tolerance = 1e-9;  // as for the exponents of a Dimension
+  const bool angular = std::abs(number.radian - 1) < tolerance;
+  if (quantity == Quantity::frequency && angular) return number.value / (2 * std::numbers::pi);
+  if (quantity == Quantity::velocity && domain == Domain::rotation && std::abs(number.radian) < tolerance &&
+      std::abs(number.hertz - 1) < tolerance)
+    return TextError{0, fmt::format("expected {}, found a frequency in Hz", expected),
+                     "write `rad/s`, `deg/s` or `rpm`; with a frequency f, `2*pi*f`"};
+  return number.value;
+}
+
+}  // namespace rheonet
