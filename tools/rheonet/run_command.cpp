@@ -27,7 +27,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 void stop_on_signals() {
   struct sigaction action {};
   action.sa_handler = [](int) { stop = true; };
-  action.sa_flags = SA_RESETHAND;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   // A reader that goes away is then an error of write, with a message, instead of a silent death.

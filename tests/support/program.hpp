@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace rheonet::test {
+
+/// What a process left behind.
+struct Finished {
+  int status = 0;  ///< exit status; 128 + n if signal n ended it
+  std::string out;
+  std::string err;
+};
+
+/// An empty folder that is gone, with all in it, when the test ends.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;  ///< "" if there is no such file
+  bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
+
+  /// Runs a shell command in the folder; `rheonet` in it is the program just built.
+  Finished shell(const std::string& command) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// The whole text of a file; fails the test if it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
+}  // namespace rheonet::test

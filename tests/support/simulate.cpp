@@ -1,0 +1,92 @@
+#include "tests/support/simulate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/netlist/read.hpp"
+#include "core/network/component.hpp"
+#include "core/result/run.hpp"
+
+namespace rheonet::test {
+namespace {
+
+// A folder of no project: a scene under test finds nothing beside itself.
+const char* const folder_of_text = "/nonexistent";
+
+std::string contents(std::FILE* file) {
+  std::string text;
+  char buffer[1 << 14];
+  std::rewind(file);
+  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, file)) > 0;) text.append(buffer, n);
+  return text;
+}
+
+Trajectory parse(const std::string& csv) {
+  Trajectory result;
+  std::istringstream lines(csv);
+  std::string line, cell;
+  std::getline(lines, line);
+  for (std::istringstream cells(line); std::getline(cells, cell, ',');) result.header.push_back(cell);
+  std::vector<std::vector<double>> columns(result.header.size());
+  while (std::getline(lines, line)) {
+    const char* next = line.c_str();
+    for (std::vector<double>& column : columns) {
+      char* end = nullptr;
+      column.push_back(std::strtod(next, &end));
+      if (end == next) throw std::runtime_error("not a row of numbers: " + line);
+      next = *end == ',' ? end + 1 : end;
+    }
+    if (*next != '\0') throw std::runtime_error("more cells than the header has: " + line);
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) result.columns[result.header[i]] = std::move(columns[i]);
+  return result;
+}
+
+}  // namespace
+
+const std::vector<double>& Trajectory::operator[](const std::string& name) const {
+  const auto found = columns.find(name);
+  REQUIRE_MESSAGE(found != columns.end(), "no column `" << name << "`");
+  return found->second;
+}
+
+double Trajectory::scale(const std::string& name) const {
+  double largest = 0;
+  for (double x : (*this)[name]) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+Trajectory simulate(const std::string& toml, double accuracy) {
+  ReadOptions options;
+  if (accuracy > 0) options.accuracy = accuracy;
+  options.library = {std::filesystem::path(RHEONET_SOURCE_DIR) / "netlists"};
+  const ReadResult read = read_scene_text(toml, "scene.toml", folder_of_text, declarations(), options);
+  if (!read.scene) {
+    std::string text;
+    for (const Diagnostic& diagnostic : read.diagnostics) text += format(diagnostic, read.sources) + "\n";
+    throw std::runtime_error(text);
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> csv(std::tmpfile(), &std::fclose);
+  if (!csv) throw std::runtime_error("no temporary file");
+  run(*read.scene, {.csv = csv.get(), .interrupt = nullptr, .progress = nullptr});
+  return parse(contents(csv.get()));
+}
+
+std::string refusal(const std::string& toml) {
+  try {
+    simulate(toml);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace rheonet::test

@@ -1,0 +1,82 @@
+#include <doctest/doctest.h>
+
+#include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
+
+using namespace rheonet::test;
+
+TEST_CASE("check says that a scene is right, and simulates nothing") {
+  const Folder folder;
+  folder.write("scene.toml", endless);
+  const Finished result = folder.shell("timeout 20 rheonet check scene.toml");
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  CHECK(contains(result.out, "scene.toml: no mistake found (2 elements, 1 node)"));
+}
+
+TEST_CASE("check -v prints the network in SI") {
+  const Folder folder;
+  folder.write("scene.toml", R"(title = "drum"
+domain = "rotation"
+[elements]
+drive = { type = "motion", at = "drum", velocity = { step = "60 rpm" } }
+c1 = { type = "dashpot", between = ["drum", "ground"], damping = "2 N*cm*s/rad" }
+[elements.pivot]
+between = ["drum", "ground"]
+series = [ { name = "k1", type = "spring", stiffness = 3 }, { type = "dashpot", damping = 4 } ]
+[simulate]
+stop = "200 ms"
+output = { points = 5 }
+)");
+  const Finished result = folder.shell("rheonet check -v scene.toml");
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  for (const char* part : {"drum (rotation)", "0 s to 0.2 s", "5 output times", "at drum  velocity(t)",
+                           "drum - ground  damping = 0.02 N*m*s/rad", "pivot.k1", "stiffness = 3 N*m/rad",
+                           "pivot.dashpot1", "assemblies:"}) {
+    CAPTURE(part);
+    CHECK(contains(result.out, part));
+  }
+}
+
+TEST_CASE("check finds what run would refuse, with the same status") {
+  const Folder folder;
+  folder.write("mistaken.toml", mistaken);
+  folder.write("contradictory.toml", contradictory);
+  const Finished two = folder.shell("rheonet check mistaken.toml");
+  CHECK(two.status == 2);
+  CHECK(two.err == folder.shell("rheonet run mistaken.toml").err);
+  CHECK(two.out == "");
+  const Finished one = folder.shell("rheonet check contradictory.toml");
+  CHECK(one.status == 1);
+  CHECK(contains(one.err, "left"));
+  CHECK(contains(one.err, "right"));
+  CHECK(folder.shell("rheonet check contradictory.toml --set right.at=other").status == 0);
+}
+
+TEST_CASE("models are included from the library: the one named by RHEONET_LIBRARY, or the one that comes along") {
+  const Folder folder;
+  folder.write("scene.toml", R"(include = ["library/rheology.toml"]
+[elements]
+drive = { type = "motion", at = "a", velocity = 1 }
+m1 = { type = "maxwell", between = ["a", "ground"] }
+[simulate]
+stop = 1
+output = { points = 5 }
+)");
+  CHECK(folder.shell("rheonet check scene.toml").status == 0);
+  CHECK(folder.shell("RHEONET_LIBRARY= rheonet check scene.toml").status == 0);
+  const Finished absent = folder.shell("RHEONET_LIBRARY=\"$PWD\" rheonet check scene.toml");
+  CHECK(absent.status == 2);
+  CHECK(contains(absent.err, "library/rheology.toml"));
+
+  folder.write("mine/library/rheology.toml", R"([models.maxwell]
+ports = ["a", "b"]
+[models.maxwell.elements]
+only = { type = "dashpot", between = ["a", "b"], damping = 7 }
+)");
+  const Finished own = folder.shell("RHEONET_LIBRARY=\"$PWD/mine\" rheonet check -v scene.toml");
+  CAPTURE(own.err);
+  CHECK(own.status == 0);
+  CHECK(contains(own.out, "m1.only"));
+}

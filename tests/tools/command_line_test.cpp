@@ -1,0 +1,90 @@
+#include <doctest/doctest.h>
+
+#include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
+
+using namespace rheonet::test;
+
+TEST_CASE("help and version go to standard output with status 0") {
+  const Folder folder;
+  for (const char* words : {"--help", "-h", "run --help", "check --help", "components --help", "schema --help"}) {
+    CAPTURE(words);
+    const Finished help = folder.shell(std::string("rheonet ") + words);
+    CHECK(help.status == 0);
+    CHECK(contains(help.out, "Usage: rheonet"));
+    CHECK(contains(help.out, "Exit status"));
+    CHECK(help.err == "");
+  }
+  for (const char* option : {"--set", "--accuracy", "--output", "--quiet"}) {
+    CHECK(contains(folder.shell("rheonet run --help").out, option));
+  }
+  const Finished version = folder.shell("rheonet --version");
+  CHECK(version.status == 0);
+  CHECK(version.out == "rheonet 0.1.0\n");
+}
+
+TEST_CASE("a wrong command line has status 2, an empty standard output, and says what would mend it") {
+  struct Case {
+    const char* words;
+    const char* message;
+    const char* hint;
+  };
+  const Case cases[] = {
+      {"", "no command given", "rheonet run SCENE"},
+      {"rnu scene.toml", "unknown command `rnu`", "did you mean `run`?"},
+      {"schemata", "unknown command `schemata`", "did you mean `schema`?"},
+      {"scene.toml", "unknown command `scene.toml`", "`rheonet run scene.toml`"},
+      {"--verison", "unknown option `--verison`", "did you mean `--version`?"},
+      {"run", "SCENE is required", "`rheonet run --help`"},
+      {"run scene.toml --acuracy 1e-3", "unknown option `--acuracy`", "did you mean `--accuracy`?"},
+      {"run --quite scene.toml", "unknown option `--quite`", "did you mean `--quiet`?"},
+      {"run scene.toml --ouput=out.csv", "unknown option `--ouput`", "did you mean `--output`?"},
+      {"run scene.toml -z", "unknown option `-z`", "`rheonet run --help`"},
+      {"run scene.toml other.toml", "unexpected argument `other.toml`", "`rheonet run --help`"},
+      {"run scene.toml --accuracy much", "`--accuracy` takes a number such as 1e-6, not `much`", ""},
+      {"run scene.toml --accuracy 1e-3x", "`--accuracy` takes a number such as 1e-6, not `1e-3x`", ""},
+      {"run scene.toml --accuracy", "--accuracy", "missing"},
+      {"run scene.toml -o", "--output", "missing"},
+      {"run scene.toml -o a.csv -o b.csv", "--output", ""},
+      {"check scene.toml run", "unexpected argument `run`", ""},
+      {"check scene.toml -o out.csv", "unknown option `-o`", "`rheonet check --help`"},
+      {"components spring mass", "unexpected argument `mass`", ""},
+      {"components sprong", "unknown element type `sprong`", "did you mean `spring`?"},
+      {"schema spring", "unexpected argument `spring`", ""},
+  };
+  const Folder folder;
+  folder.write("scene.toml", oscillator);
+  folder.write("other.toml", oscillator);
+  for (const Case& c : cases) {
+    CAPTURE(c.words);
+    const Finished result = folder.shell(std::string("rheonet ") + c.words);
+    CHECK(result.status == 2);
+    CHECK(result.out == "");
+    CAPTURE(result.err);
+    CHECK(result.err.starts_with("error: "));
+    CHECK(contains(result.err, c.message));
+    CHECK(contains(result.err, c.hint));
+  }
+}
+
+TEST_CASE("--set takes one value or several, before the scene or after it") {
+  const Folder folder;
+  folder.write("scene.toml", oscillator);
+  const std::string plain = folder.shell("rheonet run -q scene.toml").out;
+  const std::string expected =
+      folder.shell("rheonet run -q scene.toml --set k1.stiffness='\"300 N/m\"' --set simulate.stop=0.5").out;
+  CHECK(expected != plain);
+  CHECK(contains(expected, "\n0.5,"));
+  for (const char* words : {"--set k1.stiffness='\"300 N/m\"' simulate.stop=0.5 scene.toml",
+                            "--set=k1.stiffness='\"300 N/m\"' --set=simulate.stop=0.5 scene.toml",
+                            "--set k1.stiffness='\"300 N/m\"' scene.toml --set simulate.stop=0.5",
+                            "--set k1.stiffness='300 N/m' simulate.stop='0.5 s' -- scene.toml"}) {
+    CAPTURE(words);
+    const Finished result = folder.shell(std::string("rheonet run -q ") + words);
+    CHECK(result.status == 0);
+    CHECK(result.out == expected);
+  }
+  const Finished wrong = folder.shell("rheonet run scene.toml --set k1.stifness=3");
+  CHECK(wrong.status == 2);
+  CHECK(contains(wrong.err, "stiffness"));
+}

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# install.sh BUILD CMAKE COMPILER [FLAG...]: installs a build into an empty folder; there the program must find its library of
+# models, and another CMake project must build on librheonet, with a component of its own.
+set -euo pipefail
+build=$1 cmake=$2 compiler=$3
+shift 3
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+"$cmake" --install "$build" --prefix "$folder/prefix" >"$folder/install.log"
+
+mkdir "$folder/user"
+cd "$folder/user"
+# A model that only the installed library has tells it from that of the source tree.
+cat >>"$folder/prefix/share/rheonet/netlists/library/rheology.toml" <<'TOML'
+
+[models.only_installed]
+ports = ["a", "b"]
+[models.only_installed.elements]
+c1 = { type = "dashpot", between = ["a", "b"], damping = 1 }
+TOML
+cat >scene.toml <<'TOML'
+include = ["library/rheology.toml"]
+[elements]
+drive = { type = "motion", at = "a", velocity = 1 }
+m1 = { type = "only_installed", between = ["a", "ground"] }
+[simulate]
+stop = 1
+output = { points = 3 }
+TOML
+env -u RHEONET_LIBRARY "$folder/prefix/bin/rheonet" run -q scene.toml >/dev/null
+
+cat >CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+project(user LANGUAGES CXX)
+find_package(rheonet 0.1 REQUIRED)
+add_executable(user user.cpp)
+target_link_libraries(user PRIVATE rheonet::rheonet)
+CMAKE
+cat >user.cpp <<'CPP'
+#include <cstdio>
+
+#include "core/netlist/read.hpp"
+#include "core/network/component.hpp"
+#include "core/network/law_batch.hpp"
+#include "core/result/run.hpp"
+
+// f = k d^3, a law of this program's own.
+struct Cubic : rheonet::MemorylessLaw {
+  double k;
+  explicit Cubic(std::span<const double> v) : k(v[0]) {}
+  template <class T>
+  T force(const T& p) const {
+    return k * p * p * p;
+  }
+  double start(double d) const { return d; }
+  double stored_energy(double p) const { return k * p * p * p * p / 4; }
+  double dissipated_power(double, double) const { return 0; }
+};
+
+static const rheonet::RegisterComponent registered({
+    .declaration = {.type = "cubic", .parameters = {{.name = "k"}}},
+    .role = rheonet::Role::deflection,
+    .deflection = rheonet::deflection_batch<Cubic>,
+});
+
+int main() {
+  const rheonet::ReadResult read = rheonet::read_scene_text(R"([elements]
+drive = { type = "motion", at = "a", velocity = 2 }
+k1 = { type = "cubic", between = ["a", "ground"], k = 3 }
+[simulate]
+stop = 1
+output = { points = 2 }
+record = ["k1.force"]
+)", "text", ".", rheonet::declarations());
+  for (const rheonet::Diagnostic& d : read.diagnostics) std::puts(rheonet::format(d, read.sources).c_str());
+  if (!read.scene) return 1;
+  rheonet::run(*read.scene, {.csv = stdout});
+}
+CPP
+"$cmake" -S . -B build -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$*" \
+  -DCMAKE_BUILD_TYPE=Debug >build.log 2>&1 || { cat build.log; exit 1; }
+"$cmake" --build build >>build.log 2>&1 || { cat build.log; exit 1; }
+build/user >rows.csv || { cat rows.csv; exit 1; }
+grep -Eq '^1,(24|23\.9999|24\.0000)' rows.csv || { cat rows.csv; exit 1; }  # 3 (2 m)^3 = 24 N
+echo "installed, found and used"

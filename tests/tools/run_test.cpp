@@ -1,0 +1,188 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+
+#include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
+
+using namespace rheonet::test;
+
+namespace {
+
+std::size_t lines(const std::string& text) {
+  std::size_t n = 0;
+  for (char c : text) n += c == '\n' ? 1 : 0;
+  return n;
+}
+
+}  // namespace
+
+TEST_CASE("run writes the rows to standard output and the summary to standard error") {
+  const Folder folder;
+  folder.write("scene.toml", oscillator);
+  const Finished result = folder.shell("rheonet run scene.toml");
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+
+  std::istringstream rows(result.out);
+  std::string header;
+  std::getline(rows, header);
+  CHECK(header == "time,block.position,k1.force");
+  double t = 0, x = 0, f = 0;
+  char comma = 0;
+  int count = 0;
+  while (rows >> t >> comma >> x >> comma >> f) {
+    CHECK(t == doctest::Approx(0.1 * count).epsilon(1e-12));
+    CHECK(std::abs(x - 1e-3 * std::cos(10 * t)) < 1e-8);
+    CHECK(std::abs(f - 0.1 * std::cos(10 * t)) < 1e-6);
+    ++count;
+  }
+  CHECK(count == 11);
+
+  for (const char* part :
+       {"rows                             11", "unknowns", "dense", "steps", "rejected", "residual evaluations",
+        "Jacobian evaluations", "events", "restarts", "wall time", "CPU time", "energy supplied", "energy stored",
+        "energy dissipated", "energy missing", " J"}) {
+    CAPTURE(part);
+    CHECK(contains(result.err, part));
+  }
+  // Not a terminal: no bar.
+  CHECK_FALSE(contains(result.err, "\x1b"));
+  CHECK_FALSE(contains(result.err, "\r"));
+}
+
+TEST_CASE("-o writes the same rows to a file, `-o -` to standard output; -q says nothing") {
+  const Folder folder;
+  folder.write("scene.toml", oscillator);
+  const std::string expected = folder.shell("rheonet run -q scene.toml").out;
+  CHECK(lines(expected) == 12);
+  CHECK(folder.shell("rheonet run -q scene.toml -o -").out == expected);
+
+  folder.write("out.csv", std::string(100000, 'x'));
+  const Finished to_file = folder.shell("rheonet run --quiet scene.toml --output out.csv");
+  CHECK(to_file.status == 0);
+  CHECK(to_file.out == "");
+  CHECK(to_file.err == "");
+  CHECK(folder.read("out.csv") == expected);
+  CHECK(contains(folder.shell("rheonet run scene.toml -o out.csv").err, "to `out.csv`"));
+}
+
+TEST_CASE("--accuracy wins over the scene") {
+  const Folder folder;
+  folder.write("scene.toml", oscillator);
+  const std::string coarse = folder.shell("rheonet run -q scene.toml --accuracy 1e-2").out;
+  const std::string fine = folder.shell("rheonet run -q scene.toml --accuracy 1e-10").out;
+  const auto last = [](const std::string& csv) {
+    const std::size_t row = csv.rfind('\n', csv.size() - 2) + 1;
+    return std::strtod(csv.c_str() + csv.find(',', row) + 1, nullptr);
+  };
+  const double exact = 1e-3 * std::cos(10.0);
+  CHECK(std::abs(last(fine) - exact) < 1e-12);
+  CHECK(std::abs(last(coarse) - exact) > std::abs(last(fine) - exact));
+  for (const char* senseless : {"0", "-1e-6", "2", "nan", "inf", "1e-300"}) {
+    CAPTURE(senseless);
+    const Finished result = folder.shell(std::string("rheonet run scene.toml --accuracy ") + senseless);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, "accuracy"));
+    CHECK(result.out == "");
+  }
+}
+
+TEST_CASE("a scene with mistakes: status 2, all of them listed, earlier results untouched") {
+  const Folder folder;
+  folder.write("scene.toml", mistaken);
+  folder.write("out.csv", "earlier results\n");
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv");
+  CAPTURE(result.err);
+  CHECK(result.status == 2);
+  CHECK(contains(result.err, "scene.toml:2:"));
+  CHECK(contains(result.err, "did you mean `spring`?"));
+  CHECK(contains(result.err, "scene.toml:3:"));
+  CHECK(contains(result.err, "2 errors"));
+  CHECK(folder.read("out.csv") == "earlier results\n");
+  CHECK(folder.shell("rheonet run none.toml").status == 2);
+}
+
+TEST_CASE("a scene that cannot be simulated: status 1, elements named, earlier results untouched") {
+  const Folder folder;
+  folder.write("scene.toml", contradictory);
+  folder.write("out.csv", "earlier results\n");
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv");
+  CAPTURE(result.err);
+  CHECK(result.status == 1);
+  CHECK(result.err.starts_with("error: "));
+  CHECK(contains(result.err, "left"));
+  CHECK(contains(result.err, "right"));
+  CHECK(folder.read("out.csv") == "earlier results\n");
+  CHECK(folder.shell("rheonet run scene.toml -o new.csv").status == 1);
+  CHECK_FALSE(folder.has("new.csv"));
+}
+
+TEST_CASE("an output that cannot be opened is found before simulating") {
+  const Folder folder;
+  folder.write("scene.toml", endless);
+  for (const char* path : {"none/out.csv", "."}) {
+    CAPTURE(path);
+    const Finished result = folder.shell(std::string("timeout 20 rheonet run scene.toml -o ") + path);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, std::string("error: cannot write to `") + path + "`"));
+  }
+  for (const char* path : {"scene.toml", "./scene.toml", "link.toml"}) {
+    CAPTURE(path);
+    const Finished result = folder.shell(std::string("ln -sf scene.toml link.toml; rheonet run scene.toml -o ") + path);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, "would overwrite the scene"));
+    CHECK(folder.read("scene.toml") == endless);
+  }
+}
+
+TEST_CASE("a full disk and a reader that goes away stop the run") {
+  const Folder folder;
+  folder.write("scene.toml", endless);
+  const Finished full = folder.shell("timeout 60 rheonet run scene.toml -o /dev/full");
+  CHECK(full.status == 1);
+  CHECK(contains(full.err, "cannot write to `/dev/full`: No space left on device"));
+  const Finished piped = folder.shell("timeout 60 rheonet run scene.toml | head -n 3; exit ${PIPESTATUS[0]}");
+  CHECK(piped.status == 1);
+  CHECK(lines(piped.out) == 3);
+  CHECK(contains(piped.err, "cannot write to standard output: Broken pipe"));
+  folder.write("short.toml", oscillator);
+  CHECK(folder.shell("rheonet run short.toml -o /dev/full").status == 1);
+}
+
+TEST_CASE("an interrupted run keeps its rows and says so") {
+  const Folder folder;
+  folder.write("scene.toml", endless);
+  for (const char* signal : {"INT", "TERM"}) {
+    CAPTURE(signal);
+    const Finished result =
+        folder.shell(std::string("timeout --preserve-status -s ") + signal + " 1 rheonet run scene.toml -o out.csv");
+    CAPTURE(result.err);
+    CHECK(result.status == 1);
+    CHECK(contains(result.err, "interrupted"));
+    CHECK(contains(result.err, "rows up to there are in `out.csv`"));
+    const std::string rows = folder.read("out.csv");
+    CHECK(rows.starts_with("time,block.position\n0,0.001\n"));
+    CHECK(rows.ends_with("\n"));
+    CHECK(contains(result.err, "the " + std::to_string(lines(rows) - 1) + " rows"));
+  }
+}
+
+TEST_CASE("a long run shows its progress on a terminal and leaves no trace of it; a short one shows none") {
+  const Folder folder;
+  folder.write("scene.toml", endless);
+  folder.write("short.toml", oscillator);
+  const auto on_terminal = [&folder](const std::string& command) {
+    return folder.shell("script -qec '" + command + "' /dev/null").out;
+  };
+  const std::string bar = on_terminal("timeout --foreground -s INT 1.5 rheonet run scene.toml -o out.csv");
+  CAPTURE(bar);
+  CHECK(contains(bar, "\r["));
+  CHECK(contains(bar, "left"));
+  CHECK(contains(bar, "\r\x1b[Kerror: interrupted"));
+  CHECK_FALSE(contains(on_terminal("timeout --foreground -s INT 1.5 rheonet run -q scene.toml -o out.csv"), "\r["));
+  CHECK_FALSE(contains(on_terminal("timeout --foreground -s INT 1.5 rheonet run scene.toml"), "\r["));
+  CHECK_FALSE(contains(on_terminal("rheonet run short.toml -o out.csv"), "\x1b"));
+}
