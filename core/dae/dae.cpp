@@ -12,6 +12,10 @@ Dae::Dae(const Network& network, const Structure& structure, const std::vector<c
   number_unknowns();
   derive_positions(needed);
 
+  // All motions given: IDA still wants an equation. y' = 0 costs nothing.
+  idle_ = size_ == 0;
+  if (idle_) size_ = 1;
+
   for (const Structure::Loop& loop : structure.loops) add_row(ip_[at(loop.branch)], false, loop);
   for (std::size_t n = 0; n < nodes; ++n) {
     if (ix_[n] >= 0) add_row(ix_[n], true, minus_velocity(structure, static_cast<NodeId>(n)));
@@ -192,6 +196,8 @@ void Dae::build_pattern() {
       put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
     }
   }
+
+  if (idle_) put(0, 0, 0, 1);
 
   std::vector<int> entry;
   pattern_ = builder.build(size_, entry);

@@ -29,6 +29,8 @@ class Dae {
   Dae(const Network& network, const Structure& structure, const std::vector<char>& needed);
 
   int size() const { return size_; }
+  /// Number of quantities that are really unknown: 0 where every motion is given (size() is then 1).
+  int unknowns() const { return idle_ ? 0 : size_; }
   const Network& network() const { return *network_; }
   const Structure& structure() const { return *structure_; }
   Drive& drive() { return *drive_; }
@@ -75,6 +77,9 @@ class Dae {
   /// For messages: "the velocity of node `m`", "the deflection of `k1`".
   std::string describe(int unknown) const;
 
+  /// Slopes df/dp of all deflection branches at the state last viewed [N/m].
+  const std::vector<double>& slopes();
+
   /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed.
   double supplied_power() const;
   double dissipated_power() const;
@@ -85,6 +90,8 @@ class Dae {
   const DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   /// What a motion applies to its node [N] in the state last viewed.
   double reaction(NodeId node) const;
+  /// What force number `index` of the network applies [N] in the state last viewed.
+  double applied_force(int index) const { return drive_->force[at(index)]; }
   /// Acceleration of a known node [m/s^2] (0 for others) in the state last viewed.
   double known_acceleration(NodeId node) const { return a_[at(node)]; }
 
@@ -108,6 +115,7 @@ class Dae {
   const Structure* structure_;
   std::unique_ptr<Drive> drive_;
   int size_ = 0;
+  bool idle_ = false;
   std::vector<int> iv_, ip_, if_, ix_;
   std::vector<Row> rows_;
   std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes

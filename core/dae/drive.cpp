@@ -62,6 +62,43 @@ void Drive::evaluate(double t) {
   }
 }
 
+Drive::Flow Drive::flow(int a, int b, double t, double limit) const {
+  Flow result{0, 0, 0};
+  const auto add = [&](int i, double sign) {
+    if (i < 0) return;
+    const Motion& m = motions_[static_cast<std::size_t>(i)];
+    const Piece& p = m.piece;
+    result.w += sign * (m.by_position ? p.rate(t) : p.value(t));
+    result.dw += sign * (m.by_position ? p.curvature(t) : p.rate(t));
+    const double spin = std::abs(p.omega) + std::abs(p.chirp) * (std::abs(limit - p.origin) + std::abs(t - p.origin));
+    const double bend = std::abs(p.amplitude) * (spin * spin + std::abs(p.chirp));
+    result.bound += m.by_position ? bend * spin + 3 * std::abs(p.amplitude * p.chirp) * spin : bend;
+  };
+  add(a, 1);
+  add(b, -1);
+  return result;
+}
+
+double Drive::next_reversal(int a, int b, double t, double limit) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(limit) || limit <= t) return never;
+  const double grain = 1e-14 * (std::abs(t) + std::abs(limit)) + 1e-13 * (limit - t);
+  double side = 0;
+  for (double now = t; now < limit;) {
+    const Flow f = flow(a, b, now, limit);
+    const double sign = f.w > 0 ? 1 : f.w < 0 ? -1 : 0;
+    if (side * sign < 0 && now - t > 2 * grain) return now;
+    if (sign != 0) side = sign;
+    // |w| falls at most as fast as |w| - fall tau - bound tau^2/2: it is safe to go on to where that is 0.
+    const double fall = std::max(0.0, -side * f.dw);
+    const double root = std::sqrt(fall * fall + 2 * f.bound * std::abs(f.w));
+    double stride = fall + root > 0 ? 2 * std::abs(f.w) / (fall + root) : never;
+    if (sign == 0 && now > t) stride = 1e-3 * (limit - t);  // resting: two equal motions
+    now += std::max(stride, grain);
+  }
+  return never;
+}
+
 double Drive::fastest() const {
   double omega = 0;
   const auto look = [&](const Piece& p) {

@@ -29,6 +29,10 @@ class Drive {
   // For each force:
   std::vector<double> force, force_rate;
 
+  /// The next instant after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its
+  /// sign (-1: ground); infinite if there is none. No crossing is missed, however short the time to the next one.
+  double next_reversal(int a, int b, double t, double limit) const;
+
   /// Largest angular frequency of the present stretches [rad/s]: 0 if nothing oscillates.
   double fastest() const;
 
@@ -41,6 +45,8 @@ class Drive {
   };
   struct Force { Signal signal; Piece piece; };
   double position_of(const Motion& m, double t) const;
+  struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
+  Flow flow(int a, int b, double t, double limit) const;
 
   std::vector<Motion> motions_;
   std::vector<Force> forces_;

@@ -64,6 +64,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   }
   sum_forces();
 
+  if (idle_) r[0] = yp[0];
   for (std::size_t n = 0; n < iv_.size(); ++n) {
     if (iv_[n] >= 0) r[iv_[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[iv_[n]];
   }
@@ -189,6 +190,14 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     }
   }
   return view_;
+}
+
+const std::vector<double>& Dae::slopes() {
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&view_.p[k], &view_.f[k], &df_[k], &view_.creep[k], &dc_[k]);
+  }
+  return df_;
 }
 
 double Dae::reaction(NodeId node) const {

@@ -1,0 +1,137 @@
+#include "core/result/channels.hpp"
+
+#include <algorithm>
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The ends between which a record measures a displacement or a velocity.
+struct Ends { NodeId a, b; };
+
+Ends ends_of(const Scene& scene, const Record& record) {
+  switch (record.subject) {
+    case Record::Subject::node:
+      return {record.index, ground};
+    case Record::Subject::element:
+      return {scene.elements[at(record.index)].a, scene.elements[at(record.index)].b};
+    case Record::Subject::assembly:
+      break;
+  }
+  return {scene.assemblies[at(record.index)].a, scene.assemblies[at(record.index)].b};
+}
+
+bool own_displacement(const Network& network, const Record& record) {
+  if (record.subject != Record::Subject::element) return false;
+  const Network::Place& place = network.places[at(record.index)];
+  if (place.role != Role::deflection) return false;
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    const int i = place.index - laws.first;
+    if (i >= 0 && i < static_cast<int>(laws.batch->size())) return !laws.batch->creeps(at(i));
+  }
+  return false;
+}
+
+bool is_place(const Record& record) {
+  return record.channel == Record::Channel::position || record.channel == Record::Channel::displacement;
+}
+
+}  // namespace
+
+std::vector<char> needed_positions(const Network& network) {
+  std::vector<char> needed(network.scene->nodes.size(), 0);
+  for (const Record& record : network.scene->records) {
+    if (!is_place(record) || own_displacement(network, record)) continue;
+    const Ends ends = ends_of(*network.scene, record);
+    needed[at(ends.a)] = needed[at(ends.b)] = 1;
+  }
+  return needed;
+}
+
+Channels::Channels(Dae& dae) : dae_(dae), scene_(*dae.network().scene), consistency_(dae), row_(scene_.records.size()) {
+  const auto floating = [&](NodeId node) { return dae.structure().kind[at(node)] == Kind::floating; };
+  for (const Record& record : scene_.records) {
+    if (record.channel != Record::Channel::velocity) continue;
+    const Ends ends = ends_of(scene_, record);
+    rates_needed_ = rates_needed_ || floating(ends.a) || floating(ends.b);
+  }
+}
+
+double Channels::element_force(int element, const Dae::View& view) const {
+  const Network& network = dae_.network();
+  const Structure& structure = dae_.structure();
+  const Network::Place& place = network.places[at(element)];
+  switch (place.role) {
+    case Role::deflection:
+      return view.f[at(place.index)];
+    case Role::rate:
+      return view.rate_force[at(place.index)];
+    case Role::mass: {
+      const Network::Mass& m = network.masses[at(place.index)];
+      if (m.node == ground) return 0;
+      if (structure.kind[at(m.node)] == Kind::known) return m.mass * dae_.known_acceleration(m.node);
+      // Each mass at a node takes its share of what is left of the forces there.
+      return (view.applied[at(m.node)] - view.nodal[at(m.node)]) * (m.mass / structure.mass[at(m.node)]);
+    }
+    case Role::motion:
+      return dae_.reaction(network.motions[at(place.index)].node);
+    case Role::force:
+      return dae_.applied_force(place.index);
+    case Role::nothing:
+      break;
+  }
+  return 0;
+}
+
+double Channels::displacement(const Record& record, const Dae::View& view) const {
+  if (own_displacement(dae_.network(), record)) return dae_.displacement(dae_.network().places[at(record.index)].index);
+  const Ends ends = ends_of(scene_, record);
+  return view.position[at(ends.a)] - view.position[at(ends.b)];
+}
+
+double Channels::velocity(const Record& record, const Dae::View& view) const {
+  if (record.subject == Record::Subject::element) {
+    const Network::Place& place = dae_.network().places[at(record.index)];
+    if (place.role == Role::deflection) return view.flow[at(place.index)];
+    if (place.role == Role::rate) return view.rate_velocity[at(place.index)];
+  }
+  const Ends ends = ends_of(scene_, record);
+  return view.velocity[at(ends.a)] - view.velocity[at(ends.b)];
+}
+
+const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
+                                          bool exact) {
+  const std::vector<double>* rates = &yp;
+  if (rates_needed_ && !exact) {
+    consistency_.derivative(t, y, yp_);
+    rates = &yp_;
+  }
+  const Dae::View& view = dae_.view(t, y.data(), rates->data());
+  for (std::size_t k = 0; k < row_.size(); ++k) {
+    const Record& record = scene_.records[k];
+    switch (record.channel) {
+      case Record::Channel::position:
+      case Record::Channel::displacement:
+        row_[k] = displacement(record, view);
+        break;
+      case Record::Channel::velocity:
+        row_[k] = velocity(record, view);
+        break;
+      case Record::Channel::force:
+        row_[k] = 0;
+        if (record.subject == Record::Subject::element) {
+          row_[k] = element_force(record.index, view);
+        } else {
+          for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force) {
+            row_[k] += term.sign * element_force(term.element, view);
+          }
+        }
+        break;
+    }
+  }
+  return row_;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dae/consistency.hpp"
+#include "core/dae/dae.hpp"
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+/// For each node whether its position is needed to answer the scene's records.
+std::vector<char> needed_positions(const Network& network);
+
+/// Takes the records of a scene from states of its DAE.
+class Channels {
+ public:
+  explicit Channels(Dae& dae);
+
+  /// One value a record, SI. `exact` says that yp is the derivative of a consistent state; else it comes from the
+  /// integrator's polynomial, and velocities of massless nodes that follow from it are computed anew.
+  const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
+
+ private:
+  double element_force(int element, const Dae::View& view) const;
+  double displacement(const Record& record, const Dae::View& view) const;
+  double velocity(const Record& record, const Dae::View& view) const;
+
+  Dae& dae_;
+  const Scene& scene_;
+  Consistency consistency_;
+  bool rates_needed_ = false;  ///< a record needs y' of a floating node
+  std::vector<double> yp_, row_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dae/dae.hpp"
+#include "core/solve/integrator.hpp"
+
+namespace rheonet {
+
+/// The energy account of a run: power integrated over each step from the integrator's polynomial, by the 4-point Lobatto
+/// rule; where a branch is driven on both sides (steps are then longer than what happens in it) by its adaptive 7-point
+/// Kronrod extension (Gander and Gautschi, BIT 40 (2000) 84).
+class EnergyAccount {
+ public:
+  /// `tolerance` is relative to the largest energy so far.
+  EnergyAccount(Dae& dae, double tolerance);
+
+  /// Just after the start or an event. What is stored more than before was supplied in that instant, with the heat.
+  void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat);
+  void step(const Integrator& integrator);
+
+  double supplied() const { return sum_.supplied; }
+  double dissipated() const { return sum_.dissipated; }
+  double stored() const { return stored_ - stored_at_start_; }
+  double missing() const { return supplied() - stored() - dissipated(); }
+
+ private:
+  struct Power { double supplied = 0, dissipated = 0; };
+  Power power(const Integrator& integrator, double t);
+  Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
+
+  Dae& dae_;
+  double tolerance_;
+  bool adaptive_;
+  bool begun_ = false;
+  Power sum_;
+  double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
+  std::vector<double> y_, yp_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,157 @@
+#include "core/result/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include "core/network/network.hpp"
+#include "core/network/structure.hpp"
+#include "core/result/channels.hpp"
+#include "core/result/csv.hpp"
+#include "core/result/energy.hpp"
+#include "core/solve/simulation.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// Writes the rows: at output times by interpolation; where an event falls on one, the state just after it.
+class Recorder final : public Observer {
+ public:
+  Recorder(Dae& dae, std::FILE* csv)
+      : scene_(*dae.network().scene), channels_(dae), csv_(csv), energy_(dae, scene_.accuracy * 0.01) {
+    std::vector<std::string> names;
+    for (const Record& record : scene_.records) names.push_back(record.path);
+    csv_.header(names);
+  }
+
+  void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) override {
+    energy_.begin(t, y, yp, heat);
+    if (pending_event_) write(t, channels_.read(t, y, yp, true));
+    pending_event_ = false;
+    for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack(); ++next_) {
+      write(row_time(next_), channels_.read(t, y, yp, true));
+    }
+  }
+
+  void step(const Integrator& integrator) override {
+    energy_.step(integrator);
+    const double until = integrator.time() - slack();
+    for (; next_ <= scene_.output_intervals && row_time(next_) < until; ++next_) {
+      // An output time may lie by its rounding before the step.
+      const double t = std::max(row_time(next_), integrator.previous_time());
+      integrator.interpolate(t, 0, y_);
+      integrator.interpolate(t, 1, yp_);
+      write(row_time(next_), channels_.read(t, y_, yp_, false));
+    }
+    last_ = &integrator;
+    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), false);
+  }
+
+  void event(double t, int, const char*) override {
+    if (!scene_.output_events || pending_event_) return;
+    write(t, before_);
+    pending_event_ = true;
+  }
+
+  void end(double) override {
+    for (; next_ <= scene_.output_intervals; ++next_) {
+      write(row_time(next_), channels_.read(last_->time(), last_->y(), last_->yp(), false));
+    }
+  }
+
+  void flush() { csv_.flush(); }
+  const EnergyAccount& energy() const { return energy_; }
+
+ private:
+  double row_time(std::int64_t k) const {
+    // The last row stands at the stop itself, not at its rounding.
+    const double t = scene_.start + static_cast<double>(k) * scene_.output_every;
+    return std::abs(t - scene_.stop) <= 1e-9 * scene_.output_every ? scene_.stop : t;
+  }
+  /// An event this close to an output time is at it.
+  double slack() const { return 1e-9 * scene_.output_every; }
+
+  void write(double t, const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (std::isfinite(values[k])) continue;
+      throw SimulationError(
+          fmt::format("at t = {:.6g} s `{}` has no finite value; check the elements around it", t, scene_.records[k].path));
+    }
+    csv_.row(t, values);
+  }
+
+  const Scene& scene_;
+  Channels channels_;
+  CsvWriter csv_;
+  EnergyAccount energy_;
+  std::int64_t next_ = 0;
+  bool pending_event_ = false;
+  const Integrator* last_ = nullptr;
+  std::vector<double> y_, yp_, before_;
+};
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+Summary run(const Scene& scene, const RunSettings& settings) {
+  const auto wall = std::chrono::steady_clock::now();
+  const double cpu = cpu_seconds();
+  const Network network = build_network(scene);
+  const Structure structure = analyse(network);
+  Dae dae(network, structure, needed_positions(network));
+  Recorder recorder(dae, settings.csv);
+  SimulationStatistics statistics;
+  try {
+    statistics = simulate(dae,
+                          {.start = scene.start,
+                           .stop = scene.stop,
+                           .accuracy = scene.accuracy,
+                           .interrupt = settings.interrupt,
+                           .progress = settings.progress},
+                          recorder);
+  } catch (...) {
+    recorder.flush();
+    throw;
+  }
+  recorder.flush();
+
+  Summary summary;
+  summary.unknowns = dae.unknowns();
+  summary.sparse = statistics.integrator.sparse;
+  summary.steps = statistics.integrator.steps;
+  summary.rejected_steps = statistics.integrator.rejected;
+  summary.residual_evaluations = statistics.integrator.residuals;
+  summary.jacobian_evaluations = statistics.integrator.jacobians;
+  summary.restarts = statistics.integrator.restarts;
+  summary.events = statistics.events;
+  summary.supplied = recorder.energy().supplied();
+  summary.stored = recorder.energy().stored();
+  summary.dissipated = recorder.energy().dissipated();
+  summary.missing = recorder.energy().missing();
+  summary.notes = network.notes;
+  summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());
+  summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  summary.cpu_seconds = cpu_seconds() - cpu;
+  return summary;
+}
+
+std::vector<std::string> check(const Scene& scene) {
+  const Network network = build_network(scene);
+  const Structure structure = analyse(network);
+  Dae dae(network, structure, needed_positions(network));
+  std::vector<double> y, yp;
+  dae.initial(scene.start, y);
+  Consistency consistency(dae);
+  dae.drive().enter(scene.start);
+  const Consistency::Jump jump = consistency.jump(scene.start, y);
+  consistency.derivative(scene.start, y, yp);
+  std::vector<std::string> notes = network.notes;
+  notes.insert(notes.end(), jump.notes.begin(), jump.notes.end());
+  return notes;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,223 @@
+#include "core/solve/integrator.hpp"
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Measured on chains of masses, springs and dashpots: see tools/bench/README.md.
+constexpr int dense_limit = 16;
+
+void require(int flag, const char* call) {
+  if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));
+}
+
+}  // namespace
+
+struct Integrator::Implementation {
+  Dae& dae;
+  EventFunctions& event_functions;
+  const std::vector<double>& tolerance;
+  SUNContext context = nullptr;
+  std::vector<double> y, yp, work, values;
+  N_Vector ny = nullptr, np = nullptr, nw = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver linear = nullptr;
+  void* ida = nullptr;
+  double time = 0, previous = 0;
+  std::vector<int> fired;
+  Statistics past;  // of the stretches before the last restart
+  bool started = false;
+
+  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol)
+      : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y) {
+    const sunindextype n = dae.size();
+    require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+    ny = N_VMake_Serial(n, y.data(), context);
+    np = N_VMake_Serial(n, yp.data(), context);
+    nw = N_VMake_Serial(n, work.data(), context);
+    ida = IDACreate(context);
+    require(IDAInit(ida, residual, 0, ny, np), "IDAInit");
+    require(IDASetUserData(ida, this), "IDASetUserData");
+    require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
+    require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
+    past.sparse = n > dense_limit;
+    if (past.sparse) {
+      matrix = SUNSparseMatrix(n, n, dae.pattern().entries(), CSC_MAT, context);
+      linear = SUNLinSol_KLU(ny, matrix, context);
+    } else {
+      values.resize(at(dae.pattern().entries()));
+      matrix = SUNDenseMatrix(n, n, context);
+      linear = SUNLinSol_Dense(ny, matrix, context);
+    }
+    require(IDASetLinearSolver(ida, linear, matrix), "IDASetLinearSolver");
+    require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
+    require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
+    fired.assign(at(event_functions.count()), 0);
+    if (!fired.empty()) {
+      require(IDARootInit(ida, event_functions.count(), roots), "IDARootInit");
+      std::vector<int> falling(fired.size(), -1);
+      require(IDASetRootDirection(ida, falling.data()), "IDASetRootDirection");
+      require(IDASetNoInactiveRootWarn(ida), "IDASetNoInactiveRootWarn");
+    }
+  }
+
+  ~Implementation() {
+    IDAFree(&ida);
+    SUNLinSolFree(linear);
+    SUNMatDestroy(matrix);
+    N_VDestroy(nw);
+    N_VDestroy(np);
+    N_VDestroy(ny);
+    SUNContext_Free(&context);
+  }
+
+  static double* data(N_Vector v) { return N_VGetArrayPointer(v); }
+
+  static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
+    static_cast<Implementation*>(user)->dae.residual(t, data(y), data(yp), data(r));
+    const double* values = data(r);
+    const sunindextype n = N_VGetLength(r);
+    // A trial value out of a law's range: IDA tries a smaller step.
+    for (sunindextype i = 0; i < n; ++i) {
+      if (!std::isfinite(values[i])) return 1;
+    }
+    return 0;
+  }
+
+  static int jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
+                      N_Vector) {
+    auto& self = *static_cast<Implementation*>(user);
+    const Pattern& pattern = self.dae.pattern();
+    if (self.past.sparse) {
+      sunindextype* start = SUNSparseMatrix_IndexPointers(J);
+      std::copy(pattern.column_start.begin(), pattern.column_start.end(), start);
+      std::copy(pattern.row.begin(), pattern.row.end(), SUNSparseMatrix_IndexValues(J));
+      self.dae.jacobian(t, cj, data(y), data(yp), SUNSparseMatrix_Data(J));
+      return 0;
+    }
+    self.dae.jacobian(t, cj, data(y), data(yp), self.values.data());
+    for (int c = 0; c < pattern.size; ++c) {
+      double* column = SUNDenseMatrix_Column(J, c);
+      for (int e = pattern.column_start[at(c)]; e < pattern.column_start[at(c) + 1]; ++e) {
+        column[pattern.row[at(e)]] = self.values[at(e)];
+      }
+    }
+    return 0;
+  }
+
+  static int weights(N_Vector, N_Vector w, void* user) {
+    const auto& self = *static_cast<Implementation*>(user);
+    double* out = data(w);
+    for (std::size_t i = 0; i < self.tolerance.size(); ++i) out[i] = 1 / self.tolerance[i];
+    return 0;
+  }
+
+  static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
+    static_cast<Implementation*>(user)->event_functions.evaluate(t, data(y), data(yp), g);
+    return 0;
+  }
+
+  Statistics present() const {
+    Statistics s;
+    long solver_failures = 0;
+    IDAGetNumSteps(ida, &s.steps);
+    IDAGetNumErrTestFails(ida, &s.rejected);
+    IDAGetNumNonlinSolvConvFails(ida, &solver_failures);
+    IDAGetNumResEvals(ida, &s.residuals);
+    IDAGetNumJacEvals(ida, &s.jacobians);
+    s.rejected += solver_failures;
+    return s;
+  }
+};
+
+Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance)
+    : impl_(std::make_unique<Implementation>(dae, events, tolerance)) {}
+
+Integrator::~Integrator() = default;
+
+void Integrator::restart(double t, const std::vector<double>& y, const std::vector<double>& yp, double h, double stop) {
+  Implementation& s = *impl_;
+  const Statistics sum = statistics();
+  s.past = {sum.steps, sum.rejected, sum.residuals, sum.jacobians, sum.restarts + 1, sum.sparse};
+  s.y = y;
+  s.yp = yp;
+  s.time = s.previous = t;
+  require(IDAReInit(s.ida, t, s.ny, s.np), "IDAReInit");
+  require(IDASetInitStep(s.ida, h), "IDASetInitStep");
+  require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
+  s.started = true;
+}
+
+Integrator::Outcome Integrator::step() {
+  Implementation& s = *impl_;
+  s.previous = s.time;
+  double reached = s.time;
+  const int flag = IDASolve(s.ida, s.time + 1, &reached, s.ny, s.np, IDA_ONE_STEP);
+  if (flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN || flag == IDA_ROOT_RETURN) s.time = reached;
+  switch (flag) {
+    case IDA_SUCCESS:
+      return Outcome::step;
+    case IDA_TSTOP_RETURN:
+      return Outcome::stop;
+    case IDA_ROOT_RETURN:
+      require(IDAGetRootInfo(s.ida, s.fired.data()), "IDAGetRootInfo");
+      return Outcome::event;
+    case IDA_LSETUP_FAIL:
+    case IDA_LSOLVE_FAIL:
+      return Outcome::singular;
+    default:
+      return Outcome::stuck;
+  }
+}
+
+double Integrator::time() const { return impl_->time; }
+double Integrator::previous_time() const { return impl_->previous; }
+const std::vector<double>& Integrator::y() const { return impl_->y; }
+const std::vector<double>& Integrator::yp() const { return impl_->yp; }
+const std::vector<int>& Integrator::events() const { return impl_->fired; }
+
+void Integrator::interpolate(double t, int derivative, std::vector<double>& out) const {
+  require(IDAGetDky(impl_->ida, t, derivative, impl_->nw), "IDAGetDky");
+  out = impl_->work;
+}
+
+int Integrator::worst_unknown() const {
+  if (IDAGetEstLocalErrors(impl_->ida, impl_->nw) < 0) return -1;
+  int worst = -1;
+  double largest = 0;
+  for (std::size_t i = 0; i < impl_->work.size(); ++i) {
+    const double error = std::abs(impl_->work[i]) / impl_->tolerance[i];
+    if (error > largest) {
+      largest = error;
+      worst = static_cast<int>(i);
+    }
+  }
+  return worst;
+}
+
+Integrator::Statistics Integrator::statistics() const {
+  Statistics total = impl_->past;
+  if (!impl_->started) return total;
+  const Statistics now = impl_->present();
+  total.steps += now.steps;
+  total.rejected += now.rejected;
+  total.residuals += now.residuals;
+  total.jacobians += now.jacobians;
+  return total;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/dae/dae.hpp"
+
+namespace rheonet {
+
+/// Event functions along a trajectory: an event is one of them going from positive to negative.
+class EventFunctions {
+ public:
+  virtual ~EventFunctions() = default;
+  virtual int count() const = 0;
+  virtual void evaluate(double t, const double* y, const double* yp, double* g) = 0;
+};
+
+/// SUNDIALS IDA: variable-order, variable-step BDF in the form of Hindmarsh et al., ACM TOMS 31 (2005) 363. One step at a
+/// time; output never changes the steps.
+class Integrator {
+ public:
+  enum class Outcome {
+    step,      ///< one step further
+    event,     ///< at an event; see events()
+    stop,      ///< at the stop time
+    stuck,     ///< no step however small meets the tolerance, or its equations cannot be solved
+    singular,  ///< the equations have no unique solution here
+  };
+
+  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step.
+  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance);
+  ~Integrator();
+
+  /// Starts afresh at t from a consistent state. The first step is h.
+  void restart(double t, const std::vector<double>& y, const std::vector<double>& yp, double h, double stop);
+  Outcome step();
+
+  double time() const;
+  double previous_time() const;  ///< where the last step began
+  const std::vector<double>& y() const;
+  const std::vector<double>& yp() const;
+  /// After an event: for each event function whether it fired.
+  const std::vector<int>& events() const;
+  /// The solution (derivative 0) or its time derivative (1) within the last step.
+  void interpolate(double t, int derivative, std::vector<double>& out) const;
+  /// The unknown with the largest error estimate relative to its tolerance in the last attempted step.
+  int worst_unknown() const;
+
+  struct Statistics {
+    long steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;
+    bool sparse = false;
+  };
+  Statistics statistics() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> impl_;
+};
+
+}  // namespace rheonet

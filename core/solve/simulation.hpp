@@ -1,0 +1,47 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/dae/consistency.hpp"
+#include "core/dae/dae.hpp"
+#include "core/solve/integrator.hpp"
+#include "core/solve/tolerances.hpp"
+
+namespace rheonet {
+
+/// Receives a trajectory as it comes.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// A consistent state just after the start or an event; y' belongs to it. `heat` was released at that instant [J].
+  virtual void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) = 0;
+  /// A step from integrator.previous_time() to integrator.time(). It may be interpolated. Memories of the laws are still
+  /// those of the step, also where it ends in an event.
+  virtual void step(const Integrator& integrator) = 0;
+  /// An event at the end of the last step; `begin` follows.
+  virtual void event(double t, int element, const char* what) = 0;
+  /// The end of the run.
+  virtual void end(double t) = 0;
+};
+
+struct SimulationSettings {
+  double start = 0;
+  double stop = 1;
+  double accuracy = 1e-6;
+  const std::atomic<bool>* interrupt = nullptr;
+  std::function<void(double fraction)> progress;
+};
+
+struct SimulationStatistics {
+  Integrator::Statistics integrator;
+  long events = 0;
+  std::vector<std::string> notes;
+};
+
+/// Integrates from start to stop. Throws SimulationError, with the time and the elements concerned.
+SimulationStatistics simulate(Dae& dae, const SimulationSettings& settings, Observer& observer);
+
+}  // namespace rheonet
