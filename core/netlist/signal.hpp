@@ -31,7 +31,8 @@ struct Piece {
   double integral(double from, double to) const;
 };
 
-/// A function of time as `simulate` needs it: piecewise smooth, every breakpoint known. All values in SI.
+/// A function of time as `simulate` needs it: piecewise smooth, every breakpoint known. All values in SI. Frequencies are
+/// not negative; at frequency 0 a periodic signal stays where its phase puts it.
 /// The value at a breakpoint is the one just after it.
 class Signal {
  public:

@@ -1,0 +1,230 @@
+#include "core/netlist/signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace rheonet {
+
+namespace {
+
+using std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// 10-point Gauss-Legendre on [-1, 1] (Abramowitz and Stegun, table 25.4), the positive half: abscissa, weight.
+constexpr std::pair<double, double> gauss[] = {{0.14887433898163121088, 0.29552422471475287017},
+                                               {0.43339539412924719080, 0.26926671930999635509},
+                                               {0.67940956829902440623, 0.21908636251598204400},
+                                               {0.86506336668898451073, 0.14945134915058059315},
+                                               {0.97390652851717172008, 0.06667134430868813759}};
+
+double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
+
+Piece constant(double level, double end = infinity) {
+  Piece piece;
+  piece.level = level;
+  piece.end = end;
+  return piece;
+}
+
+/// A breakpoint after t, whatever rounding did to it.
+double after(double t, double end) { return end > t ? end : std::nextafter(t, infinity); }
+
+/// The largest k >= first with edge(k) <= t, for edges that do not decrease and edge(first) <= t. `guess` is near it.
+template <typename Edge>
+std::int64_t last_edge(double t, double guess, std::int64_t first, const Edge& edge) {
+  constexpr double most = 4e18;  // within int64
+  std::int64_t low = std::max(first, static_cast<std::int64_t>(std::clamp(guess, -most, most)));
+  std::int64_t step = 1;
+  for (; low > first && edge(low) > t; step *= 2) low = std::max(first, low - step);
+  std::int64_t high = low + 1;
+  for (step = 1; edge(high) <= t && high < static_cast<std::int64_t>(most); step *= 2) low = high, high += step;
+  while (high - low > 1) {
+    const std::int64_t middle = low + (high - low) / 2;
+    (edge(middle) <= t ? low : high) = middle;
+  }
+  return low;
+}
+
+/// An angle in half turns. What is a whole number of halves but for the rounding of degrees to radians is made one:
+/// an edge belongs there, and not 1e-16 s after the start.
+double half_turns(double angle) {
+  const double turns = angle / pi;
+  const double halves = std::round(2 * turns) / 2;
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(turns));
+  return std::abs(turns - halves) < rounding ? halves : turns;
+}
+
+/// A stretch between two events, one every half period, that begin when the angle is `shift` half turns past a multiple
+/// of a half turn.
+struct HalfPeriod {
+  bool even;        ///< number of the event at its beginning
+  double fraction;  ///< of the half period that is over at `origin`
+  double origin;
+  double end;
+};
+
+HalfPeriod half_period(double t, double frequency, double phase, double time, double shift) {
+  const double start = half_turns(phase) - shift;  // in half periods
+  const double first = std::floor(start);
+  if (frequency == 0) return {std::fmod(first, 2) == 0, start - first, time, infinity};
+  const auto edge = [&](std::int64_t k) { return time + (static_cast<double>(k) - start) / (2 * frequency); };
+  const auto k = last_edge(t, std::floor(2 * frequency * (t - time) + start), static_cast<std::int64_t>(first), edge);
+  // The first stretch is cut by the start, and reckoned from there.
+  const bool cut = edge(k) < time;
+  return {k % 2 == 0, cut ? start - static_cast<double>(k) : 0, cut ? time : edge(k), after(t, edge(k + 1))};
+}
+
+/// amplitude sin(2 pi frequency (t - time) + phase), with its origin at the last full period before t: the angle is
+/// then small, and as exact as t is.
+Piece sine(double t, double amplitude, double frequency, double phase, double time, double offset) {
+  const double full = std::floor(frequency * (t - time));
+  Piece piece;
+  piece.level = offset;
+  piece.amplitude = amplitude;
+  piece.omega = 2 * pi * frequency;
+  piece.phase = phase;
+  piece.origin = time;
+  if (full <= 0) return piece;
+  piece.origin += full / frequency;
+  // The origin is rounded, and so is its distance from the start (of which `lost` is lost: Knuth's two-sum).
+  const double distance = piece.origin - time;
+  const double back = distance - piece.origin;
+  const double lost = (piece.origin - (distance - back)) - (time + back);
+  piece.phase += 2 * pi * (std::fma(frequency, distance, -full) + frequency * lost);
+  return piece;
+}
+
+struct PieceAt {
+  double t;
+
+  Piece operator()(const Signal::Constant& s) const { return constant(s.value); }
+
+  Piece operator()(const Signal::Step& s) const {
+    return t < s.time ? constant(s.offset, s.time) : constant(s.offset + s.height);
+  }
+
+  Piece operator()(const Signal::Ramp& s) const {
+    if (t < s.time) return constant(s.offset, s.time);
+    Piece piece = constant(s.offset);
+    piece.origin = s.time;
+    piece.slope = s.slope;
+    return piece;
+  }
+
+  Piece operator()(const Signal::Sine& s) const {
+    if (t < s.time) return constant(s.offset, s.time);
+    return sine(t, s.amplitude, s.frequency, s.phase, s.time, s.offset);
+  }
+
+  Piece operator()(const Signal::Square& s) const {
+    if (t < s.time) return constant(s.offset, s.time);
+    const HalfPeriod half = half_period(t, s.frequency, s.phase, s.time, 0);
+    return constant(s.offset + (half.even ? s.amplitude : -s.amplitude), half.end);
+  }
+
+  Piece operator()(const Signal::Triangle& s) const {
+    if (t < s.time) return constant(s.offset, s.time);
+    // Corners are at pi/2 (the top, where it begins to fall), 3 pi/2, ...
+    const HalfPeriod half = half_period(t, s.frequency, s.phase, s.time, 0.5);
+    const double top = half.even ? s.amplitude : -s.amplitude;
+    Piece piece = constant(s.offset + top * (1 - 2 * half.fraction), half.end);
+    piece.origin = half.origin;
+    piece.slope = -4 * top * s.frequency;
+    return piece;
+  }
+
+  Piece operator()(const Signal::Chirp& s) const {
+    if (t < s.time) return constant(s.offset, s.time);
+    const double swept = s.time + s.duration;
+    if (t < swept) {
+      Piece piece = sine(s.time, s.amplitude, s.frequency, s.phase, s.time, s.offset);
+      piece.chirp = 2 * pi * (s.end_frequency - s.frequency) / s.duration;
+      piece.end = swept;
+      return piece;
+    }
+    const double turns = (s.frequency + s.end_frequency) / 2 * s.duration;
+    return sine(t, s.amplitude, s.end_frequency, s.phase + 2 * pi * (turns - std::floor(turns)), swept, s.offset);
+  }
+
+  Piece operator()(const Signal::Pulse& s) const {
+    if (s.width <= 0) return constant(s.offset);
+    if (t < s.time) return constant(s.offset, s.time);
+    const double high = s.offset + s.height;
+    if (s.frequency > 0 && s.width * s.frequency >= 1) return constant(high);
+    const auto on = [&s](std::int64_t k) {
+      return s.frequency > 0 ? s.time + static_cast<double>(k) / s.frequency : k > 0 ? infinity : s.time;
+    };
+    const auto k = last_edge(t, std::floor(s.frequency * (t - s.time)), 0, on);
+    const double off = std::min(on(k) + s.width, on(k + 1));
+    return t < off ? constant(high, off) : constant(s.offset, after(t, on(k + 1)));
+  }
+
+  Piece operator()(const Signal::Table& s) const {
+    if (s.times.empty()) return constant(s.offset);
+    if (t < s.time) return constant(s.offset, s.time);
+    // Compared as breakpoints are reckoned, so that both round alike.
+    const auto next = std::upper_bound(s.times.begin(), s.times.end(), t,
+                                       [&](double instant, double point) { return instant < s.time + point; });
+    if (next == s.times.begin()) return constant(s.offset + s.values.front(), s.time + *next);
+    if (next == s.times.end()) return constant(s.offset + s.values.back());
+    const auto i = static_cast<std::size_t>(next - s.times.begin());
+    Piece piece = constant(s.offset + s.values[i - 1], s.time + *next);
+    piece.origin = s.time + s.times[i - 1];
+    piece.slope = (s.values[i] - s.values[i - 1]) / (s.times[i] - s.times[i - 1]);
+    return piece;
+  }
+};
+
+}  // namespace
+
+double Piece::value(double t) const {
+  const double tau = t - origin;
+  const double wave = amplitude == 0 ? 0 : amplitude * std::sin(phase + (omega + chirp * tau / 2) * tau);
+  return level + slope * tau + wave;
+}
+
+double Piece::rate(double t) const {
+  if (amplitude == 0) return slope;
+  const double tau = t - origin;
+  return slope + amplitude * (omega + chirp * tau) * std::cos(phase + (omega + chirp * tau / 2) * tau);
+}
+
+double Piece::curvature(double t) const {
+  if (amplitude == 0) return 0;
+  const double tau = t - origin;
+  const double angle = phase + (omega + chirp * tau / 2) * tau;
+  const double angle_rate = omega + chirp * tau;
+  return amplitude * (chirp * std::cos(angle) - angle_rate * angle_rate * std::sin(angle));
+}
+
+double Piece::integral(double from, double to) const {
+  const double length = to - from;
+  const double a = from - origin;
+  const double b = to - origin;
+  const double straight = length * (level + slope * (a + b) / 2);
+  if (amplitude == 0) return straight;
+  if (chirp == 0)  // the difference of two cosines, without its cancellation
+    return straight + amplitude * length * std::sin(phase + omega * (a + b) / 2) * sinc(omega * length / 2);
+  // 10 points integrate a quarter turn to rounding, even where the frequency passes through 0.
+  const double fastest = std::max(std::abs(omega + chirp * a), std::abs(omega + chirp * b));
+  const double panels = std::max(1.0, std::ceil(fastest * std::abs(length) / (pi / 2)));
+  const double half = length / panels / 2;
+  double sum = 0;
+  for (double panel = 0; panel < panels; ++panel) {
+    const double centre = a + (2 * panel + 1) * half;
+    for (const auto& [x, weight] : gauss)
+      for (const double tau : {centre - x * half, centre + x * half})
+        sum += weight * std::sin(phase + (omega + chirp * tau / 2) * tau);
+  }
+  return straight + amplitude * half * sum;
+}
+
+Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }
+
+double Signal::before(double t) const { return piece(std::nextafter(t, -infinity)).value(t); }
+
+}  // namespace rheonet
