@@ -1,0 +1,142 @@
+// The energy account of a run: what was supplied is stored or dissipated, and each is what the closed form says.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/netlist/read.hpp"
+#include "core/network/component.hpp"
+#include "core/result/run.hpp"
+#include "tests/support/check.hpp"
+
+using namespace rheonet;
+using namespace rheonet::test;
+
+namespace {
+
+struct Account {
+  double supplied, stored, dissipated;
+};
+
+Summary summary_of(const std::string& toml, double accuracy) {
+  ReadOptions options;
+  options.accuracy = accuracy;
+  const ReadResult read = read_scene_text(toml, "scene.toml", RHEONET_SOURCE_DIR "/netlists", declarations(), options);
+  for (const Diagnostic& diagnostic : read.diagnostics) MESSAGE(format(diagnostic, read.sources));
+  REQUIRE(read.scene);
+  return run(*read.scene);
+}
+
+double largest(const Summary& summary) {
+  return std::max({std::abs(summary.supplied), std::abs(summary.stored), std::abs(summary.dissipated)});
+}
+
+void check_account(const std::string& toml, const Account& exact) {
+  INFO(toml);
+  for (const double accuracy : accuracies) {
+    CAPTURE(accuracy);
+    const Summary summary = summary_of(toml, accuracy);
+    const double scale = std::max({std::abs(exact.supplied), std::abs(exact.stored), exact.dissipated});
+    CHECK_LE(std::abs(summary.supplied - exact.supplied), 10 * accuracy * scale);
+    CHECK_LE(std::abs(summary.stored - exact.stored), 10 * accuracy * scale);
+    CHECK_LE(std::abs(summary.dissipated - exact.dissipated), 10 * accuracy * scale);
+    CHECK_EQ(summary.missing, doctest::Approx(summary.supplied - summary.stored - summary.dissipated));
+    CHECK_LE(std::abs(summary.missing), 10 * accuracy * largest(summary));
+  }
+}
+
+/// Only that nothing is missing, and that something happened.
+void check_balance(const std::string& toml) {
+  INFO(toml);
+  for (const double accuracy : accuracies) {
+    CAPTURE(accuracy);
+    const Summary summary = summary_of(toml, accuracy);
+    CHECK_GT(summary.dissipated, 0);
+    CHECK_LE(std::abs(summary.missing), 10 * accuracy * largest(summary));
+  }
+}
+
+constexpr double k = 137.3, B = 21.7, m = 1.73, stop = 0.613;
+
+std::string scene(const std::string& tables) {
+  return netlist({{"k", k}, {"B", B}, {"m", m}}, "[elements]\n" + tables, stop);
+}
+
+const std::string moved = "drive = { type = \"motion\", at = \"end\", velocity = -0.731 }\n";
+const std::string pushed = "drive = { type = \"force\", at = \"end\", force = -2.31 }\n";
+const std::string spring = "spring = { type = \"spring\", between = [\"end\", \"ground\"], stiffness = \"k\" }\n";
+const std::string dashpot = "dashpot = { type = \"dashpot\", between = [\"ground\", \"end\"], damping = \"B\" }\n";
+const std::string mass = "mass = { type = \"mass\", at = \"end\", mass = \"m\" }\n";
+
+}  // namespace
+
+TEST_CASE("Energy of one element") {
+  const double w = -0.731, f = -2.31;
+  const double stretched = 0.5 * k * std::pow(w * stop, 2);
+  check_account(scene(moved + spring), {stretched, stretched, 0});
+  check_account(scene(moved + dashpot), {B * w * w * stop, 0, B * w * w * stop});
+  check_account(scene(pushed + dashpot), {f * f / B * stop, 0, f * f / B * stop});
+  const double kinetic = 0.5 * f * f * stop * stop / m;
+  check_account(scene(pushed + mass), {kinetic, kinetic, 0});
+}
+
+TEST_CASE("Energy of a mass slowed down by a dashpot") {
+  const double v0 = 0.913, left = std::exp(-2 * B * stop / m), kinetic = 0.5 * m * v0 * v0;
+  check_account(scene(mass + dashpot + "[nodes]\nend = { velocity = 0.913 }\n"),
+                {0, -kinetic * (1 - left), kinetic * (1 - left)});
+}
+
+TEST_CASE("Energy of a Maxwell element, wired and as vfm") {
+  const double w = -0.731, tau = B / k, decay = std::exp(-stop / tau), f = B * w * (1 - decay);
+  const double supplied = B * w * w * (stop - tau * (1 - decay)), stored = 0.5 * f * f / k;
+  const Account exact{supplied, stored, supplied - stored};
+  check_account(
+      scene(moved + "vfm = { type = \"vfm\", between = [\"end\", \"ground\"], damping = \"B\", stiffness = \"k\" }\n"),
+      exact);
+  check_account(scene(moved + R"(
+wired1 = { type = "spring", between = ["end", "mid"], stiffness = "k" }
+wired2 = { type = "dashpot", between = ["mid", "ground"], damping = "B" }
+)"),
+                exact);
+}
+
+TEST_CASE("Energy of a mass on an undamped spring") {
+  const double omega = std::sqrt(k / m), x = 0.0271 * std::cos(omega * stop);
+  const double start = 0.5 * k * 0.0271 * 0.0271;
+  const Summary summary = summary_of(scene(mass + spring + "[nodes]\nend = { position = 0.0271 }\n"), 1e-6);
+  // Nothing goes in or out; only the form of the energy changes.
+  CHECK_GT(std::abs(0.5 * k * x * x / start - 0.5), 0.1);
+  CHECK_LE(std::abs(summary.supplied), 1e-5 * start);
+  CHECK_LE(std::abs(summary.dissipated), 1e-5 * start);
+  CHECK_LE(std::abs(summary.stored), 1e-5 * start);
+}
+
+TEST_CASE("Energy balance of larger networks") {
+  const std::string sine =
+      "drive = { type = \"motion\", at = \"end\", velocity = { sine = 0.173, frequency = 2.3 } }\n";
+  const std::string cosine = "drive = { type = \"force\", at = \"end\", force = { cosine = 3.1, frequency = 2.3 } }\n";
+  const std::string friction =
+      "friction = { type = \"sfm\", between = [\"end\", \"ground\"], stiffness = 512.3, coulomb = 2.71, exponent = 1.5 "
+      "}\n";
+  const std::string combined =
+      "combined = { type = \"cfm\", between = [\"end\", \"ground\"], stiffness = 512.3, coulomb = 2.71, damping = 17.9 "
+      "}\n";
+  const std::string burgers = R"(
+[elements.body]
+between = ["end", "ground"]
+series = [
+  { type = "spring", stiffness = "k" },
+  { type = "dashpot", damping = "B" },
+  { parallel = [ { type = "spring", stiffness = "0.7*k" }, { type = "dashpot", damping = "0.3*B" } ] },
+]
+)";
+  check_balance(scene(sine + friction));
+  check_balance(scene(sine + combined));
+  check_balance(scene(sine + burgers));
+  check_balance(scene(cosine + burgers));
+  check_balance(scene(cosine + mass + friction + burgers));
+  check_balance(scene(cosine + mass + combined + spring));
+  check_balance(scene(cosine + mass +
+                      "drag = { type = \"dashpot\", between = [\"end\", \"ground\"], damping = 7.3, "
+                      "flow_index = 2 }\n"));
+}

@@ -1,0 +1,49 @@
+// Every scene that comes with the project runs.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/netlist/read.hpp"
+#include "core/network/component.hpp"
+#include "core/result/run.hpp"
+
+using namespace rheonet;
+
+namespace {
+
+const std::filesystem::path folder = RHEONET_SOURCE_DIR "/netlists";
+
+// A library holds models, not scenes; library_test.cpp runs those.
+std::vector<std::filesystem::path> scenes() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const auto relative = std::filesystem::relative(entry.path(), folder);
+    if (entry.path().extension() == ".toml" && *relative.begin() != "library") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("Every netlist of the project runs") {
+  REQUIRE_GE(scenes().size(), 9);
+  for (const std::filesystem::path& file : scenes()) {
+    CAPTURE(file.string());
+    ReadOptions options;
+    options.library = {folder};
+    const ReadResult read = read_scene(file, declarations(), options);
+    for (const Diagnostic& diagnostic : read.diagnostics) FAIL_CHECK(format(diagnostic, read.sources));
+    if (!read.scene) continue;
+    CHECK_FALSE(read.scene->title.empty());
+    CHECK_GE(read.scene->output_intervals, 100);
+    Summary summary;
+    CHECK_NOTHROW(summary = run(*read.scene));
+    CHECK_GT(summary.steps, 0);
+    const double largest =
+        std::max({std::abs(summary.supplied), std::abs(summary.stored), std::abs(summary.dissipated)});
+    CHECK_LE(std::abs(summary.missing), 10 * read.scene->accuracy * largest);
+  }
+}

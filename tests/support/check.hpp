@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+/// Every closed form is checked at each of these.
+inline constexpr double accuracies[] = {1e-3, 1e-6, 1e-9};
+
+/// The exact answer as a function of time. At a jump: the value just after.
+using Exact = std::function<double(double t)>;
+
+struct Expectation {
+  std::string column;
+  Exact exact;
+  /// The largest magnitude in the run where it is not seen in the rows (a quantity that is 0 but for an instant).
+  double scale = 0;
+};
+using Expectations = std::vector<Expectation>;
+
+/// Checks that at every row abs(computed - exact) <= 10 accuracy max(abs(exact)): ten times what the accuracy promises.
+/// Says which row is the worst, and by how much.
+void check_against(const Trajectory& trajectory, const Expectation& expected, double accuracy);
+
+/// Runs the netlist at each of `accuracies` and checks every expectation at each.
+void check_at_all_accuracies(const std::string& toml, const Expectations& expected);
+
+/// A function that begins at `start`; before it, the constant `before`.
+Exact from(double start, Exact after, double before = 0);
+
+/// A netlist of named values, the given tables, and `rows` rows from 0 to `stop` [s].
+using Named = std::initializer_list<std::pair<std::string_view, double>>;
+std::string netlist(Named parameters, std::string_view tables, double stop, int rows = 201);
+
+}  // namespace rheonet::test
