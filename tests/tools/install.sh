@@ -2,6 +2,7 @@
 # install.sh BUILD CMAKE COMPILER [FLAG...]: installs a build into an empty folder; there the program must find its library of
 # models, and another CMake project must build on librheonet, with a component of its own.
 set -euo pipefail
+source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$1 cmake=$2 compiler=$3
 shift 3
 folder=$(mktemp -d)
@@ -34,40 +35,22 @@ cat >CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
 project(user LANGUAGES CXX)
 find_package(rheonet 0.1 REQUIRED)
-add_executable(user user.cpp)
+add_executable(user user.cpp cubic.cpp)
 target_link_libraries(user PRIVATE rheonet::rheonet)
 CMAKE
+# The component is the example of components/README.md.
+sed -n '/^```cpp$/,/^```$/p' "$source/components/README.md" | sed '/^```/d' >cubic.cpp
 cat >user.cpp <<'CPP'
 #include <cstdio>
 
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
-#include "core/network/law_batch.hpp"
 #include "core/result/run.hpp"
-
-// f = k d^3, a law of this program's own.
-struct Cubic : rheonet::MemorylessLaw {
-  double k;
-  explicit Cubic(std::span<const double> v) : k(v[0]) {}
-  template <class T>
-  T force(const T& p) const {
-    return k * p * p * p;
-  }
-  double start(double d) const { return d; }
-  double stored_energy(double p) const { return k * p * p * p * p / 4; }
-  double dissipated_power(double, double) const { return 0; }
-};
-
-static const rheonet::RegisterComponent registered({
-    .declaration = {.type = "cubic", .parameters = {{.name = "k"}}},
-    .role = rheonet::Role::deflection,
-    .deflection = rheonet::deflection_batch<Cubic>,
-});
 
 int main() {
   const rheonet::ReadResult read = rheonet::read_scene_text(R"([elements]
 drive = { type = "motion", at = "a", velocity = 2 }
-k1 = { type = "cubic", between = ["a", "ground"], k = 3 }
+k1 = { type = "cubic", between = ["a", "ground"], hardening = 3 }
 [simulate]
 stop = 1
 output = { points = 2 }

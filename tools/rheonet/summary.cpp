@@ -10,7 +10,7 @@ namespace {
 
 std::string grouped(long n) {
   std::string digits = std::to_string(n);
-  for (std::size_t i = digits.size(); i > 3 + (n < 0 ? 1u : 0u); i -= 3) digits.insert(i - 3, ",");
+  for (std::size_t i = digits.size(); i > 3 + (n < 0 ? 1u : 0u); i -= 3) digits.insert(i - 3, 1, ',');
   return digits;
 }
 
