@@ -117,6 +117,25 @@ std::string wrapped(const std::string& text, std::size_t indent) {
   return result;
 }
 
+// Stars outside code would set what stands between them in italics.
+std::string prose(const std::string& text) {
+  std::string result;
+  bool code = false;
+  for (char c : text) {
+    if (c == '`') code = !code;
+    if (c == '*' && !code) result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+// Names and units as code, each of two alternatives for itself.
+std::string code(const std::string& text) {
+  const std::size_t bar = text.find(" | ");
+  if (bar == std::string::npos) return "`" + text + "`";
+  return "`" + text.substr(0, bar) + "` | `" + text.substr(bar + 3) + "`";
+}
+
 // A bar would end the cell of a table.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
@@ -175,13 +194,14 @@ std::string as_markdown(const std::vector<const Component*>& components) {
       text +=
           fmt::format("* {}: {}\n", limit.when, limit.becomes.empty() ? becomes(limit) : "a `" + becomes(limit) + "`");
     }
-    if (!d.notes.empty()) text += fmt::format("* {}\n", d.notes);
-    if (!d.source.empty()) text += fmt::format("* Source: {}\n", d.source);
+    if (!d.notes.empty()) text += fmt::format("* {}\n", prose(d.notes));
+    if (!d.source.empty()) text += fmt::format("* Source: {}\n", prose(d.source));
     text += "\n| parameter | symbol | quantity | unit | value | default | |\n|---|---|---|---|---|---|---|\n";
     for (const Parameter& p : d.parameters) {
       const Row r = row(p, d);
-      text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(r.name), cell(r.symbol), cell(r.quantity),
-                          cell(r.units), cell(r.bounds), cell(r.fallback), cell(r.description));
+      text +=
+          fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(code(r.name)), cell(r.symbol), cell(r.quantity),
+                      cell(code(r.units)), cell(r.bounds), cell(r.fallback), cell(prose(r.description)));
     }
   }
   return text;
