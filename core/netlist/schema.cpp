@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/netlist/read.hpp"
+
+namespace rheonet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json reference(const std::string& definition) { return {{"$ref", "#/$defs/" + definition}}; }
+
+Json described(Json schema, const std::string& description) {
+  schema["description"] = description;
+  return schema;
+}
+
+Json object(Json properties) {
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+}
+
+/// Any names, all with the same kind of value.
+Json named(Json value) { return {{"type", "object"}, {"additionalProperties", std::move(value)}}; }
+
+Json list_of(Json items, int least = 0) {
+  return {{"type", "array"}, {"items", std::move(items)}, {"minItems", least}};
+}
+
+Json text(const std::string& description) { return {{"type", "string"}, {"description", description}}; }
+
+Json value() {
+  return described({{"type", {"number", "string"}}},
+                   "a number in SI, a quantity (\"2 in*ozf\": a number, a space, a unit), or an expression (\"2*B\")");
+}
+
+std::vector<std::string> names_of(const Parameter& parameter) {
+  std::vector<std::string> names{parameter.name};
+  if (!parameter.rotational_name.empty()) names.push_back(parameter.rotational_name);
+  return names;
+}
+
+std::vector<std::string> types_of(const Declaration& declaration) {
+  std::vector<std::string> types{declaration.type};
+  if (!declaration.rotational_type.empty()) types.push_back(declaration.rotational_type);
+  return types;
+}
+
+std::string units_of(const Parameter& parameter) {
+  if (parameter.quantity == Quantity::number) return "no unit";
+  const bool power_law = !parameter.flow_index.empty();
+  const auto in = [&](Domain domain) {
+    const std::string unit = unit_of(parameter.quantity, domain);
+    if (!power_law) return unit;
+    return std::string(domain == Domain::rotation ? "N*m*(s/rad)^" : "N*(s/m)^") + parameter.flow_index;
+  };
+  const std::string translation = in(Domain::translation), rotation = in(Domain::rotation);
+  return translation == rotation ? translation : fmt::format("{}, in a rotational scene {}", translation, rotation);
+}
+
+Json parameter_schema(const Parameter& parameter) {
+  std::string description = parameter.symbol;
+  if (!description.empty() && !parameter.description.empty()) description += ": ";
+  description += parameter.description;
+  description += fmt::format(" [{}]", units_of(parameter));
+  if (!parameter.same_as.empty()) description += fmt::format("; if absent, as `{}`", parameter.same_as);
+  if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
+  if (parameter.may_be_infinite) description += "; may be \"inf\"";
+  Json schema = described(reference(parameter.kind == Parameter::Kind::signal ? "signal" : "value"), description);
+  if (parameter.fallback && std::isfinite(*parameter.fallback)) schema["default"] = *parameter.fallback;
+  // These hold for numbers only; what a text amounts to is known when it is read.
+  if (parameter.kind == Parameter::Kind::signal) return schema;
+  if (std::isfinite(parameter.lower)) schema[parameter.lower_open ? "exclusiveMinimum" : "minimum"] = parameter.lower;
+  if (std::isfinite(parameter.upper)) schema["maximum"] = parameter.upper;
+  return schema;
+}
+
+/// Objects that have one of the keys (each possibly under two names).
+Json one_required(const std::vector<std::string>& keys) {
+  Json alternatives = Json::array();
+  for (const std::string& key : keys) alternatives.push_back({{"required", {key}}});
+  return {{"oneOf", std::move(alternatives)}};
+}
+
+/// What any element or member of a group may have.
+Json common_properties() {
+  return {{"name", text("for a member of a group: the name by which it is addressed in it")},
+          {"repeat", reference("repeat")}};
+}
+
+Json ports_properties(Declaration::Ports ports) {
+  Json properties = Json::object();
+  if (ports != Declaration::Ports::at) properties["between"] = reference("between");
+  if (ports != Declaration::Ports::between) properties["at"] = reference("at");
+  return properties;
+}
+
+Json element_schema(const Declaration& declaration) {
+  Json properties{{"type", {{"enum", types_of(declaration)}}}};
+  properties.update(ports_properties(declaration.ports));
+  properties.update(common_properties());
+  Json requirements = Json::array();
+  std::vector<std::string> one_of;
+  for (const Parameter& parameter : declaration.parameters) {
+    if (!parameter.later.empty()) continue;
+    const auto names = names_of(parameter);
+    for (const std::string& name : names) properties[name] = parameter_schema(parameter);
+    const bool alternative =
+        std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
+    if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
+    const bool optional =
+        alternative || parameter.kind == Parameter::Kind::initial || parameter.fallback || !parameter.same_as.empty();
+    if (!optional) requirements.push_back(one_required(names));
+  }
+  if (!one_of.empty()) requirements.push_back(one_required(one_of));
+  Json schema = object(std::move(properties));
+  if (!requirements.empty()) schema["allOf"] = std::move(requirements);
+  return described(std::move(schema), declaration.summary + ": " + declaration.law);
+}
+
+Json group_schema() {
+  Json properties{{"between", reference("between")}};
+  properties.update(common_properties());
+  properties["series"] =
+      described(list_of(reference("member"), 1), "members one after the other, from the first node on");
+  properties["parallel"] = described(list_of(reference("member"), 1), "members side by side");
+  Json schema = object(std::move(properties));
+  schema.update(one_required({"series", "parallel"}));
+  return described(std::move(schema), "a composed element: has force, displacement and velocity of its own");
+}
+
+Json if_then(Json condition, const std::string& definition) {
+  return {{"if", std::move(condition)}, {"then", reference(definition)}};
+}
+
+/// An element or a member of a group, without its place. A type that is not declared is a model, which may be in
+/// another file: its parameters cannot be known here.
+Json body_schema(Declarations declarations) {
+  Json types = Json::array();
+  Json cases = Json::array();
+  for (const Declaration* declaration : declarations) {
+    for (const std::string& type : types_of(*declaration))
+      types.push_back({{"const", type}, {"description", declaration->summary + ": " + declaration->law}});
+    Json is_it{{"properties", {{"type", {{"enum", types_of(*declaration)}}}}}, {"required", {"type"}}};
+    cases.push_back(if_then(std::move(is_it), declaration->type));
+  }
+  types.push_back(text("the name of a model"));
+  for (const char* kind : {"series", "parallel"}) cases.push_back(if_then({{"required", {kind}}}, "group"));
+  Json properties{{"type", {{"anyOf", std::move(types)}}}, {"at", reference("at")}, {"between", reference("between")}};
+  properties.update(common_properties());
+  Json schema{{"type", "object"}, {"properties", std::move(properties)}};
+  schema.update(one_required({"type", "series", "parallel"}));
+  schema["allOf"] = std::move(cases);
+  return schema;
+}
+
+Json signal_schema() {
+  Json properties{
+      {"step", described(reference("value"), "height of a step at `time`")},
+      {"ramp", described(reference("value"), "slope of a ramp that begins at `time` [unit of the quantity / s]")},
+      {"sine", described(reference("value"), "amplitude of a sine")},
+      {"cosine", described(reference("value"), "amplitude of a cosine")},
+      {"square", described(reference("value"), "amplitude of a square wave; it starts on its high side")},
+      {"triangle", described(reference("value"), "amplitude of a triangle wave; it starts at 0, rising")},
+      {"chirp", described(reference("value"),
+                          "amplitude of a sine whose frequency goes from `frequency` to "
+                          "`end_frequency` within `duration`")},
+      {"pulse",
+       described(reference("value"), "height of a pulse of `width`, again at every period if there is a `frequency`")},
+  };
+  std::vector<std::string> shapes;
+  for (const auto& [shape, schema] : properties.items()) shapes.push_back(shape);
+  shapes.emplace_back("table");
+  Json points = list_of(
+      {{"type", "array"}, {"prefixItems", {reference("value"), reference("value")}}, {"items", false}, {"minItems", 2}},
+      1);
+  properties["table"] = {{"anyOf", {std::move(points), text("name of a CSV file")}},
+                         {"description", "[time, value] points: linear between them, held after the last"}};
+  const std::pair<const char*, const char*> keys[] = {
+      {"amplitude", "factor on the signal"},
+      {"frequency", "cycles a second [Hz; rad/s and rpm are converted]"},
+      {"end_frequency", "of a chirp [Hz]"},
+      {"duration", "of the sweep of a chirp [s]"},
+      {"width", "of a pulse [s]"},
+      {"phase", "added to the angle [rad]"},
+      {"offset", "added to the signal, also before its `time`"},
+      {"time", "when it starts [s]; 0 if absent"},
+  };
+  for (const auto& [key, description] : keys) properties[key] = described(reference("value"), description);
+  Json table = object(std::move(properties));
+  table.update(one_required(shapes));
+  table["dependentRequired"] = {{"sine", {"frequency"}},   {"cosine", {"frequency"}},
+                                {"square", {"frequency"}}, {"triangle", {"frequency"}},
+                                {"pulse", {"width"}},      {"chirp", {"frequency", "end_frequency", "duration"}}};
+  return described({{"anyOf", {reference("value"), std::move(table)}}}, "a function of time: a constant, or a shape");
+}
+
+Json repeat_schema() {
+  Json schema = object({{"count", described(reference("value"), "how many; `n` in expressions")},
+                        {"as", text("name of the number of a member, 0 to count-1, in expressions")},
+                        {"arrange", {{"enum", {"series", "parallel"}}}}});
+  schema["required"] = {"count"};
+  return described(std::move(schema), "a chain or a bundle of this element: its members are NAME.0, NAME.1, ...");
+}
+
+Json model_schema() {
+  Json schema = object(
+      {{"ports", described(list_of(text("name of a node inside"), 1), "nodes by which it is connected, in this order")},
+       {"parameters",
+        {{"anyOf", {named(reference("value")), list_of(text("a parameter without a default"))}},
+         {"description", "parameters with their defaults, or their names"}}},
+       {"elements", reference("elements")}});
+  schema["required"] = {"ports", "elements"};
+  return described(std::move(schema), "a network with ports, used as an element type");
+}
+
+Json simulate_schema() {
+  Json output = object({{"every", described(reference("value"), "interval of the rows [s]")},
+                        {"points", described(reference("value"), "number of rows, first and last included")},
+                        {"events",
+                         {{"type", "boolean"},
+                          {"description", "a pair of rows, before and after, at every event"},
+                          {"default", false}}}});
+  Json schema = object({{"start", described(reference("value"), "[s]; 0 if absent")},
+                        {"stop", described(reference("value"), "[s]")},
+                        {"accuracy", described(reference("value"),
+                                               "error allowed, relative to the largest magnitude of "
+                                               "each recorded quantity; 1e-6 if absent")},
+                        {"output", std::move(output)},
+                        {"record", described(list_of(text("k1.force, mid.velocity, ...")), "absent: everything")}});
+  schema["required"] = {"stop"};
+  return schema;
+}
+
+}  // namespace
+
+std::string json_schema(Declarations declarations) {
+  Json definitions;
+  definitions["value"] = value();
+  definitions["signal"] = signal_schema();
+  definitions["at"] = text("the node");
+  definitions["between"] = described(list_of(text("a node; `ground` never moves"), 2),
+                                     "its nodes: displacement, velocity and force count from the first to the second");
+  definitions["repeat"] = repeat_schema();
+  for (const Declaration* declaration : declarations) definitions[declaration->type] = element_schema(*declaration);
+  definitions["group"] = group_schema();
+  definitions["body"] = body_schema(declarations);
+  definitions["member"] = {{"allOf", {reference("body")}}, {"properties", {{"at", false}, {"between", false}}}};
+  Json element = {{"allOf", {reference("body")}}, {"properties", {{"name", false}}}};
+  element.update(one_required({"at", "between"}));
+  definitions["elements"] = described(named(std::move(element)), "one line, one element: the key is its name");
+  definitions["model"] = model_schema();
+  const Json node = object({{"position", described(reference("value"), "at the start; 0 if absent")},
+                            {"velocity", described(reference("value"), "at the start; 0 if absent")}});
+
+  Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "rheonet netlist, version 1"}};
+  schema.update(object({
+      {"title", text("of the scene")},
+      {"domain",
+       {{"enum", {"translation", "rotation"}},
+        {"default", "translation"},
+        {"description", "m, N, kg or rad, N*m, kg*m^2"}}},
+      {"include",
+       described(list_of(text("a file with models")), "looked for beside this file and below, then in the library")},
+      {"parameters", described(named(reference("value")), "named values, for all expressions")},
+      {"nodes", described(named(node), "initial values that are not 0; nodes exist by being named")},
+      {"elements", reference("elements")},
+      {"models", named(reference("model"))},
+      {"simulate", simulate_schema()},
+  }));
+  schema["$defs"] = std::move(definitions);
+  return schema.dump(2);
+}
+
+}  // namespace rheonet
