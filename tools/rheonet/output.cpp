@@ -9,14 +9,8 @@
 #include <system_error>
 
 namespace rheonet::tool {
-namespace {
 
-constexpr std::size_t buffer_size = 1 << 16;  // bytes: some hundred rows a system call
-
-}  // namespace
-
-Output::Output(const std::string& path, std::atomic<bool>& stop)
-    : path_(path), name_(path == "-" ? "standard output" : "`" + path + "`"), stop_(stop), buffer_(buffer_size) {
+Output::Output(const std::string& path) : path_(path), name_(path == "-" ? "standard output" : "`" + path + "`") {
   if (path == "-") {
     descriptor_ = STDOUT_FILENO;
   } else {
@@ -33,7 +27,7 @@ Output::Output(const std::string& path, std::atomic<bool>& stop)
       .close = nullptr,
   };
   file_ = ::fopencookie(this, "w", functions);
-  if (file_ == nullptr || std::setvbuf(file_, buffer_.data(), _IOFBF, buffer_.size()) != 0) {
+  if (file_ == nullptr || std::setvbuf(file_, nullptr, _IONBF, 0) != 0) {
     throw std::system_error(errno, std::generic_category());
   }
 }
@@ -62,7 +56,6 @@ long Output::write(const char* text, std::size_t size) {
     }
   }
   lines_ += std::count(text, text + written, '\n');
-  if (error_ != 0) stop_ = true;
   return static_cast<long>(written);
 }
 

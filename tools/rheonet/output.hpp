@@ -1,29 +1,27 @@
 #pragma once
 
-#include <atomic>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 namespace rheonet::tool {
 
 /// Where the rows of a run go. Nothing of an existing file is lost before the first row comes, so a scene that cannot
-/// be started leaves earlier results alone. A write that fails (disk full, reader gone) stops the run.
+/// be started leaves earlier results alone. It counts the rows,
+/// and remembers why a write failed (disk full, reader gone).
 class Output {
  public:
-  /// `path` "-" is standard output. `stop` becomes true when a write fails. Throws std::system_error if the file cannot
-  /// be opened for writing.
-  Output(const std::string& path, std::atomic<bool>& stop);
+  /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
+  explicit Output(const std::string& path);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  std::FILE* file() { return file_; }
+  std::FILE* file() { return file_; }  ///< unbuffered: who writes to it gathers rows
   bool is_terminal() const;
   const std::string& name() const { return name_; }          ///< for messages
   long rows() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< written so far, without the header
 
-  /// Writes out what is buffered and closes. The error of this or any earlier write (errno), 0 if all is written.
+  /// Closes. The error of this or any earlier write (errno), 0 if all is written.
   int close();
 
  private:
@@ -31,8 +29,6 @@ class Output {
 
   std::string path_;
   std::string name_;
-  std::atomic<bool>& stop_;
-  std::vector<char> buffer_;
   std::FILE* file_ = nullptr;
   int descriptor_ = -1;
   int error_ = 0;

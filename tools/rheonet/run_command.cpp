@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -67,7 +66,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   stop_on_signals();
   std::unique_ptr<Output> output;
   try {
-    output = std::make_unique<Output>(arguments.output, stop);
+    output = std::make_unique<Output>(arguments.output);
   } catch (const std::system_error& error) {
     say("error: cannot write to `{}`: {}\n", arguments.output, error.code().message());
     return wrong_input;
@@ -75,16 +74,7 @@ ExitStatus run_scene(const Arguments& arguments) {
 
   // Rows that scroll by on the same terminal say enough.
   Progress progress(!arguments.quiet && !output->is_terminal());
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point flushed = Clock::now();
-  const auto on_progress = [&](double fraction) {
-    progress.update(fraction);
-    if (Clock::now() - flushed > std::chrono::seconds(1)) {  // so that the rows can be watched as they come
-      std::fflush(output->file());
-      flushed = Clock::now();
-    }
-  };
-
+  const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
     const Summary summary = run(*read.scene, {.csv = output->file(), .interrupt = &stop, .progress = on_progress});
     progress.erase();
