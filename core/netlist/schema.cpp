@@ -69,6 +69,8 @@ Json parameter_schema(const Parameter& parameter) {
   if (!description.empty() && !parameter.description.empty()) description += ": ";
   description += parameter.description;
   description += fmt::format(" [{}]", units_of(parameter));
+  // Part of the format, though not of this version: the simulator says so, a scene is none the less well-formed.
+  if (!parameter.later.empty()) description += "; " + parameter.later;
   if (!parameter.same_as.empty()) description += fmt::format("; if absent, as `{}`", parameter.same_as);
   if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
@@ -108,14 +110,13 @@ Json element_schema(const Declaration& declaration) {
   Json requirements = Json::array();
   std::vector<std::string> one_of;
   for (const Parameter& parameter : declaration.parameters) {
-    if (!parameter.later.empty()) continue;
     const auto names = names_of(parameter);
     for (const std::string& name : names) properties[name] = parameter_schema(parameter);
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
     if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
-    const bool optional =
-        alternative || parameter.kind == Parameter::Kind::initial || parameter.fallback || !parameter.same_as.empty();
+    const bool optional = alternative || parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+                          !parameter.later.empty() || !parameter.same_as.empty();
     if (!optional) requirements.push_back(one_required(names));
   }
   if (!one_of.empty()) requirements.push_back(one_required(one_of));
