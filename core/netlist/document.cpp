@@ -1,9 +1,9 @@
 #include "core/netlist/document.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
-#include <toml++/toml.h>
 
 #include "core/netlist/toml_scan.hpp"
 
@@ -73,9 +73,8 @@ int column_of_key(std::string_view line, std::string_view key, int column) {
   const std::size_t found = line.substr(0, static_cast<std::size_t>(column)).rfind(key);
   if (found == line.npos) return column;
   const auto before = line.substr(0, found);
-  return 1 + static_cast<int>(std::count_if(before.begin(), before.end(), [](char c) {
-           return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-         }));
+  return 1 + static_cast<int>(std::count_if(before.begin(), before.end(),
+                                            [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
 /// What toml++ says, in the words of this project and with what would mend it.
@@ -163,7 +162,9 @@ std::optional<TomlValue> parse_toml(int file, const Sources& sources, Mistakes& 
 std::optional<TomlValue> parse_toml_value(std::string_view text, Spot spot) {
   constexpr std::string_view key = "v=";
   const auto shift = [&](auto& self, TomlValue& value) -> void {
-    const auto move = [&](Spot& s) { s = {spot.file, spot.line, s.column - static_cast<int>(key.size()) + spot.column - 1}; };
+    const auto move = [&](Spot& s) {
+      s = {spot.file, spot.line, s.column - static_cast<int>(key.size()) + spot.column - 1};
+    };
     move(value.spot);
     for (TomlValue& item : value.items) self(self, item);
     for (TomlEntry& entry : value.entries) {

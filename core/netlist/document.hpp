@@ -17,8 +17,8 @@ struct TomlValue {
   enum class Kind { string, number, boolean, array, table, date };
 
   Kind kind = Kind::table;
-  Spot spot;                       ///< of its first character; of a string, of the opening quote
-  std::string text;                ///< of a string
+  Spot spot;         ///< of its first character; of a string, of the opening quote
+  std::string text;  ///< of a string
   double number = 0;
   bool boolean = false;
   std::vector<TomlValue> items;    ///< of an array

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/netlist/declaration.hpp"
+#include "core/netlist/diagnostic.hpp"
+#include "core/netlist/dimension.hpp"
+#include "core/netlist/files.hpp"
+#include "core/netlist/mistakes.hpp"
+
+namespace rheonet {
+
+/// What all parts of the reader share while they read one scene.
+struct Context {
+  Declarations declarations;
+  Domain domain = Domain::translation;
+  Files& files;
+  Mistakes& mistakes;
+};
+
+}  // namespace rheonet

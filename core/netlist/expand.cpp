@@ -1,0 +1,284 @@
+#include "core/netlist/expand.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/netlist/group_names.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// More than a machine of today can simulate, and what takes a few GB to hold.
+constexpr std::size_t most_elements = 5'000'000;
+
+/// Levels of groups and models within each other: each takes some stack.
+constexpr int most_levels = 500;
+
+constexpr NodeId no_node = std::numeric_limits<NodeId>::min();
+
+const ActiveOverrides no_overrides;
+
+std::string joined(const std::string& path, const std::string& name) { return path.empty() ? name : path + '.' + name; }
+
+}  // namespace
+
+void Expander::run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides) {
+  if (scene_.nodes.empty()) scene_.nodes.push_back({"ground", 0, 0, {}});
+  const std::string top;
+  Locals locals{scope, top, {}};
+  entries(locals, top, environment, overrides, 0);
+}
+
+NodeId Expander::new_node(std::string name, Spot spot) {
+  scene_.nodes.push_back({std::move(name), not_given, not_given, spot});
+  return static_cast<NodeId>(scene_.nodes.size()) - 1;
+}
+
+NodeId Expander::node(Locals& locals, int index) {
+  if (index < 0) return ground;
+  const auto i = static_cast<std::size_t>(index);
+  if (locals.ids.size() < locals.scope.nodes.size()) locals.ids.resize(locals.scope.nodes.size(), no_node);
+  if (locals.ids[i] == no_node) {
+    const Scope::Node& named = locals.scope.nodes[i];
+    locals.ids[i] = new_node(joined(locals.prefix, named.name), named.spot);
+  }
+  return locals.ids[i];
+}
+
+bool Expander::entries(Locals& locals, const std::string& prefix, const Environment& environment,
+                       const ActiveOverrides& overrides, int depth) {
+  bool good = true;
+  std::vector<NodeId> ends;
+  for (std::size_t i = 0; i < locals.scope.entries.size() && !stopped_; ++i) {
+    const Plan& plan = locals.scope.entries[i];
+    ActiveOverrides own, deeper;
+    for (const ActiveOverride& active : overrides)
+      if (active.next().name == plan.name) own.push_back(active.deeper());
+    const Plan& final_plan = own.empty() ? plan : overridden(plan, &locals.scope, own, false, deeper);
+    bool expanded = final_plan.sound;
+    if (expanded) {
+      ends.clear();
+      for (const int index : final_plan.nodes) ends.push_back(node(locals, index));
+      expanded =
+          entry(final_plan, ends, joined(prefix, plan.name), {&locals.scope, environment, deeper, depth, nullptr});
+    }
+    if (!expanded && depth == 0) failed_.insert(plan.name);
+    good = good && expanded;
+  }
+  return good;
+}
+
+bool Expander::entry(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  return plan.repeat ? repeat(plan, ends, path, around) : body(plan, ends, path, around);
+}
+
+bool Expander::body(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  if (around.depth > most_levels) {
+    context_.mistakes.error(plan.spot,
+                            "groups and models are nested deeper than " + std::to_string(most_levels) + " levels");
+    return false;
+  }
+  switch (plan.kind) {
+    case Plan::Kind::element:
+      return element(plan, ends, path, around);
+    case Plan::Kind::instance:
+      return instance(plan, ends, path, around);
+    default:
+      return group(plan, ends, path, around);
+  }
+}
+
+bool Expander::element(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  if (scene_.elements.size() >= most_elements) {
+    context_.mistakes.error(plan.spot, "the scene has more than " + std::to_string(most_elements) + " elements");
+    stopped_ = true;
+    return false;
+  }
+  SceneElement element;
+  if (!element_values(plan, around.environment, element)) return false;
+  element.name = path;
+  element.declaration = plan.declaration;
+  element.a = ends[0];
+  element.b = plan.at ? ground : ends[1];
+  element.at = plan.at;
+  element.spot = plan.spot;
+  // The force of a motion or a force is what it applies, that of any other element what must be applied to it.
+  if (around.force)
+    around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1.0 : -1.0});
+  scene_.elements.push_back(std::move(element));
+  return true;
+}
+
+bool Expander::element_values(const Plan& plan, const Environment& environment, SceneElement& element) {
+  const auto& parameters = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters;
+  const auto index_of = [&](const std::string& name) {
+    std::size_t i = 0;
+    while (i < parameters.size() && parameters[i].name != name) ++i;
+    return i;
+  };
+  bool good = true;
+  element.values.assign(parameters.size(), not_given);
+  const auto evaluate = [&](std::size_t i, double flow_index) {
+    const Parameter& parameter = parameters[i];
+    const Formula& formula = plan.values[i];
+    if (!formula.given()) {
+      if (parameter.fallback && parameter.kind == Parameter::Kind::value) element.values[i] = *parameter.fallback;
+      return;
+    }
+    const auto value =
+        formula.evaluate(environment, parameter.quantity, context_.domain, context_.mistakes, flow_index);
+    good = value && check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.mistakes) && good;
+    if (value) element.values[i] = *value;
+  };
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (parameters[i].flow_index.empty()) evaluate(i, 1);
+  // What has a flow index in its unit, and what is the same as another, comes after those.
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].flow_index.empty()) continue;
+    const double n = element.values[index_of(parameters[i].flow_index)];
+    if (!std::isnan(n)) evaluate(i, n);
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (!parameters[i].same_as.empty() && !plan.values[i].given())
+      element.values[i] = element.values[index_of(parameters[i].same_as)];
+
+  for (std::size_t i = 0; i < plan.signals.size(); ++i) {
+    const auto signal = plan.signals[i].evaluate(environment, context_);
+    good = signal && good;
+    if (!signal) continue;
+    element.signals.push_back(*signal);
+    element.signal_parameters.push_back(plan.signal_parameters[i]);
+  }
+  for (const std::size_t i : plan.default_signals) {
+    element.signals.emplace_back(Signal::Constant{*parameters[i].fallback});
+    element.signal_parameters.push_back(static_cast<int>(i));
+  }
+  return good;
+}
+
+std::size_t Expander::begin_assembly(const Plan& plan, Ends ends, const std::string& path) {
+  scene_.assemblies.push_back({path, ends[0], ends[1], {}, plan.spot});
+  return scene_.assemblies.size() - 1;
+}
+
+void Expander::end_assembly(std::size_t assembly, Terms force, const Surroundings& around) {
+  if (around.force) around.force->insert(around.force->end(), force.begin(), force.end());
+  scene_.assemblies[assembly].force = std::move(force);
+}
+
+bool Expander::group(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  const std::size_t assembly = begin_assembly(plan, ends, path);
+  Terms force;
+  Level level{path};
+  const bool good =
+      members(plan, ends, level, {nullptr, around.environment, around.overrides, around.depth + 1, &force});
+  end_assembly(assembly, std::move(force), around);
+  return good;
+}
+
+bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surroundings& around) {
+  const bool series = plan.kind == Plan::Kind::series;
+  if (around.depth > most_levels) return body(plan, ends, level.path, around);  // which refuses it
+  bool good = true;
+  NodeId before = ends[0];
+  for (std::size_t i = 0; i < plan.members.size() && !stopped_; ++i) {
+    const Plan& member = plan.members[i];
+    const bool last = i + 1 == plan.members.size();
+    const NodeId after = !series || last ? ends[1] : new_node({}, plan.spot);
+    const NodeId member_ends[] = {series ? before : ends[0], after};
+    Terms* force = series && i > 0 ? nullptr : around.force;
+    if (!has_level(member)) {
+      good = member.sound &&
+             members(member, member_ends, level,
+                     {nullptr, around.environment, around.overrides, around.depth + 1, force}) &&
+             good;
+    } else {
+      ActiveOverrides own, deeper;
+      for (const ActiveOverride& active : around.overrides)
+        if (active.next().name == member.name) own.push_back(active.deeper());
+      const Plan& final_member = own.empty() ? member : overridden(member, nullptr, own, false, deeper);
+      good = final_member.sound &&
+             entry(final_member, member_ends, joined(level.path, member.name),
+                   {nullptr, around.environment, deeper, around.depth + 1, force}) &&
+             good;
+    }
+    // Inner nodes are numbered as one reads: those within a member before the one behind it.
+    if (series && !last)
+      scene_.nodes[static_cast<std::size_t>(after)].name = joined(level.path, "node" + std::to_string(++level.joints));
+    before = after;
+  }
+  return good;
+}
+
+bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  Mistakes& mistakes = context_.mistakes;
+  const Repeat& repeat = *plan.repeat;
+  const auto wanted = repeat.count.evaluate(around.environment, Quantity::number, context_.domain, mistakes);
+  if (!wanted) return false;
+  const Spot count_spot = repeat.count.source().spot;
+  if (*wanted < 1 || *wanted != std::floor(*wanted)) {
+    mistakes.error(count_spot, "`count` must be a whole number of at least 1, but is " + number_text(*wanted));
+    return false;
+  }
+  const auto refuse = [&](double elements) {
+    mistakes.error(count_spot, "this `repeat` makes " + number_text(elements) + " elements; a scene may have at most " +
+                                   std::to_string(most_elements));
+    stopped_ = true;
+    return false;
+  };
+  if (*wanted > static_cast<double>(most_elements)) return refuse(*wanted);
+  const auto count = static_cast<std::size_t>(*wanted);
+
+  std::vector<std::pair<std::size_t, ActiveOverride>> overridden_members;
+  for (const ActiveOverride& active : around.overrides) {
+    const std::string& name = active.next().name;
+    const double index = name.size() < 10 ? std::stod(name) : std::numeric_limits<double>::infinity();
+    if (index < *wanted) {
+      overridden_members.emplace_back(static_cast<std::size_t>(index), active.deeper());
+    } else {
+      mistakes.error(active.next().spot, "`" + path + "` has no member " + name,
+                     "its members are `" + path + ".0` to `" + path + "." + std::to_string(count - 1) + "`");
+    }
+  }
+
+  const bool assembled = ends.size() == 2 && !plan.at;
+  const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;
+  Terms force;
+  Environment environment{.names = {}, .outer = &around.environment};
+  environment.names["n"] = Number{.value = *wanted, .dimension = {}};
+  Number& number = environment.names[repeat.as];
+  const std::string prefix = path + '.';
+  std::string member_path;
+  const Mistakes::Within within(mistakes, member_path);
+  const std::size_t elements_before = scene_.elements.size();
+  NodeId before = ends[0];
+  bool good = true;
+  for (std::size_t i = 0; i < count && good; ++i) {
+    number = Number{.value = static_cast<double>(i), .dimension = {}};
+    member_path = prefix + std::to_string(i);
+    ActiveOverrides own, deeper;
+    for (const auto& [index, active] : overridden_members)
+      if (index == i) own.push_back(active);
+    const Plan& member = own.empty() ? plan : overridden(plan, around.scope, own, true, deeper);
+    const Surroundings inside{around.scope, environment, deeper, around.depth + 1,
+                              assembled && (!repeat.series || i == 0) ? &force : nullptr};
+    if (repeat.series) {
+      const NodeId after = i + 1 == count ? ends[1] : new_node(prefix + "node" + std::to_string(i + 1), plan.spot);
+      const NodeId member_ends[] = {before, after};
+      good = member.sound && body(member, member_ends, member_path, inside);
+      before = after;
+    } else {
+      good = member.sound && body(member, ends, member_path, inside);
+    }
+    // Known after the first member: how many elements there would be in all.
+    const double in_all =
+        static_cast<double>(elements_before) + static_cast<double>(scene_.elements.size() - elements_before) * *wanted;
+    if (i == 0 && good && in_all > static_cast<double>(most_elements)) good = refuse(in_all);
+  }
+  if (assembled) end_assembly(assembly, std::move(force), around);
+  return good;
+}
+
+}  // namespace rheonet

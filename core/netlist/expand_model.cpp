@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/netlist/expand.hpp"
+#include "core/netlist/group_names.hpp"
+
+namespace rheonet {
+
+namespace {
+
+bool has_member(const Plan& group, const std::string& name) {
+  return std::any_of(group.members.begin(), group.members.end(), [&](const Plan& member) {
+    return has_level(member) ? member.name == name : has_member(member, name);
+  });
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// Whether an override concerns something within the plan, not one of its own keys.
+bool goes_deeper(const Plan& plan, const ActiveOverride& active, bool is_member) {
+  if (active.at_end()) return false;
+  const std::string& name = active.next().name;
+  if (plan.repeat && !is_member) return is_number(name);
+  if (plan.kind == Plan::Kind::element) return false;
+  if (plan.kind != Plan::Kind::instance) return has_member(plan, name);
+  const auto named = [&](const auto& thing) { return thing.name == name; };
+  // A parameter and an element of a model may have the same name: the value of a path is that of the parameter.
+  const auto& parameters = plan.model->parameters;
+  if (active.deeper().at_end() && std::any_of(parameters.begin(), parameters.end(), named)) return false;
+  const auto& entries = plan.model->scope.entries;
+  return std::any_of(entries.begin(), entries.end(), named);
+}
+
+/// Whether an override changes where an entry stands, which a member of a `repeat` cannot by itself.
+bool names_place(const ActiveOverride& active) {
+  return active.at_end() || active.next().name == "at" || active.next().name == "between" ||
+         active.next().name == "repeat";
+}
+
+}  // namespace
+
+const Plan& Expander::overridden(const Plan& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
+                                 ActiveOverrides& deeper) {
+  ActiveOverrides own;
+  for (const ActiveOverride& active : overrides) {
+    if (goes_deeper(plan, active, is_member))
+      deeper.push_back(active);
+    else if (is_member && names_place(active))
+      context_.mistakes.error(active.override->path.back().spot,
+                              "a member of a `repeat` stands where the whole puts it",
+                              "only its values can be set, or those of the whole: `" + plan.name + "`");
+    else
+      own.push_back(active);
+  }
+  if (own.empty()) return plan;
+  TomlValue& value = patched_values_.emplace_back(*plan.source);
+  for (const ActiveOverride& active : own) apply(active, value, context_.mistakes);
+  return patched_plans_.emplace_back(planner_.read_entry(plan.name, plan.spot, value, scope));
+}
+
+bool Expander::instance_parameters(const Plan& plan, const Environment& around, Environment& inside) {
+  const Model& model = *plan.model;
+  Mistakes& mistakes = context_.mistakes;
+  bool good = true;
+  for (const NamedFormula& parameter : model.parameters) inside.names[parameter.name] = mistaken_number();
+  for (const std::size_t i : model.order) {
+    const NamedFormula& parameter = model.parameters[i];
+    const Formula& given = plan.values[i];
+    const auto number = given.given() ? given.evaluate(around, mistakes) : parameter.formula.evaluate(inside, mistakes);
+    if (!number) {
+      good = false;
+      continue;
+    }
+    const Number& usual = model.defaults[i];
+    if (given.given() && !std::isnan(usual.value) && !usual.plain && !number->plain &&
+        !number->dimension.same(usual.dimension)) {
+      mistakes.error(given.source().spot, given.name() + " of `" + model.name + "` is in " +
+                                              to_string(usual.dimension) + " (its default is " +
+                                              describe(parameter.formula.source()) + "), but " +
+                                              describe(given.source()) + " is in " + to_string(number->dimension));
+      good = false;
+      continue;
+    }
+    inside.names[parameter.name] = *number;
+  }
+  return good;
+}
+
+bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  Model& model = *plan.model;
+  if (!model.sound) return false;
+  Environment environment{.names = {}, .outer = model.environment};
+  if (!instance_parameters(plan, around.environment, environment)) return false;
+
+  const bool assembled = model.ports.size() == 2;
+  const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;
+  Locals locals{model.scope, path, {ends.begin(), ends.end()}};
+  const NodeId port = next_port_;
+  if (assembled) {
+    // The first port may be a node that the inside names too (ground), so it has an id of its own until it is known
+    // which elements are at it.
+    locals.ids[0] = port;
+    --next_port_;
+  }
+  const std::size_t first_element = scene_.elements.size();
+  const std::size_t first_assembly = scene_.assemblies.size();
+  const Mistakes::Within within(context_.mistakes, path);
+  const bool good = entries(locals, path, environment, around.overrides, around.depth + 1);
+  if (assembled) {
+    ++next_port_;
+    end_assembly(assembly, take_port_forces(port, ends[0], first_element, first_assembly), around);
+  }
+  return good;
+}
+
+Expander::Terms Expander::take_port_forces(NodeId port, NodeId actual, std::size_t first_element,
+                                           std::size_t first_assembly) {
+  Terms terms;
+  for (std::size_t i = first_element; i < scene_.elements.size(); ++i) {
+    SceneElement& element = scene_.elements[i];
+    // The force of a motion or a force is what it applies, that of any other element what must be applied to it.
+    const double applied = element.signals.empty() ? 1 : -1;
+    if (element.a == port) {
+      element.a = actual;
+      terms.push_back({static_cast<int>(i), applied});
+    } else if (element.b == port) {
+      element.b = actual;
+      terms.push_back({static_cast<int>(i), -applied});
+    }
+  }
+  for (std::size_t i = first_assembly; i < scene_.assemblies.size(); ++i) {
+    SceneAssembly& assembly = scene_.assemblies[i];
+    if (assembly.a == port) assembly.a = actual;
+    if (assembly.b == port) assembly.b = actual;
+  }
+  return terms;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,93 @@
+#include "core/netlist/files.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace rheonet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether `path` lies in `folder` or below it; both canonical.
+bool within(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
+}
+
+}  // namespace
+
+std::optional<std::string> read_text(const fs::path& file, std::string& why) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) {
+    why = "it is a folder";
+    return {};
+  }
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text;
+  if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
+  if (!stream && !stream.eof()) {
+    why = errno != 0 ? std::strerror(errno) : "it cannot be opened";
+    return {};
+  }
+  return text;
+}
+
+int Files::add(fs::path shown, std::string text, fs::path folder) {
+  // A byte order mark is no part of the text that lines and columns count.
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  sources_.files.push_back({std::move(shown), std::move(text)});
+  folders_.push_back(std::move(folder));
+  return static_cast<int>(sources_.files.size()) - 1;
+}
+
+std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistakes& mistakes) const {
+  const fs::path path(name.text);
+  const fs::path normal = path.lexically_normal();
+  const std::string rule = "files are looked for beside the one that names them and below, then in the library";
+  if (path.empty()) {
+    mistakes.error(name.spot, "the name of a file is empty");
+    return {};
+  }
+  if (path.is_absolute() || *normal.begin() == "..") {
+    mistakes.error(name.spot, "`" + name.text + "` leads outside the netlist's folder", rule);
+    return {};
+  }
+  // Files named on the command line count as named by the scene itself.
+  std::vector<fs::path> folders{folders_[static_cast<std::size_t>(std::max(from, 0))]};
+  folders.insert(folders.end(), library_.begin(), library_.end());
+  for (const fs::path& folder : folders) {
+    std::error_code failed;
+    const fs::path base = fs::canonical(folder.empty() ? fs::path(".") : folder, failed);
+    if (failed) continue;
+    const fs::path canonical = fs::canonical(base / normal, failed);
+    if (failed) continue;
+    if (!within(canonical, base)) {
+      mistakes.error(name.spot, "`" + name.text + "` is a link that leads outside the netlist's folder", rule);
+      return {};
+    }
+    if (!fs::is_regular_file(canonical, failed)) {
+      mistakes.error(name.spot, "`" + name.text + "` is no file");
+      return {};
+    }
+    return Found{(folder / normal).lexically_normal(), canonical};
+  }
+  mistakes.error(name.spot, "there is no file `" + name.text + "`", rule);
+  return {};
+}
+
+std::optional<int> Files::read(const Found& found, Spot spot, Mistakes& mistakes) {
+  std::string why;
+  auto text = read_text(found.canonical, why);
+  if (!text) {
+    mistakes.error(spot, "`" + found.shown.string() + "` cannot be read: " + why);
+    return {};
+  }
+  return add(found.shown, std::move(*text), found.shown.parent_path());
+}
+
+}  // namespace rheonet

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/netlist/diagnostic.hpp"
+#include "core/netlist/document.hpp"
+#include "core/netlist/mistakes.hpp"
+
+namespace rheonet {
+
+/// The files of a scene: where each was found, and where those that it names are looked for (beside it and below, then
+/// in the library; never anywhere else).
+class Files {
+ public:
+  Files(Sources& sources, std::vector<std::filesystem::path> library)
+      : sources_(sources), library_(std::move(library)) {}
+
+  /// Takes a file's text in; `folder` is where it stands. Its number in Sources.
+  int add(std::filesystem::path shown, std::string text, std::filesystem::path folder);
+
+  struct Found {
+    std::filesystem::path shown;      ///< what messages call it
+    std::filesystem::path canonical;  ///< tells whether two are the same file
+  };
+  /// Looks for the file that the string `name` names, in what file `from` may use. None, or one outside, is a mistake.
+  std::optional<Found> find(const TomlValue& name, int from, Mistakes& mistakes) const;
+
+  /// Reads a file whole and takes it in; a mistake at `spot` if that fails.
+  std::optional<int> read(const Found& found, Spot spot, Mistakes& mistakes);
+
+  const Sources& sources() const { return sources_; }
+  const std::string& text(int file) const { return sources_.files[static_cast<std::size_t>(file)].text; }
+  /// What messages call a file.
+  std::string shown(int file) const {
+    return file < 0 ? "the command line" : sources_.files[static_cast<std::size_t>(file)].path.string();
+  }
+
+ private:
+  Sources& sources_;
+  std::vector<std::filesystem::path> library_;
+  std::vector<std::filesystem::path> folders_;  ///< of each file of Sources
+};
+
+/// The text of a file; absent if it cannot be read, `why` then says why.
+std::optional<std::string> read_text(const std::filesystem::path& file, std::string& why);
+
+}  // namespace rheonet

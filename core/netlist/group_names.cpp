@@ -1,0 +1,63 @@
+#include "core/netlist/group_names.hpp"
+
+#include <unordered_map>
+
+namespace rheonet {
+
+namespace {
+
+struct Naming {
+  std::unordered_map<std::string, int> numbers;  // of unnamed members, by type
+  std::unordered_map<std::string, Spot> taken;
+  std::size_t joints = 0;
+};
+
+std::string type_of(const Plan& plan) {
+  if (plan.kind == Plan::Kind::series) return "series";
+  if (plan.kind == Plan::Kind::parallel) return "parallel";
+  const TomlEntry* type = plan.source->find("type");
+  return type ? type->value.text : "";
+}
+
+void name(Plan& group, Naming& naming, Mistakes& mistakes) {
+  if (group.kind == Plan::Kind::series && !group.members.empty()) naming.joints += group.members.size() - 1;
+  for (Plan& member : group.members) {
+    const bool is_group = member.kind == Plan::Kind::series || member.kind == Plan::Kind::parallel;
+    if (member.name.empty() && is_group && !member.repeat) {
+      name(member, naming, mistakes);
+      continue;
+    }
+    const bool unnamed = member.name.empty();
+    if (unnamed) {
+      const std::string type = type_of(member);
+      if (type.empty()) continue;  // a mistake that has been reported
+      member.name = type + std::to_string(++naming.numbers[type]);
+    }
+    if (!naming.taken.emplace(member.name, member.spot).second)
+      mistakes.error(member.spot, "the name `" + member.name + "` stands twice in this assembly",
+                     unnamed ? "an unnamed member is called by its type and number: name one of them otherwise"
+                             : "names within an assembly must differ");
+  }
+}
+
+}  // namespace
+
+bool has_level(const Plan& member) { return !member.name.empty(); }
+
+void name_members(Plan& assembly, Mistakes& mistakes) {
+  Naming naming;
+  name(assembly, naming, mistakes);
+  for (std::size_t joint = 1; joint <= naming.joints; ++joint)
+    if (const auto found = naming.taken.find("node" + std::to_string(joint)); found != naming.taken.end())
+      mistakes.error(found->second, "`" + found->first + "` is the name of an inner node of this assembly",
+                     "choose another name");
+}
+
+void check_names(const Scope& scope, Mistakes& mistakes) {
+  for (const Plan& plan : scope.entries)
+    if (plan.sound && !plan.at && scope.node_index.contains(plan.name))
+      mistakes.error(plan.spot, "`" + plan.name + "` is both an element between nodes and a node",
+                     "`" + plan.name + ".velocity` would have two meanings: rename one of them");
+}
+
+}  // namespace rheonet

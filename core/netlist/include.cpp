@@ -1,0 +1,88 @@
+#include "core/netlist/include.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/netlist/keys.hpp"
+
+namespace rheonet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Each file that includes another takes some stack.
+constexpr std::size_t most_levels = 100;
+
+class Includer {
+ public:
+  Includer(Context& context, const fs::path& main) : context_(context) { open_.push_back({main, main.filename()}); }
+
+  void read(const TomlValue& document) {
+    const TomlEntry* include = document.find("include");
+    if (!include) return;
+    const std::string hint = "include = [\"library/rheology.toml\"]";
+    if (!expect_array(include->value, "`include`", context_.mistakes, hint)) return;
+    for (const TomlValue& name : include->value.items)
+      if (expect_string(name, "the name of a file", context_.mistakes, hint)) read_file(name);
+  }
+
+  std::deque<IncludedFile> files;
+
+ private:
+  struct Open {
+    fs::path canonical;
+    fs::path shown;
+  };
+
+  void read_file(const TomlValue& name) {
+    Mistakes& mistakes = context_.mistakes;
+    const auto found = context_.files.find(name, name.spot.file, mistakes);
+    if (!found) return;
+    const auto same = [&](const Open& o) { return o.canonical == found->canonical; };
+    if (const auto first = std::find_if(open_.begin(), open_.end(), same); first != open_.end()) {
+      std::string path;
+      for (auto file = first; file != open_.end(); ++file) path += "`" + file->shown.string() + "` -> ";
+      mistakes.error(name.spot, "files include each other in a circle: " + path + "`" + first->shown.string() + "`");
+      return;
+    }
+    if (!done_.insert(found->canonical).second) return;
+    if (open_.size() > most_levels) {
+      mistakes.error(name.spot, "files include each other more than " + std::to_string(most_levels) + " levels deep");
+      return;
+    }
+    const auto file = context_.files.read(*found, name.spot, mistakes);
+    if (!file) return;
+    auto document = parse_toml(*file, context_.files.sources(), mistakes);
+    if (!document) return;
+    open_.push_back({found->canonical, found->shown});
+    read(*document);
+    open_.pop_back();
+    refuse_others(*document);
+    files.push_back({*file, std::move(*document)});
+  }
+
+  void refuse_others(const TomlValue& document) {
+    Keys keys(document, "an included file");
+    for (const char* key : {"models", "parameters", "include", "title"}) keys.find(key);
+    for (const char* key : {"domain", "elements", "nodes", "simulate"})
+      if (const TomlEntry* entry = keys.find_quietly(key))
+        context_.mistakes.error(entry->spot, "an included file cannot have `" + std::string(key) + "`",
+                                "it gives models: it may have `models`, `parameters`, `include` and `title`");
+    keys.refuse_others(context_.mistakes);
+  }
+
+  Context& context_;
+  std::vector<Open> open_;  ///< the file being read, and those that included it
+  std::set<fs::path> done_;
+};
+
+}  // namespace
+
+std::deque<IncludedFile> read_includes(const TomlValue& document, const fs::path& main, Context& context) {
+  Includer includer(context, main);
+  includer.read(document);
+  return std::move(includer.files);
+}
+
+}  // namespace rheonet

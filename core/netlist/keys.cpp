@@ -1,0 +1,81 @@
+#include "core/netlist/keys.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace rheonet {
+
+namespace {
+
+// Letters of other alphabets are whatever is not ASCII: no character of it has a meaning in a path or an expression.
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_name, const std::string& what,
+                 Mistakes& mistakes, std::string hint) {
+  if (value.kind == kind) return true;
+  mistakes.error(value.spot, what + " must be " + kind_name + ", but is " + describe(value), std::move(hint));
+  return false;
+}
+
+}  // namespace
+
+const TomlEntry* Keys::require(const std::string& key, Spot where, Mistakes& mistakes, std::string hint) {
+  const TomlEntry* entry = find(key);
+  if (!entry) mistakes.error(where, what_ + " needs `" + key + "`", std::move(hint));
+  return entry;
+}
+
+void Keys::refuse_others(Mistakes& mistakes) const {
+  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const TomlEntry& entry : table_.entries)
+    if (!among(known_, entry.key) && !among(silent_, entry.key))
+      mistakes.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
+                     did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and")));
+}
+
+bool expect_table(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::table, "a table", what, mistakes, std::move(hint));
+}
+
+bool expect_string(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::string, "a string", what, mistakes, std::move(hint));
+}
+
+bool expect_array(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::array, "an array", what, mistakes, std::move(hint));
+}
+
+bool expect_name(std::string_view name, Spot spot, const std::string& what, Mistakes& mistakes) {
+  const bool good = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return is_letter(c) || is_digit(c) || c == '_' || c == '-';
+  });
+  if (!good)
+    mistakes.error(spot, "`" + std::string(name) + "` is no name for " + what,
+                   "names are made of letters, digits, `_` and `-`");
+  return good;
+}
+
+bool expect_identifier(std::string_view name, Spot spot, const std::string& what, Mistakes& mistakes) {
+  constexpr std::array<std::string_view, 3> reserved{"pi", "inf", "nan"};
+  const bool good = !name.empty() && !is_digit(name.front()) && std::all_of(name.begin(), name.end(), [](char c) {
+    return is_letter(c) || is_digit(c) || c == '_';
+  });
+  if (!good) {
+    mistakes.error(spot, "`" + std::string(name) + "` is no name for " + what,
+                   "names that expressions use are made of letters, digits and `_`, and begin with no digit");
+    return false;
+  }
+  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) {
+    mistakes.error(spot, "`" + std::string(name) + "` cannot name " + what + ": it is a number already",
+                   "choose another name");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,109 @@
+#include "core/netlist/overrides.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/netlist/characters.hpp"
+#include "core/netlist/signals.hpp"
+
+namespace rheonet {
+
+namespace {
+
+constexpr std::string_view option = "--set ";
+
+/// Splits PATH= off; the length of it with the `=`, 0 if there is none.
+std::size_t read_path(std::string_view text, int line, std::vector<Override::Part>& path) {
+  std::string name;
+  std::size_t begin = 0;
+  char quote = '\0';
+  const auto finish = [&](std::size_t end) {
+    const auto column = static_cast<int>(option.size() + count_characters(text.substr(0, begin)));
+    path.push_back({name, {-1, line, 1 + column}});
+    name.clear();
+    begin = end + 1;
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote != '\0') {
+      if (c == quote)
+        quote = '\0';
+      else
+        name += c;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '.') {
+      finish(i);
+    } else if (c == '=') {
+      finish(i);
+      return i + 1;
+    } else if (c != ' ') {
+      name += c;
+    }
+  }
+  return 0;
+}
+
+/// An entry that can stand only in place of another: giving one by an override takes the other away.
+bool excludes(const std::string& a, const std::string& b) {
+  const auto is_shape = [](const std::string& key) {
+    const auto& names = SignalPlan::shape_names();
+    return std::find(names.begin(), names.end(), key) != names.end();
+  };
+  return (is_shape(a) && is_shape(b)) || (a == "every" && b == "points") || (a == "points" && b == "every");
+}
+
+}  // namespace
+
+std::deque<Override> read_overrides(const std::vector<std::string>& texts, Sources& sources, Mistakes& mistakes) {
+  std::deque<Override> overrides;
+  for (const std::string& text : texts) {
+    sources.command_line.push_back(std::string(option) + text);
+    const int line = static_cast<int>(sources.command_line.size());
+    Override override;
+    const std::size_t begin = read_path(text, line, override.path);
+    const bool nameless =
+        std::any_of(override.path.begin(), override.path.end(), [](auto& p) { return p.name.empty(); });
+    if (begin == 0 || nameless) {
+      mistakes.error({-1, line, 1 + static_cast<int>(option.size())}, "expected PATH=VALUE, found `" + text + "`",
+                     "for instance --set k1.stiffness=\"2 N/m\"");
+      continue;
+    }
+    const std::string_view value = std::string_view(text).substr(begin);
+    const Spot spot{-1, line, 1 + static_cast<int>(option.size() + count_characters(text.substr(0, begin)))};
+    if (auto parsed = parse_toml_value(value, spot)) {
+      override.value = std::move(*parsed);
+    } else {
+      override.value.kind = TomlValue::Kind::string;
+      override.value.text = value;
+      override.value.spot = spot;
+    }
+    overrides.push_back(std::move(override));
+  }
+  return overrides;
+}
+
+void apply(const ActiveOverride& active, TomlValue& table, Mistakes& mistakes) {
+  TomlValue* at = &table;
+  std::string path;
+  for (ActiveOverride rest = active; !rest.at_end(); rest = rest.deeper()) {
+    const Override::Part& part = rest.next();
+    if (!at->is_table()) {
+      mistakes.error(part.spot, "`" + path + "` is " + describe(*at) + ", it has no `" + part.name + "`",
+                     "give the whole of it: --set " + path + "='{ " + part.name + " = ... }'");
+      return;
+    }
+    path += (path.empty() ? "" : ".") + part.name;
+    TomlEntry* entry = at->find(part.name);
+    if (!entry) {
+      std::erase_if(at->entries, [&](const TomlEntry& e) { return excludes(e.key, part.name); });
+      at->entries.push_back({part.name, part.spot, {}});
+      entry = &at->entries.back();
+      entry->value.spot = part.spot;
+    }
+    at = &entry->value;
+  }
+  *at = active.override->value;
+}
+
+}  // namespace rheonet

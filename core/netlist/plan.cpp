@@ -1,0 +1,332 @@
+#include "core/netlist/plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/netlist/group_names.hpp"
+#include "core/netlist/keys.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::string article(const std::string& type) {
+  return (std::string_view("aeiou").find(type.front()) == std::string_view::npos ? "a `" : "an `") + type + "`";
+}
+
+const Parameter* find_parameter(const Declaration& declaration, const std::string& name) {
+  for (const Parameter& p : declaration.parameters)
+    if (p.name == name) return &p;
+  return nullptr;
+}
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+int Scope::node(const std::string& name, Spot spot) {
+  if (name == "ground") return -1;
+  const auto [found, is_new] = node_index.emplace(name, static_cast<int>(nodes.size()));
+  if (is_new) nodes.push_back({name, spot});
+  return found->second;
+}
+
+void Planner::read_elements(const TomlValue& table, Scope& scope) {
+  if (!expect_table(table, "`elements`", context_.mistakes)) return;
+  scope.entries.reserve(table.entries.size());
+  for (const TomlEntry& entry : table.entries) {
+    if (!expect_name(entry.key, entry.spot, "an element", context_.mistakes)) continue;
+    if (entry.key == "ground") {
+      context_.mistakes.error(entry.spot, "an element cannot be called `ground`: that is the node that never moves");
+      continue;
+    }
+    scope.entries.push_back(read_entry(entry.key, entry.spot, entry.value, &scope));
+  }
+  check_names(scope, context_.mistakes);
+}
+
+Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope) {
+  Plan plan;
+  plan.name = std::move(name);
+  plan.spot = spot;
+  plan.source = &source;
+  Mistakes& mistakes = context_.mistakes;
+  const std::size_t before = mistakes.errors();
+  const std::string called = scope ? "element `" + plan.name + "`" : "a member of a group";
+  if (!expect_table(source, called, mistakes, "an element is a table: { type = \"spring\", ... }")) return plan;
+
+  const TomlEntry* kind = nullptr;
+  for (const char* key : {"type", "series", "parallel"}) {
+    const TomlEntry* entry = source.find(key);
+    if (entry && kind) {
+      mistakes.error(entry->spot, called + " has both `" + kind->key + "` and `" + entry->key + "`",
+                     "a group in a group is a member of its own: series = [ { parallel = [ ... ] }, ... ]");
+      return plan;
+    }
+    if (entry) kind = entry;
+  }
+  if (!kind) {
+    std::string hint = "expected `type`, `series` or `parallel`";
+    for (const TomlEntry& entry : source.entries)
+      if (const auto meant = nearest(entry.key, {"type", "series", "parallel"}); !meant.empty())
+        hint = "is `" + entry.key + "` meant to be `" + meant + "`?";
+    mistakes.error(spot, called + " has no `type`", hint);
+    return plan;
+  }
+
+  const auto read_name = [&](Keys& keys) {
+    const TomlEntry* entry = scope ? nullptr : keys.find("name");
+    if (!entry) return;
+    if (!expect_string(entry->value, "`name`", mistakes)) return;
+    if (!expect_name(entry->value.text, entry->value.spot, "an element", mistakes)) return;
+    plan.name = entry->value.text;
+    plan.spot = entry->value.spot;
+  };
+  if (kind->key != "type") {
+    plan.kind = kind->key == "series" ? Plan::Kind::series : Plan::Kind::parallel;
+    Keys keys(source, article(kind->key) + " group");
+    read_name(keys);
+    read_place(plan, scope, 2, false, true, keys);
+    read_repeat(plan, keys);
+    read_group(plan, *kind, keys);
+    keys.refuse_others(mistakes);
+    // An unnamed group within another adds no level: its members are named with those around it.
+    if (scope || !plan.name.empty() || plan.repeat) name_members(plan, mistakes);
+  } else if (expect_string(kind->value, "`type`", mistakes)) {
+    const std::string& type = kind->value.text;
+    const auto model = models_.find(type);
+    const Declaration* declaration = find_type(type);
+    if (declaration || model != models_.end()) {
+      Keys keys(source, article(type));
+      keys.find("type");
+      read_name(keys);
+      if (declaration)
+        read_element(plan, *kind, *declaration, scope, keys);
+      else
+        read_instance(plan, *model->second, scope, keys);
+      read_repeat(plan, keys);
+      keys.refuse_others(mistakes);
+    } else {
+      refuse_type(*kind);
+    }
+  }
+  plan.sound = mistakes.errors() == before;
+  return plan;
+}
+
+const Declaration* Planner::find_type(const std::string& type) const {
+  for (const Declaration* d : context_.declarations)
+    if (d->type == type ||
+        (context_.domain == Domain::rotation && !d->rotational_type.empty() && d->rotational_type == type))
+      return d;
+  return nullptr;
+}
+
+void Planner::refuse_type(const TomlEntry& type) {
+  std::vector<std::string> names;
+  for (const Declaration* d : context_.declarations) {
+    if (!d->rotational_type.empty() && d->rotational_type == type.value.text) {
+      context_.mistakes.error(type.value.spot,
+                              article(type.value.text) + " belongs to a rotational scene, this one is translational",
+                              "use `" + d->type + "`, or set domain = \"rotation\"");
+      return;
+    }
+    names.push_back(d->type);
+    if (context_.domain == Domain::rotation && !d->rotational_type.empty()) names.push_back(d->rotational_type);
+  }
+  for (const auto& [name, model] : models_) names.push_back(name);
+  context_.mistakes.error(type.value.spot, "unknown element type `" + type.value.text + "`",
+                          did_you_mean(type.value.text, names, "the types are " + list_names(names, "and")));
+}
+
+void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope,
+                           Keys& keys) {
+  Mistakes& mistakes = context_.mistakes;
+  const Domain domain = context_.domain;
+  const auto found = std::find(context_.declarations.begin(), context_.declarations.end(), &declaration);
+  plan.declaration = static_cast<int>(found - context_.declarations.begin());
+  const bool may_be_at = declaration.ports != Declaration::Ports::between;
+  const bool may_be_between = declaration.ports != Declaration::Ports::at;
+  if (!scope && !may_be_between)
+    mistakes.error(type.value.spot,
+                   article(type.value.text) + " stands at a node: it cannot be a member of `series` or `parallel`",
+                   "give it an entry of its own in [elements], with `at`");
+  read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
+
+  std::vector<std::string> given;
+  plan.values.resize(declaration.parameters.size());
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const Parameter& parameter = declaration.parameters[i];
+    const std::string& name = parameter.name_in(domain);
+    // Where a parameter has two names, the other one deserves more than "unknown key".
+    for (const std::string& other : {parameter.name, parameter.rotational_name}) {
+      const TomlEntry* entry = other.empty() || other == name ? nullptr : keys.find_quietly(other);
+      if (entry)
+        mistakes.error(entry->spot,
+                       "`" + other + "` is called `" + name + "` in a " +
+                           (domain == Domain::rotation ? "rotational" : "translational") + " scene",
+                       "write `" + name + "`" + (domain == Domain::rotation ? "" : ", or set domain = \"rotation\""));
+    }
+    const TomlEntry* entry = parameter.later.empty() ? keys.find(name) : keys.find_quietly(name);
+    if (!entry) {
+      const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+                                 !parameter.same_as.empty() || among(declaration.one_of, parameter.name) ||
+                                 !parameter.later.empty();
+      if (parameter.kind == Parameter::Kind::signal && parameter.fallback) plan.default_signals.push_back(i);
+      if (!may_be_absent)
+        mistakes.error(
+            plan.spot, article(type.value.text) + " needs `" + name + "`",
+            parameter.kind == Parameter::Kind::signal
+                ? "a signal: a number or a table such as { step = \"1 " + unit_of(parameter.quantity, domain) + "\" }"
+                : "a " + name_of(parameter.quantity, domain) + ", in " + unit_of(parameter.quantity, domain));
+      continue;
+    }
+    if (!parameter.later.empty()) {
+      mistakes.error(entry->spot, "`" + name + "` of " + article(type.value.text) + ": " + parameter.later);
+      continue;
+    }
+    if (among(declaration.one_of, parameter.name)) given.push_back(name);
+    if (given.size() > 1 && given.back() == name) {
+      mistakes.error(entry->spot, article(type.value.text) + " has both `" + given.front() + "` and `" + name + "`",
+                     "only one of them can be given");
+      continue;
+    }
+    if (parameter.kind == Parameter::Kind::signal) {
+      plan.signals.emplace_back(entry->value, name, parameter.quantity, context_);
+      plan.signal_parameters.push_back(static_cast<int>(i));
+    } else {
+      plan.values[i] = Formula(entry->value, "`" + name + "`", mistakes);
+    }
+  }
+  if (!declaration.one_of.empty() && given.empty()) {
+    std::vector<std::string> names;
+    for (const std::string& name : declaration.one_of)
+      if (const Parameter* p = find_parameter(declaration, name)) names.push_back(p->name_in(domain));
+    mistakes.error(plan.spot, article(type.value.text) + " needs " + list_names(names));
+  }
+}
+
+void Planner::read_instance(Plan& plan, Model& model, Scope* scope, Keys& keys) {
+  plan.kind = Plan::Kind::instance;
+  plan.model = &model;
+  const std::size_t ports = model.ports.size();
+  if (!scope && ports != 2 && ports != 0)
+    context_.mistakes.error(plan.spot, "model `" + model.name + "` has " + std::to_string(ports) +
+                                           (ports == 1 ? " port" : " ports") +
+                                           ": a member of `series` or `parallel` needs two");
+  read_place(plan, scope, ports, ports == 1, ports != 1, keys);
+  for (const NamedFormula& parameter : model.parameters) {
+    const TomlEntry* entry = keys.find(parameter.name);
+    plan.values.push_back(entry ? Formula(entry->value, "`" + parameter.name + "`", context_.mistakes) : Formula());
+    if (!entry && !parameter.formula.given())
+      context_.mistakes.error(plan.spot, article(model.name) + " needs `" + parameter.name + "`",
+                              "the model gives it no default");
+  }
+}
+
+void Planner::read_group(Plan& plan, const TomlEntry& group, Keys& keys) {
+  keys.find(group.key);
+  if (!expect_array(group.value, "`" + group.key + "`", context_.mistakes,
+                    "a group lists its members: " + group.key + " = [ { type = \"spring\", ... }, ... ]"))
+    return;
+  if (group.value.items.empty()) context_.mistakes.error(group.value.spot, "`" + group.key + "` has no members");
+  plan.members.reserve(group.value.items.size());
+  for (const TomlValue& item : group.value.items) plan.members.push_back(read_entry("", item.spot, item, nullptr));
+}
+
+void Planner::read_place(Plan& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, Keys& keys) {
+  Mistakes& mistakes = context_.mistakes;
+  const TomlEntry* at = may_be_at && scope ? keys.find("at") : keys.find_quietly("at");
+  const TomlEntry* between = may_be_between && scope ? keys.find("between") : keys.find_quietly("between");
+  if (!scope) {
+    for (const TomlEntry* entry : {at, between})
+      if (entry)
+        mistakes.error(entry->spot, "a member of `series` or `parallel` has no `" + entry->key + "`",
+                       "its place in the group says between which nodes it is");
+    return;
+  }
+  const std::string two = ports == 2 ? "two nodes" : std::to_string(ports) + " nodes";
+  const std::string between_hint = ports == 2 ? "between = [\"a\", \"ground\"]" : "one for each port of the model";
+  if (at && !may_be_at) {
+    mistakes.error(at->spot, "`" + plan.name + "` is between " + two + ", not `at` one", between_hint);
+    return;
+  }
+  if (between && !may_be_between) {
+    mistakes.error(between->spot, "`" + plan.name + "` is `at` one node, not `between` several", "at = \"a\"");
+    return;
+  }
+  if (at && between) {
+    mistakes.error(between->spot, "`" + plan.name + "` has both `at` and `between`", "only one of them can be given");
+    return;
+  }
+  if (!at && !between) {
+    mistakes.error(plan.spot,
+                   "`" + plan.name + "` needs " +
+                       list_names(may_be_at && may_be_between ? std::vector<std::string>{"at", "between"}
+                                  : may_be_at                 ? std::vector<std::string>{"at"}
+                                                              : std::vector<std::string>{"between"}),
+                   may_be_between ? between_hint : "at = \"a\"");
+    return;
+  }
+  const auto take = [&](const TomlValue& value) {
+    if (!expect_string(value, "the name of a node", mistakes)) return;
+    if (!expect_name(value.text, value.spot, "a node", mistakes)) return;
+    plan.nodes.push_back(scope->node(value.text, value.spot));
+  };
+  if (at) {
+    plan.at = true;
+    take(at->value);
+    return;
+  }
+  if (!expect_array(between->value, "`between`", mistakes, between_hint)) return;
+  const auto& items = between->value.items;
+  if (items.size() != ports && ports > 0) {
+    mistakes.error(between->value.spot, "`between` must name " + two + ", but names " + std::to_string(items.size()),
+                   between_hint);
+    return;
+  }
+  for (const TomlValue& item : items) take(item);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (items[i].is_string() && items[j].is_string() && items[i].text == items[j].text)
+        mistakes.error(items[i].spot, "`between` names the node `" + items[i].text + "` twice",
+                       "an element is between different nodes");
+}
+
+void Planner::read_repeat(Plan& plan, Keys& keys) {
+  Mistakes& mistakes = context_.mistakes;
+  const TomlEntry* entry = keys.find("repeat");
+  if (!entry ||
+      !expect_table(entry->value, "`repeat`", mistakes, "repeat = { count = 10, as = \"i\", arrange = \"series\" }"))
+    return;
+  Keys repeat_keys(entry->value, "`repeat`");
+  Repeat repeat;
+  const bool chainable = !plan.at && (plan.kind != Plan::Kind::instance || plan.model->ports.size() == 2);
+  repeat.series = chainable;
+  if (const TomlEntry* count = repeat_keys.require("count", entry->spot, mistakes))
+    repeat.count = Formula(count->value, "`count`", mistakes);
+  if (const TomlEntry* as = repeat_keys.find("as"); as && expect_string(as->value, "`as`", mistakes)) {
+    if (as->value.text == "n")
+      mistakes.error(as->value.spot, "`as` cannot be `n`: that is the count", "choose another name");
+    else if (expect_identifier(as->value.text, as->value.spot, "the number of a member", mistakes))
+      repeat.as = as->value.text;
+  }
+  if (const TomlEntry* arrange = repeat_keys.find("arrange");
+      arrange && expect_string(arrange->value, "`arrange`", mistakes)) {
+    const std::string& text = arrange->value.text;
+    if (text != "series" && text != "parallel")
+      mistakes.error(arrange->value.spot, "`arrange` must be `series` or `parallel`, but is `" + text + "`",
+                     did_you_mean(text, {"series", "parallel"}));
+    else if (text == "series" && !chainable)
+      mistakes.error(arrange->value.spot, "only what is between two nodes can be repeated in series",
+                     "arrange = \"parallel\"");
+    else
+      repeat.series = text == "series";
+  }
+  repeat_keys.refuse_others(mistakes);
+  plan.repeat = std::move(repeat);
+}
+
+}  // namespace rheonet

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/netlist/context.hpp"
+#include "core/netlist/keys.hpp"
+#include "core/netlist/parameters.hpp"
+#include "core/netlist/signals.hpp"
+
+namespace rheonet {
+
+struct Model;
+
+/// `repeat = { count, as, arrange }` of an entry.
+struct Repeat {
+  Formula count;
+  std::string as = "i";
+  bool series = true;
+};
+
+/// One entry of an `elements` table, or one member of `series` or `parallel`: its structure is checked and its types
+/// are known, its values are not evaluated. Made once, however many elements come of it.
+struct Plan {
+  enum class Kind { element, series, parallel, instance };
+
+  Kind kind = Kind::element;
+  bool sound = false;  ///< false: something is wrong with it, nothing comes of it
+  std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
+  Spot spot;           ///< of its name, or of its table
+  const TomlValue* source = nullptr;
+  std::vector<int> nodes;  ///< `at`, `between`: indices into Scope::nodes, -1 for ground. Empty within a group
+  std::optional<Repeat> repeat;
+
+  int declaration = 0;          ///< of an element
+  bool at = false;              ///< of an element
+  std::vector<Formula> values;  ///< of an element: of each declared parameter; of an instance: of each of the model's
+  std::vector<SignalPlan> signals;  ///< of an element, for each of signal_parameters
+  std::vector<int> signal_parameters;
+  std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
+
+  std::vector<Plan> members;  ///< of a group
+  Model* model = nullptr;     ///< of an instance
+};
+
+/// The entries of one `elements` table, and the nodes that they name.
+struct Scope {
+  struct Node {
+    std::string name;
+    Spot spot;
+  };
+  std::vector<Node> nodes;  ///< a model's ports come first
+  std::unordered_map<std::string, int> node_index;
+  std::vector<Plan> entries;
+
+  /// Index of the node `name`, -1 for ground.
+  int node(const std::string& name, Spot spot);
+};
+
+/// A model of `[models]`.
+struct Model {
+  std::string name;
+  Spot spot;
+  const TomlValue* source = nullptr;
+  std::vector<std::string> ports;
+  std::vector<NamedFormula> parameters;
+  std::vector<std::size_t> order;  ///< in which the parameters can be evaluated
+  Scope scope;
+  std::vector<Number> defaults;              ///< of the parameters; NaN where there is none, or none that is known
+  const Environment* environment = nullptr;  ///< the [parameters] of its file
+  bool sound = false;
+};
+
+using Models = std::map<std::string, std::unique_ptr<Model>>;
+
+/// Makes plans of the entries of a file.
+class Planner {
+ public:
+  Planner(Context& context, const Models& models) : context_(context), models_(models) {}
+
+  /// All entries of an `elements` table. Ports are in `scope` already.
+  void read_elements(const TomlValue& table, Scope& scope);
+  /// One entry. `scope` is where its nodes are named; nullptr for a member of a group, which names none.
+  Plan read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope);
+
+ private:
+  void read_element(Plan& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope, Keys& keys);
+  void read_instance(Plan& plan, Model& model, Scope* scope, Keys& keys);
+  void read_group(Plan& plan, const TomlEntry& group, Keys& keys);
+  void read_place(Plan& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, Keys& keys);
+  void read_repeat(Plan& plan, Keys& keys);
+  const Declaration* find_type(const std::string& type) const;
+  void refuse_type(const TomlEntry& type);
+
+  Context& context_;
+  const Models& models_;
+};
+
+}  // namespace rheonet

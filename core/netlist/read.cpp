@@ -1,0 +1,219 @@
+#include "core/netlist/read.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/netlist/expand.hpp"
+#include "core/netlist/include.hpp"
+#include "core/netlist/keys.hpp"
+#include "core/netlist/models.hpp"
+#include "core/netlist/records.hpp"
+#include "core/netlist/simulate_table.hpp"
+
+namespace rheonet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> top_level{"title", "domain", "parameters", "elements",
+                                         "nodes", "models", "include",    "simulate"};
+
+bool is_top_level(const std::string& name) {
+  return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
+}
+
+/// Reads one scene, from its text on.
+class Reader {
+ public:
+  Reader(ReadResult& result, Declarations declarations, const ReadOptions& options)
+      : result_(result),
+        options_(options),
+        mistakes_(result.sources),
+        files_(result.sources, options.library),
+        context_{declarations, Domain::translation, files_, mistakes_} {}
+
+  void read(fs::path name, std::string text, fs::path folder, const fs::path& canonical) {
+    overrides_ = read_overrides(options_.overrides, result_.sources, mistakes_);
+    const int file = files_.add(std::move(name), std::move(text), std::move(folder));
+    if (auto document = parse_toml(file, result_.sources, mistakes_)) {
+      document_ = std::move(*document);
+      read_document(file, canonical);
+    }
+    finish();
+  }
+
+  /// The file could not be read.
+  void refuse(const fs::path& name, const std::string& why) {
+    const int file = files_.add(name, "", {});
+    mistakes_.error({file, 0, 0}, "cannot be read: " + why);
+    finish();
+  }
+
+ private:
+  void finish() {
+    result_.diagnostics = mistakes_.sorted();
+    if (mistakes_.errors() == 0) result_.scene = std::move(scene_);
+  }
+
+  void read_document(int file, const fs::path& canonical) {
+    override_tables();
+    Keys keys(document_, "a scene");
+    for (const std::string& key : top_level) keys.find(key);
+    keys.refuse_others(mistakes_);
+    read_title_and_domain();
+
+    const Environment& environment = parameters_of(document_);
+    auto included = read_includes(document_, canonical, context_);
+    override_models(included);
+    Models models;
+    for (IncludedFile& other : included)
+      if (const TomlEntry* table = other.document.find("models"))
+        declare_models(table->value, parameters_of(other.document), context_, models);
+    if (const TomlEntry* table = document_.find("models")) declare_models(table->value, environment, context_, models);
+    plan_models(context_, models);
+
+    Planner planner(context_, models);
+    Scope scope;
+    const TomlEntry* elements = document_.find("elements");
+    if (elements) planner.read_elements(elements->value, scope);
+    if (!elements || (elements->value.is_table() && elements->value.entries.empty()))
+      mistakes_.error(
+          elements ? elements->spot : Spot{file, 1, 1}, "the scene has no elements",
+          "[elements] with a line for each: k1 = { type = \"spring\", between = [\"a\", \"ground\"], ... }");
+    Expander expander(context_, planner, scene_);
+    expander.run(scope, environment, element_overrides(scope));
+
+    std::set<std::string> doubtful = expander.failed();
+    for (const TomlEntry& entry : elements ? elements->value.entries : std::vector<TomlEntry>{})
+      if (!is_entry(scope, entry.key)) doubtful.insert(entry.key);
+    for (const Scope::Node& node : scope.nodes)
+      if (!expander.failed().empty()) doubtful.insert(node.name);
+
+    if (const TomlEntry* nodes = document_.find("nodes"))
+      read_initial_values(nodes->value, environment, doubtful, context_, scene_);
+    const TomlEntry* simulate = document_.find("simulate");
+    const TomlEntry* record = nullptr;
+    if (simulate)
+      record = read_simulate(*simulate, environment, context_, scene_);
+    else
+      mistakes_.error({file, 1, 1}, "the scene has no [simulate]", "[simulate] says when the run ends: stop = \"1 s\"");
+    if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
+    // A million default records of a scene that is refused would be for nothing.
+    if (record || mistakes_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
+  }
+
+  void read_title_and_domain() {
+    if (const TomlEntry* title = document_.find("title"); title && expect_string(title->value, "`title`", mistakes_))
+      scene_.title = title->value.text;
+    const TomlEntry* domain = document_.find("domain");
+    if (!domain || !expect_string(domain->value, "`domain`", mistakes_)) return;
+    const std::string& text = domain->value.text;
+    if (text == "rotation")
+      context_.domain = scene_.domain = Domain::rotation;
+    else if (text != "translation")
+      mistakes_.error(domain->value.spot, "`domain` must be `translation` or `rotation`, but is `" + text + "`",
+                      did_you_mean(text, {"translation", "rotation"}));
+  }
+
+  const Environment& parameters_of(const TomlValue& document) {
+    Environment& environment = environments_.emplace_back();
+    const TomlEntry* table = document.find("parameters");
+    if (!table || !expect_table(table->value, "`parameters`", mistakes_)) return environment;
+    const auto& formulas = formulas_.emplace_back(read_named_formulas(table->value, mistakes_));
+    return environment = evaluate_parameters(formulas, mistakes_);
+  }
+
+  static bool is_entry(const Scope& scope, const std::string& name) {
+    return std::any_of(scope.entries.begin(), scope.entries.end(), [&](const Plan& p) { return p.name == name; });
+  }
+
+  /// Overrides of everything but elements and models.
+  void override_tables() {
+    for (const Override& override : overrides_) {
+      const std::string& table = override.path.front().name;
+      if (!is_top_level(table) || table == "elements" || table == "models") continue;
+      apply({&override, 0}, document_, mistakes_);
+    }
+  }
+
+  void override_models(std::deque<IncludedFile>& included) {
+    for (const Override& override : overrides_) {
+      if (override.path.front().name != "models") continue;
+      std::vector<TomlValue*> documents{&document_};
+      for (IncludedFile& other : included) documents.push_back(&other.document);
+      std::vector<std::string> names;
+      bool found = false;
+      for (TomlValue* document : documents) {
+        TomlEntry* models = document->find("models");
+        if (!models || !models->value.is_table()) continue;
+        for (const TomlEntry& model : models->value.entries) names.push_back(model.key);
+        if (found || override.path.size() < 2 || !models->value.find(override.path[1].name)) continue;
+        found = true;
+        apply({&override, 1}, models->value, mistakes_);
+      }
+      if (!found) {
+        const Override::Part& part = override.path[override.path.size() < 2 ? 0 : 1];
+        mistakes_.error(part.spot, "there is no model `" + part.name + "`", did_you_mean(part.name, names));
+      }
+    }
+  }
+
+  ActiveOverrides element_overrides(const Scope& scope) {
+    ActiveOverrides active;
+    for (const Override& override : overrides_) {
+      const bool from_table = override.path.front().name == "elements";
+      if (!from_table && is_top_level(override.path.front().name)) continue;
+      const ActiveOverride first{&override, from_table ? std::size_t{1} : std::size_t{0}};
+      const Override::Part& part = first.at_end() ? override.path.front() : first.next();
+      if (!first.at_end() && is_entry(scope, part.name)) {
+        active.push_back(first);
+        continue;
+      }
+      std::vector<std::string> names;
+      for (const Plan& plan : scope.entries) names.push_back(plan.name);
+      if (!from_table) names.insert(names.end(), top_level.begin(), top_level.end());
+      mistakes_.error(
+          part.spot, "nothing is called `" + part.name + "`",
+          did_you_mean(part.name, names, "a path begins with an element (k1.stiffness) or a table (simulate.stop)"));
+    }
+    return active;
+  }
+
+  ReadResult& result_;
+  const ReadOptions& options_;
+  Mistakes mistakes_;
+  Files files_;
+  Context context_;
+  Scene scene_;
+  TomlValue document_;
+  std::deque<Override> overrides_;
+  std::deque<Environment> environments_;
+  std::deque<std::vector<NamedFormula>> formulas_;
+};
+
+}  // namespace
+
+ReadResult read_scene(const fs::path& file, Declarations declarations, const ReadOptions& options) {
+  ReadResult result;
+  Reader reader(result, declarations, options);
+  std::string why;
+  if (auto text = read_text(file, why)) {
+    std::error_code failed;
+    const fs::path canonical = fs::canonical(file, failed);
+    reader.read(file, std::move(*text), file.parent_path(), canonical);
+  } else {
+    reader.refuse(file, why);
+  }
+  return result;
+}
+
+ReadResult read_scene_text(std::string text, const std::string& name, const fs::path& folder, Declarations declarations,
+                           const ReadOptions& options) {
+  ReadResult result;
+  Reader reader(result, declarations, options);
+  reader.read(name, std::move(text), folder, {});
+  return result;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,190 @@
+#include "core/netlist/records.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "core/netlist/keys.hpp"
+#include "core/netlist/scene_index.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+namespace {
+
+using Channel = Record::Channel;
+using Subject = Record::Subject;
+
+constexpr std::pair<const char*, Channel> channels[] = {{"position", Channel::position},
+                                                        {"velocity", Channel::velocity},
+                                                        {"displacement", Channel::displacement},
+                                                        {"force", Channel::force}};
+
+struct Path {
+  std::string object;
+  std::string channel;
+  const TomlValue* source;
+};
+
+/// What can be recorded of something.
+std::vector<std::string> channels_of(const SceneIndex::Found& found) {
+  if (found.node >= 0 && found.element >= 0) return {"position", "velocity", "displacement", "force"};
+  if (found.node >= 0) return {"position", "velocity"};
+  return {"force", "displacement", "velocity"};
+}
+
+/// The words of a rotational scene, and others that users may try.
+std::string meant_channel(const std::string& channel, const std::vector<std::string>& known) {
+  const auto may = [&](const char* name) { return std::find(known.begin(), known.end(), name) != known.end(); };
+  if (channel == "torque" && may("force")) return "force";
+  if (channel == "angle" || channel == "position" || channel == "displacement")
+    return may("position") ? "position" : "displacement";
+  return nearest(channel, known);
+}
+
+std::optional<Record> resolve(const Path& path, const SceneIndex::Found& found) {
+  const auto channel =
+      std::find_if(std::begin(channels), std::end(channels), [&](const auto& c) { return path.channel == c.first; });
+  if (channel == std::end(channels)) return {};
+  Record record{path.object + '.' + path.channel, Subject::node, found.node, channel->second};
+  const bool of_node = record.channel == Channel::position || record.channel == Channel::velocity;
+  if (of_node && found.node >= 0) return record;
+  if (record.channel == Channel::position) return {};
+  if (found.element >= 0) {
+    record.subject = Subject::element;
+    record.index = found.element;
+    return record;
+  }
+  if (found.assembly < 0) return {};
+  record.subject = Subject::assembly;
+  record.index = found.assembly;
+  return record;
+}
+
+void refuse(const Path& path, const SceneIndex::Found& found, Context& context, const Scene& scene) {
+  const TomlValue& source = *path.source;
+  if (!found.any()) {
+    const auto known = known_paths(scene, true);
+    std::string meant = nearest(path.object, known);
+    context.mistakes.error(source.spot, "nothing is called `" + path.object + "`",
+                           meant.empty() ? "" : "did you mean `" + meant + "." + path.channel + "`?");
+    return;
+  }
+  const auto known = channels_of(found);
+  const Spot spot = context.mistakes.inside(source, path.object.size() + 1);
+  if (found.element >= 0 && scene.elements[static_cast<std::size_t>(found.element)].at && path.channel == "position") {
+    const NodeId node = scene.elements[static_cast<std::size_t>(found.element)].a;
+    context.mistakes.error(spot, "`" + path.object + "` has no `position`: it is an element, only nodes have one",
+                           "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + ".position`");
+    return;
+  }
+  const std::string meant = meant_channel(path.channel, known);
+  context.mistakes.error(
+      spot, "`" + path.object + "` has no `" + path.channel + "`",
+      meant.empty() ? "it has " + list_names(known, "and") : "did you mean `" + path.object + "." + meant + "`?");
+}
+
+void record_everything(Context& context, Scene& scene) {
+  (void)context;
+  const auto add = [&](const std::string& name, Subject subject, std::size_t index,
+                       std::initializer_list<Channel> wanted) {
+    for (const Channel channel : wanted)
+      for (const auto& [word, known] : channels)
+        if (known == channel) scene.records.push_back({name + '.' + word, subject, static_cast<int>(index), channel});
+  };
+  for (std::size_t i = 1; i < scene.nodes.size(); ++i)
+    add(scene.nodes[i].name, Subject::node, i, {Channel::position, Channel::velocity});
+  for (std::size_t i = 0; i < scene.elements.size(); ++i) {
+    // What is at a node moves as the node, which is recorded.
+    if (scene.elements[i].at)
+      add(scene.elements[i].name, Subject::element, i, {Channel::force});
+    else
+      add(scene.elements[i].name, Subject::element, i, {Channel::force, Channel::displacement, Channel::velocity});
+  }
+  for (std::size_t i = 0; i < scene.assemblies.size(); ++i)
+    add(scene.assemblies[i].name, Subject::assembly, i, {Channel::force, Channel::displacement, Channel::velocity});
+}
+
+bool is_doubtful(const std::string& path, const std::set<std::string>& doubtful) {
+  return doubtful.contains(path.substr(0, path.find('.')));
+}
+
+}  // namespace
+
+void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
+  if (!record) {
+    record_everything(context, scene);
+    return;
+  }
+  Mistakes& mistakes = context.mistakes;
+  const std::string hint = "record = [\"k1.force\", \"mid.velocity\"]";
+  if (!expect_array(record->value, "`record`", mistakes, hint)) return;
+  std::vector<Path> paths;
+  std::vector<std::string> objects;
+  std::unordered_set<std::string> seen;
+  for (const TomlValue& item : record->value.items) {
+    if (!expect_string(item, "what to record", mistakes, hint)) continue;
+    const std::size_t dot = item.text.rfind('.');
+    if (dot == item.text.npos) {
+      mistakes.error(item.spot, "`" + item.text + "` does not say which quantity to record",
+                     "for instance `" + item.text + ".force` of an element, `" + item.text + ".velocity` of a node");
+      continue;
+    }
+    if (!seen.insert(item.text).second) {
+      mistakes.warning(item.spot, "`" + item.text + "` is recorded already: it has one column");
+      continue;
+    }
+    paths.push_back({item.text.substr(0, dot), item.text.substr(dot + 1), &item});
+    objects.push_back(paths.back().object);
+  }
+  const SceneIndex index(scene, objects);
+  for (const Path& path : paths) {
+    const auto found = index.find(path.object);
+    if (path.object == "ground") {
+      mistakes.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
+    } else if (auto resolved = resolve(path, found)) {
+      scene.records.push_back(std::move(*resolved));
+    } else if (found.any() || !is_doubtful(path.object, doubtful)) {
+      refuse(path, found, context, scene);
+    }
+  }
+}
+
+void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,
+                         Context& context, Scene& scene) {
+  Mistakes& mistakes = context.mistakes;
+  if (!expect_table(nodes, "`nodes`", mistakes)) return;
+  std::vector<std::string> names;
+  for (const TomlEntry& entry : nodes.entries) names.push_back(entry.key);
+  const SceneIndex index(scene, names);
+  for (const TomlEntry& entry : nodes.entries) {
+    if (entry.key == "ground") {
+      mistakes.error(entry.spot, "`ground` never moves: it has no initial values");
+      continue;
+    }
+    const auto found = index.find(entry.key);
+    if (found.node < 0) {
+      if (is_doubtful(entry.key, doubtful)) continue;
+      std::string hint = did_you_mean(entry.key, known_paths(scene, false), "nodes exist by being named in an element");
+      if (found.any()) hint = "`" + entry.key + "` is an element: initial values are those of its nodes";
+      mistakes.error(entry.spot, "no element names a node `" + entry.key + "`", hint);
+      continue;
+    }
+    const std::string hint = entry.key + " = { position = \"1 " + unit_of(Quantity::position, context.domain) + "\" }";
+    if (!expect_table(entry.value, "node `" + entry.key + "`", mistakes, hint)) continue;
+    Keys keys(entry.value, "a node");
+    const auto value = [&](const char* key, Quantity quantity, double& target) {
+      const TomlEntry* given = keys.find(key);
+      if (!given) return;
+      const Formula formula(given->value, '`' + std::string(key) + '`', mistakes);
+      if (!formula.given()) return;
+      if (const auto si = formula.evaluate_finite(environment, quantity, context.domain, mistakes)) target = *si;
+    };
+    SceneNode& node = scene.nodes[static_cast<std::size_t>(found.node)];
+    node.spot = entry.spot;
+    value("position", Quantity::position, node.position);
+    value("velocity", Quantity::velocity, node.velocity);
+    keys.refuse_others(mistakes);
+  }
+}
+
+}  // namespace rheonet

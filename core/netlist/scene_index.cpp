@@ -1,0 +1,39 @@
+#include "core/netlist/scene_index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Comparing a mistyped name with so many takes a few milliseconds.
+constexpr std::size_t most_paths = 10'000;
+
+}  // namespace
+
+SceneIndex::SceneIndex(const Scene& scene, const std::vector<std::string>& wanted) {
+  for (const std::string& name : wanted) found_.emplace(name, Found{});
+  const auto note = [&](const auto& things, int Found::*member) {
+    for (std::size_t i = 0; i < things.size(); ++i)
+      if (const auto found = found_.find(things[i].name); found != found_.end())
+        found->second.*member = static_cast<int>(i);
+  };
+  if (found_.empty()) return;
+  note(scene.nodes, &Found::node);
+  note(scene.elements, &Found::element);
+  note(scene.assemblies, &Found::assembly);
+}
+
+std::vector<std::string> known_paths(const Scene& scene, bool all) {
+  std::vector<std::string> paths;
+  const auto add = [&](const auto& things) {
+    for (const auto& thing : things)
+      if (paths.size() < most_paths) paths.push_back(thing.name);
+  };
+  add(scene.nodes);
+  if (all) {
+    add(scene.elements);
+    add(scene.assemblies);
+  }
+  return paths;
+}
+
+}  // namespace rheonet

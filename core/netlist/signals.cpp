@@ -1,0 +1,279 @@
+#include "core/netlist/signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/netlist/keys.hpp"
+#include "core/netlist/table_file.hpp"
+
+namespace rheonet {
+
+const std::vector<std::string>& SignalPlan::shape_names() {
+  // In the order of Shape.
+  static const std::vector<std::string> names{"step",     "ramp",  "sine",  "cosine", "square",
+                                              "triangle", "chirp", "pulse", "table"};
+  return names;
+}
+
+const std::array<std::string, SignalPlan::key_count>& SignalPlan::key_names() {
+  static const std::array<std::string, key_count> names{"amplitude", "frequency", "end_frequency", "duration",
+                                                        "width",     "phase",     "time",          "offset"};
+  return names;
+}
+
+SignalPlan::SignalPlan(const TomlValue& source, const std::string& name, Quantity quantity, Context& context)
+    : name_(name), quantity_(quantity) {
+  const std::size_t before = context.mistakes.errors();
+  if (source.is_table()) {
+    read_table_signal(source, context);
+  } else {
+    if (source.is_array())
+      context.mistakes.error(source.spot, "`" + name + "` must be a number, a string or a table, but is an array",
+                             "points are given so: { table = [[0, 0], [1, 0.5]] }");
+    else
+      main_ = Formula(source, "`" + name + "`", context.mistakes);
+    constant_ = main_.given() && main_.identifiers().empty();
+  }
+  sound_ = context.mistakes.errors() == before;
+}
+
+void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
+  const std::vector<std::string>& names = shape_names();
+  const TomlEntry* main = nullptr;
+  for (const TomlEntry& entry : source.entries) {
+    const auto found = std::find(names.begin(), names.end(), entry.key);
+    if (found == names.end()) continue;
+    if (main) {
+      context.mistakes.error(entry.spot,
+                             "signal `" + name_ + "` is both a `" + main->key + "` and a `" + entry.key + "`",
+                             "a signal has one shape; a sum of two is two elements");
+      return;
+    }
+    main = &entry;
+    shape_ = static_cast<Shape>(found - names.begin());
+  }
+  if (!main) {
+    std::string hint = "expected one of " + list_names(names);
+    Spot spot = source.spot;
+    for (const TomlEntry& entry : source.entries) {
+      const auto& known = key_names();
+      if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
+      spot = entry.spot;
+      hint = did_you_mean(entry.key, names, hint);
+      break;
+    }
+    context.mistakes.error(spot, "signal `" + name_ + "` has no shape", hint);
+    return;
+  }
+
+  std::vector<Key> required, optional{amplitude, time, offset};
+  switch (shape_) {
+    case Shape::sine:
+    case Shape::cosine:
+    case Shape::square:
+    case Shape::triangle:
+      required = {frequency};
+      optional.push_back(phase);
+      break;
+    case Shape::chirp:
+      required = {frequency, end_frequency, duration};
+      optional.push_back(phase);
+      break;
+    case Shape::pulse:
+      required = {width};
+      optional.push_back(frequency);
+      break;
+    default:
+      break;
+  }
+  Keys keys(source, "a `" + main->key + "` signal");
+  keys.find(main->key);
+  const auto take = [&](Key key, const TomlEntry* entry) {
+    if (!entry) return;
+    keys_[key] = Formula(entry->value, "`" + entry->key + "`", context.mistakes);
+    constant_ = constant_ && keys_[key].identifiers().empty();
+  };
+  for (const Key key : required) take(key, keys.require(key_names()[key], main->spot, context.mistakes));
+  for (const Key key : optional) take(key, keys.find(key_names()[key]));
+  keys.refuse_others(context.mistakes);
+
+  if (shape_ == Shape::table) {
+    read_points(main->value, context);
+  } else {
+    main_ = Formula(main->value, "`" + main->key + "`", context.mistakes);
+    constant_ = constant_ && main_.identifiers().empty();
+  }
+}
+
+void SignalPlan::read_points(const TomlValue& source, Context& context) {
+  if (source.is_string()) {
+    if (auto rows = read_table_file(source, context))
+      rows_ = std::make_shared<const std::vector<std::pair<double, double>>>(std::move(*rows));
+    return;
+  }
+  if (!expect_array(source, "`table`", context.mistakes, "points ([[0, 0], [1, 0.5]]) or the name of a CSV file"))
+    return;
+  if (source.items.empty()) context.mistakes.error(source.spot, "`table` has no points");
+  points_.reserve(source.items.size());
+  for (const TomlValue& item : source.items) {
+    if (!item.is_array() || item.items.size() != 2) {
+      context.mistakes.error(item.spot,
+                             "a point of a table is an array of two values, [time, value], but this is " +
+                                 (item.is_array() ? "one of " + std::to_string(item.items.size()) : describe(item)));
+      return;
+    }
+    points_.push_back({Formula(item.items[0], "the time of a point", context.mistakes),
+                       Formula(item.items[1], "the value of a point", context.mistakes)});
+    constant_ = constant_ && points_.back().time.identifiers().empty() && points_.back().value.identifiers().empty();
+  }
+}
+
+std::optional<Signal> SignalPlan::evaluate(const Environment& environment, Context& context) const {
+  if (!sound_) return {};
+  if (constant_ && made_) return made_;
+  made_ = make(environment, context);
+  return made_;
+}
+
+std::optional<double> SignalPlan::scaled(const Formula& formula, const Environment& environment,
+                                         Context& context) const {
+  auto number = formula.evaluate(environment, context.mistakes);
+  if (number && keys_[amplitude].given()) {
+    const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
+    if (!factor) return {};
+    number->value *= factor->value;
+    number->dimension = number->dimension * factor->dimension;
+    number->plain = number->plain && factor->plain;
+    number->radian += factor->radian;
+    number->hertz += factor->hertz;
+  }
+  if (!number) return {};
+  const Domain domain = context.domain;
+  const Spot spot = formula.source().spot;
+  double value = number->value;
+  if (shape_ == Shape::ramp) {
+    const Dimension expected = dimension_of(quantity_, domain) / dimension_of(Quantity::time, domain);
+    if (!number->plain && !number->dimension.same(expected)) {
+      context.mistakes.error(
+          spot,
+          formula.name() + " is the rise of `" + name_ + "` per second (" + to_string(expected) + "), but " +
+              describe(formula.source()) + " is in " + to_string(number->dimension),
+          "its unit is that of " + name_of(quantity_, domain) + ", " + unit_of(quantity_, domain) + ", per second");
+      return {};
+    }
+  } else {
+    const auto checked = as_quantity(*number, quantity_, domain);
+    if (const auto* wrong = std::get_if<TextError>(&checked)) {
+      context.mistakes.error(spot, formula.name() + ": " + wrong->message, wrong->hint);
+      return {};
+    }
+    value = std::get<double>(checked);
+  }
+  if (std::isfinite(value)) return value;
+  context.mistakes.error(spot, formula.name() + " must be finite, but is infinite");
+  return {};
+}
+
+std::optional<double> SignalPlan::value_of(Key key, const Environment& environment, Context& context,
+                                           double otherwise) const {
+  const Formula& formula = keys_[key];
+  if (!formula.given()) return otherwise;
+  const auto quantity = [&] {
+    switch (key) {
+      case frequency:
+      case end_frequency:
+        return Quantity::frequency;
+      case duration:
+      case width:
+      case time:
+        return Quantity::time;
+      case phase:
+        return Quantity::angle;
+      default:
+        return quantity_;
+    }
+  }();
+  const auto value = formula.evaluate_finite(environment, quantity, context.domain, context.mistakes);
+  if (!value) return {};
+  const bool may_be_zero = shape_ == Shape::chirp && key != duration;
+  const bool positive = key == frequency || key == end_frequency || key == duration || key == width;
+  if (positive && (*value < 0 || (*value == 0 && !may_be_zero))) {
+    context.mistakes.error(formula.source().spot,
+                           formula.name() + (may_be_zero ? " must not be negative" : " must be greater than 0"));
+    return {};
+  }
+  return value;
+}
+
+std::optional<Signal> SignalPlan::make(const Environment& environment, Context& context) const {
+  const auto start = value_of(time, environment, context, 0);
+  const auto level = value_of(offset, environment, context, 0);
+  const auto angle = value_of(phase, environment, context, 0);
+  const auto f = value_of(frequency, environment, context, 0);
+  const auto f_end = value_of(end_frequency, environment, context, 0);
+  const auto length = value_of(duration, environment, context, 0);
+  const auto high = value_of(width, environment, context, 0);
+  if (shape_ == Shape::table) {
+    if (!start || !level) return {};
+    return make_table(environment, context, *start, *level);
+  }
+  const auto main = scaled(main_, environment, context);
+  if (!main || !start || !level || !angle || !f || !f_end || !length || !high) return {};
+  switch (shape_) {
+    case Shape::step:
+      return Signal(Signal::Step{*main, *start, *level});
+    case Shape::ramp:
+      return Signal(Signal::Ramp{*main, *start, *level});
+    case Shape::sine:
+      return Signal(Signal::Sine{*main, *f, *angle, *start, *level});
+    case Shape::cosine:
+      return Signal(Signal::Sine{*main, *f, *angle + std::numbers::pi / 2, *start, *level});
+    case Shape::square:
+      return Signal(Signal::Square{*main, *f, *angle, *start, *level});
+    case Shape::triangle:
+      return Signal(Signal::Triangle{*main, *f, *angle, *start, *level});
+    case Shape::chirp:
+      return Signal(Signal::Chirp{*main, *f, *f_end, *length, *angle, *start, *level});
+    case Shape::pulse:
+      if (*f > 0 && *high * *f >= 1) {
+        context.mistakes.error(keys_[width].source().spot, "`width` must be less than the period, 1/`frequency`");
+        return {};
+      }
+      return Signal(Signal::Pulse{*main, *high, *f, *start, *level});
+    default:
+      return Signal(Signal::Constant{*main});
+  }
+}
+
+std::optional<Signal> SignalPlan::make_table(const Environment& environment, Context& context, double start,
+                                             double level) const {
+  Signal::Table table{{}, {}, start, level};
+  if (rows_) {
+    double factor = 1;
+    if (keys_[amplitude].given()) {
+      const auto value = keys_[amplitude].evaluate_finite(environment, quantity_, context.domain, context.mistakes);
+      if (!value) return {};
+      factor = *value;
+    }
+    for (const auto& [t, value] : *rows_) {
+      table.times.push_back(t);
+      table.values.push_back(factor * value);
+    }
+    return Signal(std::move(table));
+  }
+  for (const Point& point : points_) {
+    const auto t = point.time.evaluate_finite(environment, Quantity::time, context.domain, context.mistakes);
+    const auto value = scaled(point.value, environment, context);
+    if (!t || !value) return {};
+    if (!table.times.empty() && *t < table.times.back()) {
+      context.mistakes.error(point.time.source().spot, "the times of a table must not decrease");
+      return {};
+    }
+    table.times.push_back(*t);
+    table.values.push_back(*value);
+  }
+  return Signal(std::move(table));
+}
+
+}  // namespace rheonet

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/netlist/context.hpp"
+#include "core/netlist/signal.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+/// A signal as the file gives it: its shape is known, its numbers are evaluated where their names are known.
+class SignalPlan {
+ public:
+  /// `name` is what messages call it: "velocity".
+  SignalPlan(const TomlValue& source, const std::string& name, Quantity quantity, Context& context);
+
+  /// The signal where `environment` holds; absent if anything in it is a mistake.
+  std::optional<Signal> evaluate(const Environment& environment, Context& context) const;
+
+  /// `step`, `ramp`, ...
+  static const std::vector<std::string>& shape_names();
+
+ private:
+  enum class Shape { step, ramp, sine, cosine, square, triangle, chirp, pulse, table, constant };
+  enum Key { amplitude, frequency, end_frequency, duration, width, phase, time, offset, key_count };
+  struct Point {
+    Formula time;
+    Formula value;
+  };
+
+  static const std::array<std::string, key_count>& key_names();
+  void read_table_signal(const TomlValue& source, Context& context);
+  void read_points(const TomlValue& source, Context& context);
+  /// `number` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
+  std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
+  std::optional<double> value_of(Key key, const Environment& environment, Context& context, double otherwise) const;
+  std::optional<Signal> make(const Environment& environment, Context& context) const;
+  std::optional<Signal> make_table(const Environment& environment, Context& context, double time, double offset) const;
+
+  std::string name_;
+  Quantity quantity_ = Quantity::number;
+  Shape shape_ = Shape::constant;
+  bool sound_ = true;
+  bool constant_ = true;  ///< no name in it: one evaluation serves all elements
+  Formula main_;
+  std::array<Formula, key_count> keys_;
+  std::vector<Point> points_;
+  std::shared_ptr<const std::vector<std::pair<double, double>>> rows_;  ///< of a CSV file
+  mutable std::optional<Signal> made_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,96 @@
+#include "core/netlist/table_file.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "core/netlist/characters.hpp"
+
+namespace rheonet {
+
+namespace {
+
+struct Field {
+  std::string_view text;
+  int column = 1;
+};
+
+constexpr std::string_view blank = " \t\r";
+
+std::string_view trim(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
+  return text.substr(0, text.find_last_not_of(blank) + 1);
+}
+
+/// The fields of a line, split at commas if it has any, else at semicolons, else at blanks.
+std::vector<Field> split(std::string_view line) {
+  const char separator = line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
+  std::vector<Field> fields;
+  std::size_t at = 0;
+  while (at <= line.size()) {
+    std::size_t end = separator == ' ' ? line.find_first_of(blank, at) : line.find(separator, at);
+    end = std::min(end, line.size());
+    const std::string_view text = trim(line.substr(at, end - at));
+    const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);
+    if (separator != ' ' || !text.empty())
+      fields.push_back({text, 1 + static_cast<int>(count_characters(line.substr(0, begin)))});
+    at = end + 1;
+  }
+  return fields;
+}
+
+std::optional<double> number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failed != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+}  // namespace
+
+std::optional<std::vector<std::pair<double, double>>> read_table_file(const TomlValue& name, Context& context) {
+  const auto found = context.files.find(name, name.spot.file, context.mistakes);
+  if (!found) return {};
+  const auto file = context.files.read(*found, name.spot, context.mistakes);
+  if (!file) return {};
+  std::vector<std::pair<double, double>> points;
+  std::string_view rest = context.files.text(*file);
+  bool first = true;
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (trim(line).empty() || trim(line).front() == '#') continue;
+    const auto fields = split(line);
+    const bool may_be_header = first;
+    first = false;
+    if (fields.size() != 2) {
+      context.mistakes.error(
+          {*file, line_number, 1},
+          "a table of a signal has two columns, time and value; this row has " + std::to_string(fields.size()));
+      return {};
+    }
+    const auto time = number(fields[0].text);
+    const auto value = number(fields[1].text);
+    if (may_be_header && !time && !value) continue;
+    for (const auto& [parsed, field] : {std::pair(time, fields[0]), std::pair(value, fields[1])}) {
+      if (parsed && std::isfinite(*parsed)) continue;
+      context.mistakes.error({*file, line_number, field.column},
+                             "expected a finite number, found `" + std::string(field.text) + "`");
+      return {};
+    }
+    if (!points.empty() && *time < points.back().first) {
+      context.mistakes.error({*file, line_number, fields[0].column}, "the times of a table must not decrease");
+      return {};
+    }
+    points.emplace_back(*time, *value);
+  }
+  if (points.empty()) {
+    context.mistakes.error(name.spot, "the table `" + name.text + "` has no rows");
+    return {};
+  }
+  return points;
+}
+
+}  // namespace rheonet

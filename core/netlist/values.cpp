@@ -1,0 +1,185 @@
+#include "core/netlist/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace rheonet {
+
+namespace {
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
+}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Length of the unsigned decimal number that `text` begins with, 0 if it begins with none.
+std::size_t number_length(std::string_view text) {
+  std::size_t at = 0;
+  const auto digits = [&] {
+    const std::size_t begin = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    return at > begin;
+  };
+  bool any = digits();
+  if (at < text.size() && text[at] == '.') {
+    ++at;
+    any = digits() || any;
+  }
+  if (!any) return 0;
+  const std::size_t mantissa = at;
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    ++at;
+    if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+    if (!digits()) at = mantissa;
+  }
+  return at;
+}
+
+/// Whether a number, a space and something that is no operator make the text: a quantity, the rest of which is a unit.
+bool is_quantity(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  const std::size_t length = number_length(text);
+  if (length == 0) return false;
+  text.remove_prefix(length);
+  const std::size_t spaces = std::min(text.find_first_not_of(" \t"), text.size());
+  if (spaces == 0 || spaces == text.size()) return false;
+  return std::string_view("+-*/^<>=!&|?:,)").find(text[spaces]) == std::string_view::npos;
+}
+
+bool identical(const Number& a, const Number& b) {
+  return a.value == b.value && a.plain == b.plain && a.dimension.metre == b.dimension.metre &&
+         a.dimension.kilogram == b.dimension.kilogram && a.dimension.second == b.dimension.second &&
+         a.radian == b.radian && a.hertz == b.hertz;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return unit == "1" || value == 0 ? number_text(value) : number_text(value) + ' ' + unit;
+}
+
+}  // namespace
+
+std::string number_text(double value) {
+  return std::abs(value) < 1e15 && value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{}", value);
+}
+
+std::vector<std::string> identifiers_of(std::string_view text) {
+  std::vector<std::string> names;
+  if (is_quantity(text)) return names;
+  while (!text.empty()) {
+    if (const std::size_t number = number_length(text)) {
+      text.remove_prefix(number);
+    } else if (is_letter(text.front())) {
+      std::size_t end = 1;
+      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+      names.emplace_back(text.substr(0, end));
+      text.remove_prefix(end);
+    } else {
+      text.remove_prefix(1);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+Formula::Formula(const TomlValue& source, std::string name, Mistakes& mistakes) : name_(std::move(name)) {
+  if (source.kind == TomlValue::Kind::number) {
+    if (std::isnan(source.number)) {
+      mistakes.error(source.spot, name_ + " is not a number (NaN)");
+      return;
+    }
+    result_ = Number{.value = source.number, .dimension = {}};
+  } else if (source.is_string()) {
+    identifiers_ = identifiers_of(source.text);
+  } else {
+    mistakes.error(source.spot, name_ + " must be a number or a string with a quantity or an expression, but is " +
+                                    describe(source));
+    return;
+  }
+  source_ = &source;
+}
+
+std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes& mistakes) const {
+  if (identifiers_.empty() && result_) return result_;
+  std::vector<Number>& inputs = inputs_;
+  bool changed = !result_;
+  std::size_t count = 0;
+  for (const std::string& name : identifiers_) {
+    const Number* value = environment.find(name);
+    if (!value) continue;                     // a function, or an unknown name that the evaluation reports
+    if (std::isnan(value->value)) return {};  // a mistake that has been reported where it was made
+    if (count == inputs.size()) {
+      inputs.push_back(*value);
+      changed = true;
+    } else if (!identical(inputs[count], *value)) {
+      inputs[count] = *value;
+      changed = true;
+    }
+    ++count;
+  }
+  if (count != inputs.size()) {
+    inputs.resize(count);
+    changed = true;
+  }
+  if (!changed) return result_;
+  auto result = evaluate_text(source_->text, environment);
+  if (const auto* wrong = std::get_if<TextError>(&result)) {
+    result_.reset();
+    mistakes.error(mistakes.inside(*source_, wrong->offset), name_ + ": " + wrong->message, wrong->hint);
+  } else if (const Number number = std::get<Number>(result); std::isnan(number.value)) {
+    result_.reset();
+    mistakes.error(source_->spot, name_ + " is not a number: " + describe(*source_) + " has no defined value (NaN)");
+  } else {
+    result_ = number;
+  }
+  return result_;
+}
+
+std::optional<double> Formula::evaluate(const Environment& environment, Quantity quantity, Domain domain,
+                                        Mistakes& mistakes, double flow_index) const {
+  const auto number = evaluate(environment, mistakes);
+  if (!number) return {};
+  const auto result = as_quantity(*number, quantity, domain, flow_index);
+  if (const auto* wrong = std::get_if<TextError>(&result)) {
+    mistakes.error(source_->spot, name_ + ": " + wrong->message, wrong->hint);
+    return {};
+  }
+  return std::get<double>(result);
+}
+
+std::optional<double> Formula::evaluate_finite(const Environment& environment, Quantity quantity, Domain domain,
+                                               Mistakes& mistakes) const {
+  const auto value = evaluate(environment, quantity, domain, mistakes);
+  if (!value || std::isfinite(*value)) return value;
+  mistakes.error(source_->spot, name_ + " must be finite, but is infinite");
+  return {};
+}
+
+bool check_bounds(double value, const Parameter& parameter, const Formula& formula, Domain domain, double flow_index,
+                  Mistakes& mistakes) {
+  const std::string unit = unit_of(parameter.quantity, domain, flow_index);
+  const Spot spot = formula.source().spot;
+  if (std::isinf(value) && !parameter.may_be_infinite) {
+    mistakes.error(spot, formula.name() + " must be finite, but is infinite");
+    return false;
+  }
+  const bool too_low = parameter.lower_open ? value <= parameter.lower : value < parameter.lower;
+  if (too_low && std::isfinite(parameter.lower)) {
+    mistakes.error(spot, fmt::format("{} must be {} {}, but is {}", formula.name(),
+                                     parameter.lower_open ? "greater than" : "at least",
+                                     with_unit(parameter.lower, unit), with_unit(value, unit)));
+    return false;
+  }
+  if (value > parameter.upper) {
+    mistakes.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(),
+                                     with_unit(parameter.upper, unit), with_unit(value, unit)));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace rheonet

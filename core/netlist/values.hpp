@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/netlist/declaration.hpp"
+#include "core/netlist/document.hpp"
+#include "core/netlist/expression.hpp"
+
+namespace rheonet {
+
+/// A value as the file gives it (a number, a quantity, an expression), to be evaluated where its names are known. It
+/// refers to its TomlValue, which must outlive it.
+class Formula {
+ public:
+  /// Not given.
+  Formula() = default;
+  /// Anything but a number or a string is a mistake. `name` is what messages call the value: "`stiffness`".
+  Formula(const TomlValue& source, std::string name, Mistakes& mistakes);
+
+  bool given() const { return source_ != nullptr; }
+  const TomlValue& source() const { return *source_; }
+  const std::string& name() const { return name_; }
+  /// The identifiers in it; empty for a number and a quantity.
+  const std::vector<std::string>& identifiers() const { return identifiers_; }
+
+  /// The value where `environment` holds; absent if that is a mistake. Evaluated anew only if one of its names has
+  /// another value than the last time, so that asking for each of a million elements costs little.
+  std::optional<Number> evaluate(const Environment& environment, Mistakes& mistakes) const;
+  /// The value in SI, if it has the dimension of `quantity`. It may be infinite, but is never NaN.
+  std::optional<double> evaluate(const Environment& environment, Quantity quantity, Domain domain, Mistakes& mistakes,
+                                 double flow_index = 1) const;
+  /// The same, and finite.
+  std::optional<double> evaluate_finite(const Environment& environment, Quantity quantity, Domain domain,
+                                        Mistakes& mistakes) const;
+
+ private:
+  const TomlValue* source_ = nullptr;
+  std::string name_;
+  std::vector<std::string> identifiers_;
+  mutable std::vector<Number> inputs_;
+  mutable std::optional<Number> result_;
+};
+
+/// The identifiers of an expression, each once, in alphabetical order; none if the text is a quantity.
+std::vector<std::string> identifiers_of(std::string_view text);
+
+/// A number as messages show it: "5000000", "0.1".
+std::string number_text(double value);
+
+/// Whether `value` is within the bounds of `parameter`; a mistake if not. `name` is what the domain calls it.
+bool check_bounds(double value, const Parameter& parameter, const Formula& formula, Domain domain, double flow_index,
+                  Mistakes& mistakes);
+
+}  // namespace rheonet
