@@ -7,7 +7,7 @@ using namespace rheonet;
 namespace {
 
 std::string show(const std::string& text, int line, int column, const std::string& hint = "") {
-  const Sources sources{{{"scene.toml", text}}};
+  const Sources sources{{{"scene.toml", text}}, {}};
   return format({Severity::error, {0, line, column}, "wrong", hint}, sources);
 }
 
@@ -50,7 +50,14 @@ TEST_CASE("of a long line only the part around the caret is shown") {
   CHECK(show(line, 1, 1).find("...\n") != std::string::npos);
 }
 
-TEST_CASE("the command line has no lines, a warning says so") {
+TEST_CASE("an option of the command line is shown as it was typed") {
+  const Sources sources{{}, {"--accuracy 0", "--set k1.stifness=3"}};
+  const std::string shown = format({Severity::error, {-1, 2, 10}, "wrong", ""}, sources);
+  CHECK(shown.find("command line: error: wrong\n") == 0);
+  CHECK(shown.find("--set k1.stifness=3\n") - (shown.find('\n') + 1) + 9 == shown.find('^') - (shown.rfind('\n') + 1));
+}
+
+TEST_CASE("a warning says that it is one") {
   CHECK(format({Severity::warning, {}, "odd", "say why"}, {}) == "command line: warning: odd\n  say why");
 }
 
