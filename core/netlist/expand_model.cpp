@@ -30,8 +30,7 @@ bool goes_deeper(const Plan& plan, const ActiveOverride& active, bool is_member)
   // A parameter and an element of a model may have the same name: the value of a path is that of the parameter.
   const auto& parameters = plan.model->parameters;
   if (active.deeper().at_end() && std::any_of(parameters.begin(), parameters.end(), named)) return false;
-  const auto& entries = plan.model->scope.entries;
-  return std::any_of(entries.begin(), entries.end(), named);
+  return plan.model->scope.find(name) != nullptr;
 }
 
 /// Whether an override changes where an entry stands, which a member of a `repeat` cannot by itself.

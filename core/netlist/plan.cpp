@@ -33,6 +33,11 @@ int Scope::node(const std::string& name, Spot spot) {
   return found->second;
 }
 
+const Plan* Scope::find(const std::string& name) const {
+  const auto found = entry_index.find(name);
+  return found == entry_index.end() ? nullptr : &entries[found->second];
+}
+
 void Planner::read_elements(const TomlValue& table, Scope& scope) {
   if (!expect_table(table, "`elements`", context_.mistakes)) return;
   scope.entries.reserve(table.entries.size());
@@ -42,6 +47,7 @@ void Planner::read_elements(const TomlValue& table, Scope& scope) {
       context_.mistakes.error(entry.spot, "an element cannot be called `ground`: that is the node that never moves");
       continue;
     }
+    scope.entry_index.emplace(entry.key, scope.entries.size());
     scope.entries.push_back(read_entry(entry.key, entry.spot, entry.value, &scope));
   }
   check_names(scope, context_.mistakes);

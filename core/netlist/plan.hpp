@@ -57,8 +57,12 @@ struct Scope {
   std::unordered_map<std::string, int> node_index;
   std::vector<Plan> entries;
 
+  std::unordered_map<std::string, std::size_t> entry_index;
+
   /// Index of the node `name`, -1 for ground.
   int node(const std::string& name, Spot spot);
+  /// The entry `name`, nullptr if there is none.
+  const Plan* find(const std::string& name) const;
 };
 
 /// A model of `[models]`.

@@ -84,11 +84,13 @@ class Reader {
     Expander expander(context_, planner, scene_);
     expander.run(scope, environment, element_overrides(scope));
 
+    // What something is wrong with is not reported again where it is used.
     std::set<std::string> doubtful = expander.failed();
-    for (const TomlEntry& entry : elements ? elements->value.entries : std::vector<TomlEntry>{})
-      if (!is_entry(scope, entry.key)) doubtful.insert(entry.key);
-    for (const Scope::Node& node : scope.nodes)
-      if (!expander.failed().empty()) doubtful.insert(node.name);
+    if (elements)
+      for (const TomlEntry& entry : elements->value.entries)
+        if (!scope.find(entry.key)) doubtful.insert(entry.key);
+    if (!doubtful.empty())
+      for (const Scope::Node& node : scope.nodes) doubtful.insert(node.name);
 
     if (const TomlEntry* nodes = document_.find("nodes"))
       read_initial_values(nodes->value, environment, doubtful, context_, scene_);
@@ -122,10 +124,6 @@ class Reader {
     if (!table || !expect_table(table->value, "`parameters`", mistakes_)) return environment;
     const auto& formulas = formulas_.emplace_back(read_named_formulas(table->value, mistakes_));
     return environment = evaluate_parameters(formulas, mistakes_);
-  }
-
-  static bool is_entry(const Scope& scope, const std::string& name) {
-    return std::any_of(scope.entries.begin(), scope.entries.end(), [&](const Plan& p) { return p.name == name; });
   }
 
   /// Overrides of everything but elements and models.
@@ -166,7 +164,7 @@ class Reader {
       if (!from_table && is_top_level(override.path.front().name)) continue;
       const ActiveOverride first{&override, from_table ? std::size_t{1} : std::size_t{0}};
       const Override::Part& part = first.at_end() ? override.path.front() : first.next();
-      if (!first.at_end() && is_entry(scope, part.name)) {
+      if (!first.at_end() && scope.find(part.name)) {
         active.push_back(first);
         continue;
       }
