@@ -14,6 +14,7 @@ struct Context {
   Domain domain = Domain::translation;
   Files& files;
   Mistakes& mistakes;
+  bool models_missing = false;  ///< an included file could not be read: types may be unknown for that reason
 };
 
 }  // namespace rheonet

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/netlist/characters.hpp"
 #include "core/netlist/toml_scan.hpp"
 
 namespace rheonet {
@@ -77,6 +78,18 @@ int column_of_key(std::string_view line, std::string_view key, int column) {
                                             [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+/// Where a number that the parser stumbled over begins: it says where it gave up.
+int begin_of_number(std::string_view line, int column) {
+  const std::u32string characters = decode(line);
+  const auto belongs = [](char32_t c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '+' ||
+           c == '-' || c == '_' || c == ':';
+  };
+  auto at = std::min(static_cast<std::size_t>(column - 1), characters.size());
+  while (at > 0 && belongs(characters[at - 1])) --at;
+  return static_cast<int>(at) + 1;
+}
+
 /// What toml++ says, in the words of this project and with what would mend it.
 void report(const toml::parse_error& e, std::string_view text, int file, Mistakes& mistakes) {
   std::string description(e.description());
@@ -88,33 +101,46 @@ void report(const toml::parse_error& e, std::string_view text, int file, Mistake
     const auto first = last == description.npos || last == 0 ? description.npos : description.rfind('\'', last - 1);
     return first == description.npos ? "" : description.substr(first + 1, last - first - 1);
   };
+  const bool line_ends = says("saw '\\n'");
+  const std::string word(word_at(line, spot.column));
+  const std::string one_line =
+      "close it with }: an inline table stands on one line; a long one can be a table of its own, [elements.name]";
   if (says("cannot redefine existing table '") && says("table header")) {
     mistakes.error(spot, "table `" + quoted() + "` is given twice", "put the entries of both under one header");
   } else if (says("cannot redefine existing") && !quoted().empty()) {
     spot.column = column_of_key(line, quoted(), spot.column - 1);
     mistakes.error(spot, "key `" + quoted() + "` is given twice", "a key may stand only once in a table");
   } else if (says("could not determine value type")) {
-    const std::string word(word_at(line, spot.column));
-    mistakes.error(spot, "`" + word + "` is not a value", "a text stands in quotes: \"" + word + "\"");
+    if (word.find('=') != word.npos)
+      mistakes.error(spot, "expected a value, found `" + word + "`", "is a closing bracket missing before it?");
+    else
+      mistakes.error(spot, "`" + word + "` is not a value", "a text stands in quotes: \"" + word + "\"");
+  } else if (says("expected value, saw") && line_ends) {
+    mistakes.error(spot, "a value is missing after `=`");
   } else if (says("expected '=', saw")) {
-    mistakes.error(spot, "expected `=` after the key, found `" + quoted() + "`");
-  } else if (says("key-value pair: expected a comment or whitespace")) {
-    mistakes.error(spot, "unexpected `" + std::string(word_at(line, spot.column)) + "` after the value",
-                   "a quantity or an expression stands in quotes (\"3 N/m\"), each key on its own line");
+    mistakes.error(spot,
+                   "expected `=` after the key, found " + (line_ends ? "the end of the line" : "`" + quoted() + "`"));
+  } else if (says("expected ']', saw") && line_ends) {
+    mistakes.error(spot, "the header of a table is not closed", "close it with ]");
+  } else if (says("inline table: expected") && line_ends) {
+    mistakes.error(spot, "the line ends within an inline table", one_line);
+  } else if (says("expected a comment or whitespace") || says("expected comma or closing")) {
+    mistakes.error(spot, "unexpected `" + word + "` after a value",
+                   "a quantity or an expression stands in quotes (\"3 N/m\"); entries of an array or inline table are "
+                   "separated by commas");
   } else if (says("dangling comma")) {
     mistakes.error(spot, "an inline table may not end with a comma", "remove the comma before `}`");
-  } else if (says("inline table: expected key or closing '}', saw '\\n'") || says("saw '\n'")) {
-    mistakes.error(spot, "the line ends within an inline table or a header",
-                   "an inline table `{ ... }` stands on one line; a long one can be a table of its own: "
-                   "[elements.name]");
+  } else if (says("unknown escape sequence")) {
+    mistakes.error(spot, "unknown escape `" + quoted() + "` in a string",
+                   "a backslash is written \\\\, or the string stands in single quotes");
   } else if (says("end-of-file")) {
     mistakes.error(spot, "the file ends where a value or a closing bracket is expected");
   } else if (says("TOML_MAX_NESTED_VALUES")) {
-    mistakes.error(spot, "arrays and tables are nested deeper than 256 levels",
-                   "a model in [models] can hold a part of it");
+    mistakes.error(spot, "arrays and tables are nested deeper than 256 levels", "a model can hold a part of it");
   } else {
-    constexpr std::string_view prefix = "Error while ";
+    constexpr std::string_view prefix = "Error while parsing ";
     if (description.starts_with(prefix)) description.erase(0, prefix.size());
+    if (says("decimal") || says("integer") || says("floating-point")) spot.column = begin_of_number(line, spot.column);
     mistakes.error(spot, "not valid TOML: " + description);
   }
 }

@@ -275,6 +275,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
     // Known after the first member: how many elements there would be in all.
     const double in_all =
         static_cast<double>(elements_before) + static_cast<double>(scene_.elements.size() - elements_before) * *wanted;
+    member_path = path;
     if (i == 0 && good && in_all > static_cast<double>(most_elements)) good = refuse(in_all);
   }
   if (assembled) end_assembly(assembly, std::move(force), around);

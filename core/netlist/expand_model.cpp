@@ -39,6 +39,32 @@ bool names_place(const ActiveOverride& active) {
          active.next().name == "repeat";
 }
 
+/// What an override may name within a plan besides its keys.
+void collect_names(const Plan& plan, std::vector<std::string>& names) {
+  for (const Plan& member : plan.members) {
+    if (has_level(member))
+      names.push_back(member.name);
+    else
+      collect_names(member, names);
+  }
+  if (!plan.model) return;
+  for (const NamedFormula& parameter : plan.model->parameters) names.push_back(parameter.name);
+  for (const Plan& entry : plan.model->scope.entries) names.push_back(entry.name);
+}
+
+/// Whether an override names neither a key of the plan nor anything within it; a mistake if so.
+bool is_lost(const Plan& plan, const ActiveOverride& active, bool is_member, Mistakes& mistakes) {
+  if (plan.kind == Plan::Kind::element || active.at_end()) return false;
+  const std::string& name = active.next().name;
+  std::vector<std::string> names{"at", "between", "repeat"};
+  collect_names(plan, names);
+  if (plan.source->find(name) || std::find(names.begin(), names.end(), name) != names.end()) return false;
+  mistakes.error(
+      active.next().spot, "nothing in `" + path_to(active) + "` is called `" + name + "`",
+      did_you_mean(name, names, plan.repeat && !is_member ? "its members are called by their numbers, from 0" : ""));
+  return true;
+}
+
 }  // namespace
 
 const Plan& Expander::overridden(const Plan& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
@@ -51,7 +77,7 @@ const Plan& Expander::overridden(const Plan& plan, Scope* scope, const ActiveOve
       context_.mistakes.error(active.override->path.back().spot,
                               "a member of a `repeat` stands where the whole puts it",
                               "only its values can be set, or those of the whole: `" + plan.name + "`");
-    else
+    else if (!is_lost(plan, active, is_member, context_.mistakes))
       own.push_back(active);
   }
   if (own.empty()) return plan;
@@ -76,10 +102,9 @@ bool Expander::instance_parameters(const Plan& plan, const Environment& around, 
     const Number& usual = model.defaults[i];
     if (given.given() && !std::isnan(usual.value) && !usual.plain && !number->plain &&
         !number->dimension.same(usual.dimension)) {
-      mistakes.error(given.source().spot, given.name() + " of `" + model.name + "` is in " +
-                                              to_string(usual.dimension) + " (its default is " +
-                                              describe(parameter.formula.source()) + "), but " +
-                                              describe(given.source()) + " is in " + to_string(number->dimension));
+      mistakes.error(given.source().spot, given.name() + " of `" + model.name + "`: expected " +
+                                              describe(usual.dimension, usual.radian) + ", as its default is, found " +
+                                              describe(number->dimension, number->radian));
       good = false;
       continue;
     }

@@ -69,7 +69,7 @@ class Includer {
       if (const TomlEntry* entry = keys.find_quietly(key))
         context_.mistakes.error(entry->spot, "an included file cannot have `" + std::string(key) + "`",
                                 "it gives models: it may have `models`, `parameters`, `include` and `title`");
-    keys.refuse_others(context_.mistakes);
+    keys.finish(context_.mistakes);
   }
 
   Context& context_;

@@ -22,20 +22,26 @@ bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_
 
 }  // namespace
 
-const TomlEntry* Keys::require(const std::string& key, Spot where, Mistakes& mistakes, std::string hint) {
+const TomlEntry* Keys::require(const std::string& key, Spot where, std::string hint) {
   const TomlEntry* entry = find(key);
-  if (!entry) mistakes.error(where, what_ + " needs `" + key + "`", std::move(hint));
+  if (!entry) missing_.push_back({key, where, std::move(hint)});
   return entry;
 }
 
-void Keys::refuse_others(Mistakes& mistakes) const {
+void Keys::finish(Mistakes& mistakes) const {
   const auto among = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  for (const TomlEntry& entry : table_.entries)
-    if (!among(known_, entry.key) && !among(silent_, entry.key))
-      mistakes.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
-                     did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and")));
+  std::vector<std::string> mistyped;
+  for (const TomlEntry& entry : table_.entries) {
+    if (among(known_, entry.key) || among(silent_, entry.key)) continue;
+    mistyped.push_back(nearest(entry.key, known_));
+    mistakes.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
+                   did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and")));
+  }
+  for (const Missing& missing : missing_)
+    if (!among(mistyped, missing.key))
+      mistakes.error(missing.where, what_ + " needs `" + missing.key + "`", missing.hint);
 }
 
 bool expect_table(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {

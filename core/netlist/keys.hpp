@@ -19,21 +19,28 @@ class Keys {
     known_.push_back(key);
     return table_.find(key);
   }
-  /// As find; not given is a mistake.
-  const TomlEntry* require(const std::string& key, Spot where, Mistakes& mistakes, std::string hint = {});
+  /// As find; not given is a mistake at `where`: "`what` needs `key`".
+  const TomlEntry* require(const std::string& key, Spot where, std::string hint = {});
   /// As find, but what it is for is said elsewhere: no hint offers it.
   const TomlEntry* find_quietly(const std::string& key) {
     silent_.push_back(key);
     return table_.find(key);
   }
-  /// Reports the keys that were not asked for.
-  void refuse_others(Mistakes& mistakes) const;
+  /// Reports the keys that were not asked for, and those that are missing; not both where one is mistyped for the
+  /// other.
+  void finish(Mistakes& mistakes) const;
 
  private:
   const TomlValue& table_;
   std::string what_;
   std::vector<std::string> known_;
   std::vector<std::string> silent_;
+  struct Missing {
+    std::string key;
+    Spot where;
+    std::string hint;
+  };
+  std::vector<Missing> missing_;
 };
 
 /// Mistakes if a value is of another kind; `what` names it: "`title`".

@@ -43,7 +43,7 @@ void Mistakes::warning(Spot spot, std::string message, std::string hint) {
 void Mistakes::add(Severity severity, Spot spot, std::string message, std::string hint) {
   if (severity == Severity::error) ++errors_;
   if (!seen_.insert({spot.file, spot.line, spot.column, message}).second) return;
-  if (path_) message += " (in `" + *path_ + "`)";
+  if (path_ && spot.file >= 0) message += " (in `" + *path_ + "`)";
   all_.push_back({severity, spot, std::move(message), std::move(hint)});
 }
 

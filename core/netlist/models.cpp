@@ -70,6 +70,7 @@ void evaluate_defaults(Model& model, Mistakes& mistakes) {
 
 void refuse_unused_ports(const Model& model, Mistakes& mistakes) {
   std::vector<bool> used(model.scope.nodes.size(), false);
+  if (model.scope.entries.empty()) return;
   for (const Plan& entry : model.scope.entries) {
     if (!entry.sound) return;
     for (const int node : entry.nodes)
@@ -123,14 +124,14 @@ void declare_models(const TomlValue& table, const Environment& environment, Cont
     model->source = &entry.value;
     model->environment = &environment;
     Keys keys(entry.value, "a model");
-    if (const TomlEntry* ports = keys.require("ports", entry.spot, mistakes, "ports = [\"a\", \"b\"]"))
+    if (const TomlEntry* ports = keys.require("ports", entry.spot, "ports = [\"a\", \"b\"]"))
       read_ports(*ports, *model, mistakes);
     if (const TomlEntry* parameters = keys.find("parameters")) read_parameters(*parameters, *model, mistakes);
     const TomlEntry* elements =
-        keys.require("elements", entry.spot, mistakes, "[models." + entry.key + ".elements] with a line for each");
+        keys.require("elements", entry.spot, "[models." + entry.key + ".elements] with a line for each");
     if (elements && elements->value.is_table() && elements->value.entries.empty())
       mistakes.error(elements->spot, "model `" + entry.key + "` has no elements");
-    keys.refuse_others(mistakes);
+    keys.finish(mistakes);
     model->sound = mistakes.errors() == before;
     models.emplace(entry.key, std::move(model));
   }

@@ -83,17 +83,22 @@ std::deque<Override> read_overrides(const std::vector<std::string>& texts, Sourc
   return overrides;
 }
 
+std::string path_to(const ActiveOverride& active) {
+  std::string path;
+  for (std::size_t i = 0; i < active.depth; ++i) path += (i == 0 ? "" : ".") + active.override->path[i].name;
+  return path;
+}
+
 void apply(const ActiveOverride& active, TomlValue& table, Mistakes& mistakes) {
   TomlValue* at = &table;
-  std::string path;
   for (ActiveOverride rest = active; !rest.at_end(); rest = rest.deeper()) {
     const Override::Part& part = rest.next();
     if (!at->is_table()) {
-      mistakes.error(part.spot, "`" + path + "` is " + describe(*at) + ", it has no `" + part.name + "`",
-                     "give the whole of it: --set " + path + "='{ " + part.name + " = ... }'");
+      mistakes.error(part.spot, "`" + path_to(rest) + "` is " + describe(*at) + ", it has no `" + part.name + "`",
+                     "give the whole of it: --set " + path_to(rest) + "='{ " + part.name + " = ... }'");
       return;
     }
-    path += (path.empty() ? "" : ".") + part.name;
+
     TomlEntry* entry = at->find(part.name);
     if (!entry) {
       std::erase_if(at->entries, [&](const TomlEntry& e) { return excludes(e.key, part.name); });

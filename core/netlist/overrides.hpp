@@ -33,6 +33,9 @@ using ActiveOverrides = std::vector<ActiveOverride>;
 /// one, else a string. The path is split at dots; a part with a dot in it stands in quotes.
 std::deque<Override> read_overrides(const std::vector<std::string>& texts, Sources& sources, Mistakes& mistakes);
 
+/// The path of an override up to where it has come: "bingham.k1".
+std::string path_to(const ActiveOverride& active);
+
 /// Sets in `table` what the rest of the override's path names, adding keys that are not there. A part that would have
 /// to be a table and is none is a mistake.
 void apply(const ActiveOverride& active, TomlValue& table, Mistakes& mistakes);

@@ -20,6 +20,15 @@ const Parameter* find_parameter(const Declaration& declaration, const std::strin
   return nullptr;
 }
 
+/// What a parameter that is missing would be.
+std::string wanted(const Parameter& parameter, Domain domain) {
+  const std::string unit = unit_of(parameter.quantity, domain);
+  if (parameter.kind == Parameter::Kind::signal)
+    return "a signal: a number or a table such as { step = \"1 " + unit + "\" }";
+  return parameter.quantity == Quantity::number ? "a number"
+                                                : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
+}
+
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -75,10 +84,13 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
   }
   if (!kind) {
     std::string hint = "expected `type`, `series` or `parallel`";
+    Spot where = spot;
     for (const TomlEntry& entry : source.entries)
-      if (const auto meant = nearest(entry.key, {"type", "series", "parallel"}); !meant.empty())
+      if (const auto meant = nearest(entry.key, {"type", "series", "parallel"}); !meant.empty()) {
         hint = "is `" + entry.key + "` meant to be `" + meant + "`?";
-    mistakes.error(spot, called + " has no `type`", hint);
+        where = entry.spot;
+      }
+    mistakes.error(where, called + " has no `type`", hint);
     return plan;
   }
 
@@ -97,7 +109,7 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
     read_place(plan, scope, 2, false, true, keys);
     read_repeat(plan, keys);
     read_group(plan, *kind, keys);
-    keys.refuse_others(mistakes);
+    keys.finish(mistakes);
     // An unnamed group within another adds no level: its members are named with those around it.
     if (scope || !plan.name.empty() || plan.repeat) name_members(plan, mistakes);
   } else if (expect_string(kind->value, "`type`", mistakes)) {
@@ -113,7 +125,9 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
       else
         read_instance(plan, *model->second, scope, keys);
       read_repeat(plan, keys);
-      keys.refuse_others(mistakes);
+      keys.finish(mistakes);
+    } else if (context_.models_missing) {
+      return plan;  // it may be one of those
     } else {
       refuse_type(*kind);
     }
@@ -161,50 +175,51 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
                    "give it an entry of its own in [elements], with `at`");
   read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
 
-  std::vector<std::string> given;
+  const bool rotation = domain == Domain::rotation;
+  std::vector<const TomlEntry*> given;  // of declaration.one_of
   plan.values.resize(declaration.parameters.size());
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
     const std::string& name = parameter.name_in(domain);
     // Where a parameter has two names, the other one deserves more than "unknown key".
+    bool misnamed = false;
     for (const std::string& other : {parameter.name, parameter.rotational_name}) {
       const TomlEntry* entry = other.empty() || other == name ? nullptr : keys.find_quietly(other);
-      if (entry)
-        mistakes.error(entry->spot,
-                       "`" + other + "` is called `" + name + "` in a " +
-                           (domain == Domain::rotation ? "rotational" : "translational") + " scene",
-                       "write `" + name + "`" + (domain == Domain::rotation ? "" : ", or set domain = \"rotation\""));
+      if (!entry) continue;
+      misnamed = true;
+      mistakes.error(
+          entry->spot,
+          "`" + other + "` is called `" + name + "` in a " + (rotation ? "rotational" : "translational") + " scene",
+          "write `" + name + "`" + (rotation ? "" : ", or set domain = \"rotation\""));
     }
-    const TomlEntry* entry = parameter.later.empty() ? keys.find(name) : keys.find_quietly(name);
+    const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+                               !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
+    const TomlEntry* entry = !parameter.later.empty() ? keys.find_quietly(name)
+                             : may_be_absent          ? keys.find(name)
+                                                      : keys.require(name, plan.spot, wanted(parameter, domain));
     if (!entry) {
-      const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
-                                 !parameter.same_as.empty() || among(declaration.one_of, parameter.name) ||
-                                 !parameter.later.empty();
       if (parameter.kind == Parameter::Kind::signal && parameter.fallback) plan.default_signals.push_back(i);
-      if (!may_be_absent)
-        mistakes.error(
-            plan.spot, article(type.value.text) + " needs `" + name + "`",
-            parameter.kind == Parameter::Kind::signal
-                ? "a signal: a number or a table such as { step = \"1 " + unit_of(parameter.quantity, domain) + "\" }"
-                : "a " + name_of(parameter.quantity, domain) + ", in " + unit_of(parameter.quantity, domain));
       continue;
     }
     if (!parameter.later.empty()) {
       mistakes.error(entry->spot, "`" + name + "` of " + article(type.value.text) + ": " + parameter.later);
       continue;
     }
-    if (among(declaration.one_of, parameter.name)) given.push_back(name);
-    if (given.size() > 1 && given.back() == name) {
-      mistakes.error(entry->spot, article(type.value.text) + " has both `" + given.front() + "` and `" + name + "`",
-                     "only one of them can be given");
-      continue;
-    }
+    if (among(declaration.one_of, parameter.name)) given.push_back(entry);
     if (parameter.kind == Parameter::Kind::signal) {
       plan.signals.emplace_back(entry->value, name, parameter.quantity, context_);
       plan.signal_parameters.push_back(static_cast<int>(i));
     } else {
       plan.values[i] = Formula(entry->value, "`" + name + "`", mistakes);
     }
+  }
+  if (given.size() > 1) {
+    std::sort(given.begin(), given.end(), [](const TomlEntry* a, const TomlEntry* b) {
+      return std::pair(a->spot.line, a->spot.column) < std::pair(b->spot.line, b->spot.column);
+    });
+    mistakes.error(given[1]->spot,
+                   article(type.value.text) + " has both `" + given[0]->key + "` and `" + given[1]->key + "`",
+                   "only one of them can be given");
   }
   if (!declaration.one_of.empty() && given.empty()) {
     std::vector<std::string> names;
@@ -224,11 +239,10 @@ void Planner::read_instance(Plan& plan, Model& model, Scope* scope, Keys& keys) 
                                            ": a member of `series` or `parallel` needs two");
   read_place(plan, scope, ports, ports == 1, ports != 1, keys);
   for (const NamedFormula& parameter : model.parameters) {
-    const TomlEntry* entry = keys.find(parameter.name);
+    const TomlEntry* entry = parameter.formula.given()
+                                 ? keys.find(parameter.name)
+                                 : keys.require(parameter.name, plan.spot, "the model gives it no default");
     plan.values.push_back(entry ? Formula(entry->value, "`" + parameter.name + "`", context_.mistakes) : Formula());
-    if (!entry && !parameter.formula.given())
-      context_.mistakes.error(plan.spot, article(model.name) + " needs `" + parameter.name + "`",
-                              "the model gives it no default");
   }
 }
 
@@ -311,7 +325,7 @@ void Planner::read_repeat(Plan& plan, Keys& keys) {
   Repeat repeat;
   const bool chainable = !plan.at && (plan.kind != Plan::Kind::instance || plan.model->ports.size() == 2);
   repeat.series = chainable;
-  if (const TomlEntry* count = repeat_keys.require("count", entry->spot, mistakes))
+  if (const TomlEntry* count = repeat_keys.require("count", entry->spot, "repeat = { count = 10 }"))
     repeat.count = Formula(count->value, "`count`", mistakes);
   if (const TomlEntry* as = repeat_keys.find("as"); as && expect_string(as->value, "`as`", mistakes)) {
     if (as->value.text == "n")
@@ -331,7 +345,7 @@ void Planner::read_repeat(Plan& plan, Keys& keys) {
     else
       repeat.series = text == "series";
   }
-  repeat_keys.refuse_others(mistakes);
+  repeat_keys.finish(mistakes);
   plan.repeat = std::move(repeat);
 }
 

@@ -58,13 +58,20 @@ class Reader {
 
   void read_document(int file, const fs::path& canonical) {
     override_tables();
-    Keys keys(document_, "a scene");
+    Keys keys(document_, "the scene");
     for (const std::string& key : top_level) keys.find(key);
-    keys.refuse_others(mistakes_);
+    const Spot begin{file, 1, 1};
+    const TomlEntry* elements =
+        keys.require("elements", begin,
+                     "[elements] with a line for each: k1 = { type = \"spring\", between = [\"a\", \"ground\"], ... }");
+    const TomlEntry* simulate = keys.require("simulate", begin, "[simulate] says when the run ends: stop = \"1 s\"");
+    keys.finish(mistakes_);
     read_title_and_domain();
 
     const Environment& environment = parameters_of(document_);
+    const std::size_t before = mistakes_.errors();
     auto included = read_includes(document_, canonical, context_);
+    context_.models_missing = mistakes_.errors() > before;
     override_models(included);
     Models models;
     for (IncludedFile& other : included)
@@ -75,12 +82,9 @@ class Reader {
 
     Planner planner(context_, models);
     Scope scope;
-    const TomlEntry* elements = document_.find("elements");
     if (elements) planner.read_elements(elements->value, scope);
-    if (!elements || (elements->value.is_table() && elements->value.entries.empty()))
-      mistakes_.error(
-          elements ? elements->spot : Spot{file, 1, 1}, "the scene has no elements",
-          "[elements] with a line for each: k1 = { type = \"spring\", between = [\"a\", \"ground\"], ... }");
+    if (elements && elements->value.is_table() && elements->value.entries.empty())
+      mistakes_.error(elements->spot, "the scene has no elements");
     Expander expander(context_, planner, scene_);
     expander.run(scope, environment, element_overrides(scope));
 
@@ -94,12 +98,7 @@ class Reader {
 
     if (const TomlEntry* nodes = document_.find("nodes"))
       read_initial_values(nodes->value, environment, doubtful, context_, scene_);
-    const TomlEntry* simulate = document_.find("simulate");
-    const TomlEntry* record = nullptr;
-    if (simulate)
-      record = read_simulate(*simulate, environment, context_, scene_);
-    else
-      mistakes_.error({file, 1, 1}, "the scene has no [simulate]", "[simulate] says when the run ends: stop = \"1 s\"");
+    const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // A million default records of a scene that is refused would be for nothing.
     if (record || mistakes_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
@@ -128,11 +127,48 @@ class Reader {
 
   /// Overrides of everything but elements and models.
   void override_tables() {
-    for (const Override& override : overrides_) {
-      const std::string& table = override.path.front().name;
+    for (Override& override : overrides_) {
+      const std::string table = override.path.front().name;
       if (!is_top_level(table) || table == "elements" || table == "models") continue;
+      if (table == "nodes") join_node_path(override);
+      const bool is_new_parameter = table == "parameters" && !has_parameter(override);
       apply({&override, 0}, document_, mistakes_);
+      if (is_new_parameter) refuse_unless_used(override);
     }
+  }
+
+  /// The key of an inner node in [nodes] is its path: nodes.pivot.mid.position names the node pivot.mid.
+  static void join_node_path(Override& override) {
+    auto& path = override.path;
+    const bool names_key = path.back().name == "position" || path.back().name == "velocity";
+    const std::size_t end = path.size() - (names_key ? 1 : 0);
+    for (std::size_t i = 2; i < end; ++i) path[1].name += '.' + path[i].name;
+    if (end > 2) path.erase(path.begin() + 2, path.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+
+  bool has_parameter(const Override& override) const {
+    const TomlEntry* parameters = document_.find("parameters");
+    return override.path.size() < 2 || (parameters && parameters->value.find(override.path[1].name));
+  }
+
+  /// A parameter that the file uses and leaves to the command line may be added; any other is mistyped.
+  void refuse_unless_used(const Override& override) {
+    const Override::Part& part = override.path[1];
+    const auto uses = [&](const auto& self, const TomlValue& value) -> bool {
+      if (value.is_string()) {
+        const auto names = identifiers_of(value.text);
+        return std::binary_search(names.begin(), names.end(), part.name);
+      }
+      return std::any_of(value.items.begin(), value.items.end(), [&](const TomlValue& v) { return self(self, v); }) ||
+             std::any_of(value.entries.begin(), value.entries.end(),
+                         [&](const TomlEntry& e) { return self(self, e.value); });
+    };
+    if (uses(uses, document_)) return;
+    std::vector<std::string> names;
+    for (const TomlEntry& entry : document_.find("parameters")->value.entries)
+      if (entry.key != part.name) names.push_back(entry.key);
+    mistakes_.error(part.spot, "there is no parameter `" + part.name + "`, and nothing uses one",
+                    did_you_mean(part.name, names));
   }
 
   void override_models(std::deque<IncludedFile>& included) {
@@ -152,7 +188,9 @@ class Reader {
       }
       if (!found) {
         const Override::Part& part = override.path[override.path.size() < 2 ? 0 : 1];
-        mistakes_.error(part.spot, "there is no model `" + part.name + "`", did_you_mean(part.name, names));
+        mistakes_.error(
+            part.spot, "there is no model `" + part.name + "`",
+            did_you_mean(part.name, names, names.empty() ? "" : "the models are " + list_names(names, "and")));
       }
     }
   }

@@ -183,7 +183,7 @@ void read_initial_values(const TomlValue& nodes, const Environment& environment,
     node.spot = entry.spot;
     value("position", Quantity::position, node.position);
     value("velocity", Quantity::velocity, node.velocity);
-    keys.refuse_others(mistakes);
+    keys.finish(mistakes);
   }
 }
 

@@ -47,7 +47,7 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
     if (main) {
       context.mistakes.error(entry.spot,
                              "signal `" + name_ + "` is both a `" + main->key + "` and a `" + entry.key + "`",
-                             "a signal has one shape; a sum of two is two elements");
+                             "a signal has one shape");
       return;
     }
     main = &entry;
@@ -94,9 +94,9 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
     keys_[key] = Formula(entry->value, "`" + entry->key + "`", context.mistakes);
     constant_ = constant_ && keys_[key].identifiers().empty();
   };
-  for (const Key key : required) take(key, keys.require(key_names()[key], main->spot, context.mistakes));
+  for (const Key key : required) take(key, keys.require(key_names()[key], main->spot));
   for (const Key key : optional) take(key, keys.find(key_names()[key]));
-  keys.refuse_others(context.mistakes);
+  keys.finish(context.mistakes);
 
   if (shape_ == Shape::table) {
     read_points(main->value, context);
@@ -112,15 +112,19 @@ void SignalPlan::read_points(const TomlValue& source, Context& context) {
       rows_ = std::make_shared<const std::vector<std::pair<double, double>>>(std::move(*rows));
     return;
   }
-  if (!expect_array(source, "`table`", context.mistakes, "points ([[0, 0], [1, 0.5]]) or the name of a CSV file"))
+  if (!source.is_array()) {
+    context.mistakes.error(source.spot,
+                           "`table` must be an array of points or the name of a CSV file, but is " + describe(source),
+                           "points are given so: table = [[0, 0], [1, 0.5]]");
     return;
+  }
   if (source.items.empty()) context.mistakes.error(source.spot, "`table` has no points");
   points_.reserve(source.items.size());
   for (const TomlValue& item : source.items) {
     if (!item.is_array() || item.items.size() != 2) {
-      context.mistakes.error(item.spot,
-                             "a point of a table is an array of two values, [time, value], but this is " +
-                                 (item.is_array() ? "one of " + std::to_string(item.items.size()) : describe(item)));
+      context.mistakes.error(
+          item.spot, "a point of a table is an array of two values, [time, value], but this " +
+                         (item.is_array() ? "has " + std::to_string(item.items.size()) : "is " + describe(item)));
       return;
     }
     points_.push_back({Formula(item.items[0], "the time of a point", context.mistakes),
@@ -155,11 +159,8 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
   if (shape_ == Shape::ramp) {
     const Dimension expected = dimension_of(quantity_, domain) / dimension_of(Quantity::time, domain);
     if (!number->plain && !number->dimension.same(expected)) {
-      context.mistakes.error(
-          spot,
-          formula.name() + " is the rise of `" + name_ + "` per second (" + to_string(expected) + "), but " +
-              describe(formula.source()) + " is in " + to_string(number->dimension),
-          "its unit is that of " + name_of(quantity_, domain) + ", " + unit_of(quantity_, domain) + ", per second");
+      context.mistakes.error(spot, formula.name() + ": expected " + describe(expected) + ", the rise of `" + name_ +
+                                       "` per second, found " + describe(number->dimension, number->radian));
       return {};
     }
   } else {
@@ -200,7 +201,8 @@ std::optional<double> SignalPlan::value_of(Key key, const Environment& environme
   const bool positive = key == frequency || key == end_frequency || key == duration || key == width;
   if (positive && (*value < 0 || (*value == 0 && !may_be_zero))) {
     context.mistakes.error(formula.source().spot,
-                           formula.name() + (may_be_zero ? " must not be negative" : " must be greater than 0"));
+                           formula.name() + (may_be_zero ? " must be at least 0" : " must be greater than 0") +
+                               ", but is " + number_text(*value) + " " + unit_of(quantity, context.domain));
     return {};
   }
   return value;

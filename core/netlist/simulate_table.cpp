@@ -38,7 +38,7 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
   const TomlEntry* every = keys.find("every");
   const TomlEntry* points = keys.find("points");
   const TomlEntry* events = keys.find("events");
-  keys.refuse_others(mistakes);
+  keys.finish(mistakes);
   if (events && events->value.kind != TomlValue::Kind::boolean)
     mistakes.error(events->value.spot, "`events` must be true or false, but is " + describe(events->value));
   scene.output_events = events && events->value.boolean;
@@ -86,7 +86,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
     return formula.evaluate_finite(environment, quantity, context.domain, mistakes).value_or(not_given);
   };
   scene.start = value(keys.find("start"), Quantity::time, 0);
-  const TomlEntry* stop = keys.require("stop", simulate.spot, mistakes, "when the run ends: stop = \"1 s\"");
+  const TomlEntry* stop = keys.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
   scene.stop = value(stop, Quantity::time, not_given);
   if (scene.stop <= scene.start) {
     mistakes.error(stop->value.spot, "`stop` must be later than `start`, " + number_text(scene.start) + " s, but is " +
@@ -99,7 +99,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
   }
   read_output(keys.find("output"), environment, context, scene);
   const TomlEntry* record = keys.find("record");
-  keys.refuse_others(mistakes);
+  keys.finish(mistakes);
   return record;
 }
 

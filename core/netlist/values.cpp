@@ -47,7 +47,33 @@ bool is_quantity(std::string_view text) {
   text.remove_prefix(length);
   const std::size_t spaces = std::min(text.find_first_not_of(" \t"), text.size());
   if (spaces == 0 || spaces == text.size()) return false;
-  return std::string_view("+-*/^<>=!&|?:,)").find(text[spaces]) == std::string_view::npos;
+  return std::string_view("+-*/^<>=!&|?:,.)").find(text[spaces]) == std::string_view::npos;
+}
+
+/// Every word of a text, each once, in alphabetical order.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> names;
+  while (!text.empty()) {
+    if (const std::size_t number = number_length(text)) {
+      text.remove_prefix(number);
+    } else if (is_letter(text.front())) {
+      std::size_t end = 1;
+      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+      names.emplace_back(text.substr(0, end));
+      text.remove_prefix(end);
+    } else {
+      text.remove_prefix(1);
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+/// Whether what looks like a unit has the name of a parameter in it.
+bool uses_names_of(const Environment& environment, std::string_view text) {
+  const auto words = words_of(text);
+  return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return environment.find(word); });
 }
 
 bool identical(const Number& a, const Number& b) {
@@ -67,23 +93,7 @@ std::string number_text(double value) {
 }
 
 std::vector<std::string> identifiers_of(std::string_view text) {
-  std::vector<std::string> names;
-  if (is_quantity(text)) return names;
-  while (!text.empty()) {
-    if (const std::size_t number = number_length(text)) {
-      text.remove_prefix(number);
-    } else if (is_letter(text.front())) {
-      std::size_t end = 1;
-      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
-      names.emplace_back(text.substr(0, end));
-      text.remove_prefix(end);
-    } else {
-      text.remove_prefix(1);
-    }
-  }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
+  return is_quantity(text) ? std::vector<std::string>{} : words_of(text);
 }
 
 Formula::Formula(const TomlValue& source, std::string name, Mistakes& mistakes) : name_(std::move(name)) {
@@ -129,7 +139,11 @@ std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes
   auto result = evaluate_text(source_->text, environment);
   if (const auto* wrong = std::get_if<TextError>(&result)) {
     result_.reset();
-    mistakes.error(mistakes.inside(*source_, wrong->offset), name_ + ": " + wrong->message, wrong->hint);
+    std::string hint = wrong->hint;
+    if ((hint.empty() || hint.starts_with("did you mean")) && is_quantity(source_->text) &&
+        uses_names_of(environment, source_->text))
+      hint = "a quantity is one number and a unit, it cannot be part of an expression: give it a name in [parameters]";
+    mistakes.error(mistakes.inside(*source_, wrong->offset), name_ + ": " + wrong->message, hint);
   } else if (const Number number = std::get<Number>(result); std::isnan(number.value)) {
     result_.reset();
     mistakes.error(source_->spot, name_ + " is not a number: " + describe(*source_) + " has no defined value (NaN)");
