@@ -27,8 +27,8 @@ std::string_view line_of(std::string_view text, int number) {
   return text;
 }
 
-/// The line with a caret under character `column`, both behind a margin with the line's number, if not 0. A tab stands in both lines, so that the caret
-/// is in its place whatever the width of a tab.
+/// The line with a caret under character `column`, both behind a margin with the line's number, if not 0. A tab stands
+/// in both lines, so that the caret is in its place whatever the width of a tab.
 std::string excerpt(std::string_view line, int line_number, int column) {
   const std::u32string characters = decode(line);
   const auto caret = static_cast<std::size_t>(std::max(column, 1) - 1);

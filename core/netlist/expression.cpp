@@ -127,6 +127,8 @@ std::vector<Variable> variables_of(std::string_view text) {
         ++i;
     } else {
       depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      constexpr int deepest = 500;  // explanations call themselves for each
+      if (depth > deepest) fail(i, text, "parentheses are nested too deeply");
       if (c == ',' && depth <= 0) fail(i, text, "an expression has one value", "a decimal point is written `.`");
       if (c == '*' && next == '*') fail(i, text, "unexpected `**`", "a power is written with `^`");
       if (std::string_view(" \t\r\n+-*/^(),?:&|").find(c) == std::string_view::npos)

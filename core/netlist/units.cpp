@@ -158,12 +158,30 @@ Unit power(const Unit& unit, double n) {
   return {std::pow(unit.factor, n), unit.dimension.power(n), n * unit.radian, n * unit.hertz};
 }
 
+/// A unit by its name, with no hint if it is unknown.
+Result named_unit(const std::string& name) {
+  for (const Definition& definition : definitions)
+    if (name == definition.name) {
+      Result unit = parse_unit(definition.unit);
+      if (auto* known = std::get_if<Unit>(&unit)) known->factor *= definition.factor;
+      return unit;
+    }
+  Result unit = library().find(name);
+  if (std::holds_alternative<Unit>(unit)) return unit;
+  for (const auto& [symbol, long_name] : prefixed)
+    if (name.ends_with(symbol)) {
+      Result multiple = library().find(name.substr(0, name.size() - symbol.size()).append(long_name));
+      if (std::holds_alternative<Unit>(multiple)) return multiple;
+    }
+  return unit;
+}
+
 /// The hint for "Nm" and "inlbf": a force times another unit, written without a product sign.
 std::string as_product(const std::string& name) {
   const Dimension force{1, 1, -2};
   for (std::size_t i = 1; i < name.size(); ++i) {
     const std::string head = name.substr(0, i), tail = name.substr(i);
-    const Result a = parse_unit(head), b = parse_unit(tail);
+    const Result a = named_unit(head), b = named_unit(tail);
     const Unit *first = std::get_if<Unit>(&a), *second = std::get_if<Unit>(&b);
     if (first && second && (first->dimension.same(force) || second->dimension.same(force)))
       return fmt::format("a product is written with `*`: `{}*{}`", head, tail);
@@ -175,25 +193,13 @@ Result single_unit(const std::string& name) {
   if (name == "oz" || name == "ounce")
     return TextError{0, fmt::format("`{}` may be a force, a mass or a volume", name),
                      "`ozf` is the force, `avoirdupois_ounce` the mass"};
-  for (const Definition& definition : definitions)
-    if (name == definition.name) {
-      Result unit = parse_unit(definition.unit);
-      if (auto* known = std::get_if<Unit>(&unit)) known->factor *= definition.factor;
-      return unit;
-    }
-  Result unit = library().find(name);
-  if (std::holds_alternative<Unit>(unit)) return unit;
-  for (const auto& [symbol, long_name] : prefixed)
-    if (name.ends_with(symbol)) {
-      const Result multiple = library().find(name.substr(0, name.size() - symbol.size()).append(long_name));
-      if (std::holds_alternative<Unit>(multiple)) return multiple;
-    }
-  auto& error = std::get<TextError>(unit);
-  if (error.hint.empty() && error.message.starts_with("unknown")) {
-    error.hint = as_product(name);
-    const std::string meant = error.hint.empty() ? nearest(name, usual_units()) : "";
-    if (!meant.empty()) error.hint = fmt::format("did you mean `{}`?", meant);
-  }
+  Result unit = named_unit(name);
+  auto* error = std::get_if<TextError>(&unit);
+  if (!error || !error->hint.empty() || !error->message.starts_with("unknown")) return unit;
+  constexpr std::size_t longest_product = 12;  // beyond it is no slip, but another thing
+  if (name.size() <= longest_product) error->hint = as_product(name);
+  const std::string meant = error->hint.empty() ? nearest(name, usual_units()) : "";
+  if (!meant.empty()) error->hint = fmt::format("did you mean `{}`?", meant);
   return unit;
 }
 
@@ -280,9 +286,11 @@ class Parser {
   Unit atom() {
     const std::size_t begin = at_;
     if (peek() == U'(') {
+      if (++depth_ > deepest) fail(begin, "parentheses are nested too deeply");
       ++at_;
       skip_spaces();
       const Unit inner = product();
+      --depth_;
       skip_spaces();
       if (peek() != U')') fail(begin, "this `(` is not closed");
       ++at_;
@@ -351,8 +359,11 @@ class Parser {
     return sign * value;
   }
 
+  static constexpr int deepest = 100;  // far beyond any unit; the parser calls itself for each
+
   std::u32string text_;
   std::size_t at_ = 0;
+  int depth_ = 0;
 };
 
 }  // namespace

@@ -258,3 +258,9 @@ TEST_CASE("the same text is evaluated anew in each environment") {
     CHECK(to_string(number("x*(i+1)", environment).dimension) == (i < 2 ? "m" : "s"));
   }
 }
+
+TEST_CASE("expressions are as deep as anybody writes them, and no deeper") {
+  check_plain(std::string(500, '(') + "c" + std::string(500, ')'), 1.75);
+  CHECK(refusal(std::string(501, '(') + "c" + std::string(501, ')')).message == "parentheses are nested too deeply");
+  CHECK(refusal(std::string(100000, '(')).offset == 500);
+}

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 using namespace rheonet;
 using doctest::Approx;
@@ -139,4 +140,13 @@ TEST_CASE("mistakes in a product are named with their place") {
   CHECK(refusal("in-lbf").hint == "a product of units is written with `*`");
   CHECK(refusal("in-lbf").offset == 2);
   CHECK(refusal("N=m").message == "unexpected `=` in a unit");
+}
+
+TEST_CASE("names and nesting without end are refused at once") {
+  CHECK(refusal("radomegaNmNmNmNmNmNmNmNmNmNmNmNmNmN").message.find("unknown unit") == 0);
+  CHECK(refusal("omegaNNNNNNN").offset == 0);
+  CHECK(unit((std::string(100, '(') + "m" + std::string(100, ')')).c_str()).factor == 1);
+  CHECK(refusal((std::string(101, '(') + "m" + std::string(101, ')')).c_str()).message ==
+        "parentheses are nested too deeply");
+  CHECK(refusal(std::string(100000, '(').c_str()).offset == 100);
 }
