@@ -9,30 +9,52 @@ namespace {
 constexpr double any = -std::numeric_limits<double>::infinity();
 
 // Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
-// deflection p with p' = w - f/B the force is that model's: df/dp = E.
+// deflection p with p' = w - f/B the force is that model's: df/dp = E. At rest s = 0 and E = sigma.
 struct Cfm : SolidFriction {
   static constexpr bool creeping = true;
   double B;  // N s/m
 
   explicit Cfm(std::span<const double> v) : SolidFriction{.sigma = v[0], .Fc = v[1], .i = v[3]}, B(v[2]) {
-    if (!std::isnan(v[4])) u_ref = 1 - v[4] / Fc;
-    held = i < 1 && u_ref <= 0;
+    begin(0, std::isnan(v[4]) ? 0 : v[4], 1);
   }
 
+  template <class T>
+  T force(const T& p) const {
+    return along_sigma ? T(f_ref + sigma * (p - p_ref)) : SolidFriction::force(p);
+  }
   template <class T>
   T creep(const T& f) const {
     return f / B;
   }
   double start(double) const { return 0; }
 
-  int event_count() const { return i < 1 ? 2 : 1; }
-  void event_functions(double p, double w, double noise, double* g) const {
-    g[0] = s * w + noise;  // reversal
-    if (i < 1) g[1] = held ? s * w - Fc / B + noise : travel_to_bound() - s * (p - p_ref);
+  int event_count() const { return 2; }
+  void event_functions(double p, double dp, double w, double noise, double* g) const {
+    g[0] = g[1] = 1;
+    if (standing) {
+      // df/dt at rest lies between what the two directions give, -E f/B; beyond, the motion begins.
+      const double f = force(p), df = sigma * dp, forward = -slope(f, 1) * f / B, backward = -slope(f, -1) * f / B;
+      const double margin = 1e-7 * (forward - backward);
+      g[0] = forward + margin - df;
+      g[1] = df - backward + margin;
+    } else if (s == 0) {
+      g[0] = noise > 0 ? noise - std::abs(w) : 1;  // leaving rest
+    } else {
+      g[0] = s * w + noise;  // reversal
+      if (i < 1) g[1] = held ? s * w - Fc / B + noise : travel_to_bound() - s * (p - p_ref);
+    }
   }
-  const char* switch_memory(int which, double p, double) {
+  const char* switch_memory(int which, double p, double w) {
+    if (standing) {
+      go(p, which == 0 ? 1 : -1);
+      return "start";
+    }
+    if (s == 0) {
+      go(p, w < 0 ? -1 : 1);
+      return "start";
+    }
     if (which == 0) {
-      turn(p, -s);
+      go(p, -s);
       return "reversal";
     }
     if (!held) {
@@ -44,8 +66,8 @@ struct Cfm : SolidFriction {
   }
   bool set_direction(double p, double w, int direction) {
     bool changed = false;
-    if (direction != s) {
-      turn(p, direction);
+    if (standing || direction != s) {
+      direction == 0 ? rest(p) : go(p, direction);
       changed = true;
     }
     if (held && s * w < Fc / B) {
@@ -54,17 +76,49 @@ struct Cfm : SolidFriction {
     }
     return changed;
   }
-  double dissipated_power(double p, double w) const {
+  bool hold(double p) {
+    rest(p);
+    standing = true;
+    return true;
+  }
+  bool holds() const { return standing; }
+  double jump(double p, double jump) {
+    if (jump == 0) return 0;
+    go(p, jump < 0 ? -1 : 1);
+    return SolidFriction::jump(p, jump);
+  }
+
+  double stored_energy(double p) const {
+    const double f = force(p);
+    return f * f / (2 * sigma);
+  }
+  double dissipated_power(double p, double dp, double w) const {
     const double f = force(p), creeping_off = f / B;
+    if (along_sigma) return f * (w - dp);  // all of what does not bend the bristles
     return f * creeping_off + heating(p, w - creeping_off);
   }
 
  private:
+  bool along_sigma = false;  // s = 0: df/dp = sigma
+  bool standing = false;     // held at w = 0 by both directions
+
+  double slope(double f, double direction) const { return sigma * std::pow(std::max(0.0, 1 - direction * f / Fc), i); }
+  void rest(double p) {
+    f_ref = force(p);
+    p_ref = p;
+    s = 0;
+    along_sigma = true;
+    standing = held = false;
+  }
+  void go(double p, double direction) {
+    const double f = force(p);
+    along_sigma = standing = false;
+    begin(p, f, direction);
+  }
   // Below Fc/B the dashpot within takes up more than the motion brings: the force leaves its bound.
   void release(double p) {
+    begin(p, s * Fc, s);
     held = false;
-    u_ref = 0;
-    p_ref = p;
   }
 };
 

@@ -14,8 +14,7 @@ struct Sfm : SolidFriction {
   static constexpr bool creeping = false;
 
   explicit Sfm(std::span<const double> v) : SolidFriction{.sigma = v[0], .Fc = v[1], .i = v[2]} {
-    if (!std::isnan(v[3])) u_ref = 1 - v[3] / Fc;
-    held = i < 1 && u_ref <= 0;
+    begin(0, std::isnan(v[3]) ? 0 : v[3], 1);
   }
 
   template <class T>
@@ -25,7 +24,7 @@ struct Sfm : SolidFriction {
   double start(double) const { return 0; }
 
   int event_count() const { return i < 1 ? 2 : 1; }
-  void event_functions(double p, double w, double noise, double* g) const {
+  void event_functions(double p, double, double w, double noise, double* g) const {
     g[0] = s * w + noise;  // reversal
     if (i < 1) g[1] = held ? 1 : travel_to_bound() - s * (p - p_ref);
   }
@@ -38,11 +37,13 @@ struct Sfm : SolidFriction {
     return "yield";
   }
   bool set_direction(double p, double, int direction) {
-    if (direction == s) return false;
+    if (direction == 0 || direction == s) return false;
     turn(p, direction);
     return true;
   }
-  double dissipated_power(double p, double w) const { return heating(p, w); }
+  bool hold(double) { return false; }
+  bool holds() const { return false; }
+  double dissipated_power(double p, double, double w) const { return heating(p, w); }
 };
 
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }

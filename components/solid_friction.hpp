@@ -24,13 +24,14 @@ struct SolidFriction {
   // Memory: constant between events.
   double s = 1;
   double p_ref = 0;  ///< m
-  double u_ref = 1;
+  double f_ref = 0;  ///< N, at p_ref
+  double u_ref = 1;  ///< 1 - s f_ref/Fc
   bool held = false;
 
   /// Force at deflection p [N]; |force| <= Fc wherever the law itself can go.
   template <class T>
   T force(const T& p) const {
-    using std::exp, std::log1p, std::pow;
+    using std::expm1, std::log1p, std::pow;
     if (held) return T(s * Fc);
     const double q = 1 - i;
     const T z = (sigma / Fc * s) * (p - p_ref);
@@ -43,9 +44,10 @@ struct SolidFriction {
     const double z2 = q == 0 ? std::log(u_ref / 2) : (std::pow(u_ref, q) - std::pow(2, q)) / q;
     if (value_of(z) < z2) return beyond(z, z2);
     const T y = z * std::pow(u_ref, -q);
-    if (q == 0) return T(s * Fc * (1 - u_ref * exp(T(-y))));
     if (q * value_of(y) >= 1) return T(s * Fc);
-    return T(s * Fc * (1 - u_ref * exp(T(log1p(T(-q * y)) / q))));
+    // Counted from f_ref, so that a small force keeps all its digits.
+    const T f = f_ref - (s * Fc * u_ref) * expm1(q == 0 ? T(-y) : T(log1p(T(-q * y)) / q));
+    return s * value_of(f) < Fc ? f : T(s * Fc);
   }
 
   double u(double p) const { return 1 - s * force(p) / Fc; }
@@ -57,10 +59,15 @@ struct SolidFriction {
 
   /// Starts a new branch at deflection p in direction `direction`; the force stays as it is.
   void turn(double p, double direction) {
-    const double f = force(p);
+    begin(p, force(p), direction);
+  }
+
+  /// A branch that begins at deflection p with force f.
+  void begin(double p, double f, double direction) {
     s = direction;
-    u_ref = 1 - s * f / Fc;
     p_ref = p;
+    f_ref = f;
+    u_ref = std::max(0.0, 1 - s * f / Fc);
     held = i < 1 && u_ref <= 0;
   }
 

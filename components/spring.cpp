@@ -19,7 +19,7 @@ struct Spring : MemorylessLaw {
   }
   double start(double d) const { return std::isnan(preload) ? d - rest : preload / k; }
   double stored_energy(double p) const { return k * p * p / 2; }
-  double dissipated_power(double, double) const { return 0; }
+  double dissipated_power(double, double, double) const { return 0; }
 };
 
 bool no_stiffness(std::span<const double> v) { return v[0] == 0; }

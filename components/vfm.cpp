@@ -24,7 +24,7 @@ struct Vfm : MemorylessLaw {
   }
   double start(double) const { return f0 / sigma; }
   double stored_energy(double p) const { return sigma * p * p / 2; }
-  double dissipated_power(double p, double) const {
+  double dissipated_power(double p, double, double) const {
     const double f = force(p);
     return f * f / B;
   }

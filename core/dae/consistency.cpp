@@ -135,6 +135,16 @@ void Consistency::second_derivative(double t, double dt, const std::vector<doubl
   for (std::size_t i = 0; i < y.size(); ++i) ypp[i] = (ypp[i] - yp[i]) / dt;
 }
 
+/// A branch between two masses cannot be held still by its force at once: that takes an impulse.
+bool Consistency::can_stand(int branch) const {
+  const Branch& b = dae_.network().deflections[at(branch)];
+  const auto massless = [&](NodeId node) {
+    const Kind kind = dae_.structure().kind[at(node)];
+    return kind == Kind::floating || kind == Kind::viscous;
+  };
+  return massless(b.a) || massless(b.b);
+}
+
 std::vector<int> Consistency::settle(double t, double dt, const std::vector<double>& y, std::vector<double>& yp) {
   std::vector<int> changed;
   derivative(t, y, yp);
@@ -147,8 +157,11 @@ std::vector<int> Consistency::settle(double t, double dt, const std::vector<doub
   }
   if (watched.empty()) return changed;
   std::vector<double> ypp, ahead(y), ahead_p(yp);
-  // Directions depend on each other through massless nodes: a few sweeps settle them, as the laws are monotone.
-  for (int sweep = 0; sweep < 20; ++sweep) {
+  std::vector<int> turns(network.deflections.size(), 0);
+  // Directions depend on each other through massless nodes. Two sweeps turn all that do not fit; after that one at a time
+  // is turned, and one that turns back and forth is held still by both directions.
+  const int sweeps = 10 + 4 * static_cast<int>(watched.size());
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     second_derivative(t, dt, y, yp, ypp);
     for (std::size_t k = 0; k < y.size(); ++k) {
       ahead[k] = y[k] + dt * (yp[k] + dt / 2 * ypp[k]);
@@ -158,14 +171,20 @@ std::vector<int> Consistency::settle(double t, double dt, const std::vector<doub
     const Dae::View& now = dae_.view(t, y.data(), yp.data());
     bool again = false;
     for (int j : watched) {
-      if (w[at(j)] == 0) continue;
       std::size_t i = 0;
       DeflectionBatch& batch = dae_.batch_of(j, i);
-      if (!batch.set_direction(i, now.p[at(j)], w[at(j)], w[at(j)] < 0 ? -1 : 1)) continue;
+      if (batch.holds(i)) continue;
+      const int direction = w[at(j)] < 0 ? -1 : w[at(j)] > 0 ? 1 : 0;
+      if (direction == 0 && now.flow[at(j)] != 0) continue;
+      if (!batch.set_direction(i, now.p[at(j)], w[at(j)], direction)) continue;
       again = true;
       if (std::find(changed.begin(), changed.end(), j) == changed.end()) changed.push_back(j);
+      if (sweep < 2) continue;
+      if (++turns[at(j)] >= 2 && can_stand(j)) batch.hold(i, now.p[at(j)]);
+      break;
     }
     if (!again) break;
+    dae_.update_holds();
     derivative(t, y, yp);
   }
   return changed;

@@ -42,6 +42,7 @@ class Consistency {
   void solve(std::vector<double>& b);
   void newton(double t, const std::vector<double>& before, const std::vector<double>& terms, std::vector<double>& y);
   void position_steps(double t, std::vector<double>& dx, std::vector<double>& impulse, std::vector<std::string>& notes);
+  bool can_stand(int branch) const;
   [[noreturn]] void report_singular(double t) const;
 
   Dae& dae_;

@@ -30,7 +30,7 @@ Dae::Dae(const Network& network, const Structure& structure, const std::vector<c
   df_.assign(nd, 0);
   dc_ = df_;
   view_.velocity = view_.nodal = view_.applied = view_.position = v_;
-  view_.p = view_.f = view_.creep = view_.flow = df_;
+  view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
 }
@@ -188,7 +188,7 @@ void Dae::build_pattern() {
     if (row.position) put(row.row, row.row, 0, 1);
     for (int k = row.flow_begin; k < row.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
-      put(row.row, ip_[at(j)], 0, sign);
+      flow_entries_.push_back({builder.ticket(row.row, ip_[at(j)]), j, sign});
       std::size_t i = 0;
       if (batch_of(j, i).creeps(i)) depend(row.row, ip_[at(j)], Source::creep, j, sign);
     }
@@ -202,17 +202,28 @@ void Dae::build_pattern() {
   std::vector<int> entry;
   pattern_ = builder.build(size_, entry);
   constant_.assign(at(pattern_.entries()), 0);
-  mass_ = constant_;
-  differential_.assign(at(size_), 0);
+  fixed_mass_ = mass_ = constant_;
   for (const Draft& d : drafts) {
     constant_[at(entry[at(d.ticket)])] += d.constant;
-    mass_[at(entry[at(d.ticket)])] += d.mass;
+    fixed_mass_[at(entry[at(d.ticket)])] += d.mass;
   }
+  for (FlowEntry& f : flow_entries_) f.entry = entry[at(f.entry)];
+  for (Scatter& s : scatter) s.entry = entry[at(s.entry)];
+  scatter_ = std::move(scatter);
+  moving_.assign(ip_.size(), 1);
+  update_holds();
+}
+
+void Dae::update_holds() {
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) moving_[at(laws.first) + i] = laws.batch->holds(i) ? 0 : 1;
+  }
+  mass_ = fixed_mass_;
+  for (const FlowEntry& f : flow_entries_) mass_[at(f.entry)] += f.sign * moving_[at(f.branch)];
+  differential_.assign(at(size_), 0);
   for (int e = 0; e < pattern_.entries(); ++e) {
     if (mass_[at(e)] != 0) differential_[at(pattern_.row[at(e)])] = 1;
   }
-  for (Scatter& s : scatter) s.entry = entry[at(s.entry)];
-  scatter_ = std::move(scatter);
 }
 
 DeflectionBatch& Dae::batch_of(int branch, std::size_t& i) {

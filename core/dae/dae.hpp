@@ -62,6 +62,7 @@ class Dae {
     std::vector<double> applied;       ///< sum of the applied forces at each node [N]
     std::vector<double> p, f, creep;   ///< of each deflection branch
     std::vector<double> flow;          ///< relative velocity of each deflection branch [m/s]
+    std::vector<double> dp;            ///< p' of each deflection branch [m/s]
     std::vector<double> rate_velocity, rate_force;  ///< of each rate branch
     std::vector<double> position;      ///< of each known node, and of those marked as needed [m]
   };
@@ -79,6 +80,9 @@ class Dae {
 
   /// Slopes df/dp of all deflection branches at the state last viewed [N/m].
   const std::vector<double>& slopes();
+
+  /// To be called when a law has begun or ceased to hold its branch still (DeflectionBatch::holds).
+  void update_holds();
 
   /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed.
   double supplied_power() const;
@@ -123,7 +127,10 @@ class Dae {
   std::vector<char> differential_;
   Pattern pattern_;
   std::vector<double> constant_, mass_;  ///< of each entry of the pattern
-  std::vector<int> entry_row_;           ///< of each entry
+  struct FlowEntry { int entry, branch; double sign; };
+  std::vector<FlowEntry> flow_entries_;    ///< coefficients of p' that vanish while their branch is held still
+  std::vector<double> fixed_mass_;         ///< mass_ without those
+  std::vector<double> moving_;             ///< of each deflection branch: 1, or 0 while it is held still
   std::vector<Scatter> scatter_;
 
   /// A position follows from a parent's through the deflection of `branch`: x = x_parent + sign (p + offset).

@@ -81,7 +81,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     double sum = row.position ? yp[row.row] : 0;
     for (int k = row.flow_begin; k < row.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
-      sum += sign * (yp[ip_[at(j)]] + view_.creep[at(j)]);
+      sum += sign * moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]);
     }
     for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
       sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
@@ -103,7 +103,8 @@ void Dae::jacobian(double t, double cj, const double* y, const double*, double* 
   for (std::size_t e = 0; e < constant_.size(); ++e) values[e] = constant_[e] + cj * mass_[e];
   for (const Scatter& s : scatter_) {
     const std::vector<double>& d = s.source == Source::force ? df_ : s.source == Source::creep ? dc_ : rate_d_;
-    values[s.entry] += s.sign * d[at(s.index)];
+    const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
+    values[s.entry] += weight * d[at(s.index)];
   }
 }
 
@@ -129,6 +130,12 @@ void Dae::time_derivative(double* r) const {
     } else if (dw != 0) {
       add(b.a, rate_d_[k] * dw);
       add(b.b, -rate_d_[k] * dw);
+    }
+  }
+  for (const Row& row : rows_) {  // loops through branches that are held still, all of them
+    if (differential_[at(row.row)]) continue;
+    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+      r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];
     }
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
@@ -165,14 +172,15 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     const Structure::Group& group = structure_->groups[g];
     const std::size_t j = at(group.tree_branch);
     const double base =
-        view_.velocity[at(group.parent)] - v_[at(group.node)] + group.sign * (yp[ip_[j]] + view_.creep[j]);
+        view_.velocity[at(group.parent)] - v_[at(group.node)] + group.sign * moving_[j] * (yp[ip_[j]] + view_.creep[j]);
     for (NodeId node : group.nodes) view_.velocity[at(node)] = base + v_[at(node)];
   }
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     const Branch& b = network_->deflections[j];
     const bool floating = structure_->group[at(b.a)] >= 0 || structure_->group[at(b.b)] >= 0;
     // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
-    view_.flow[j] = floating ? yp[ip_[j]] + view_.creep[j] : v_[at(b.a)] - v_[at(b.b)];
+    view_.flow[j] = floating ? moving_[j] * (yp[ip_[j]] + view_.creep[j]) : v_[at(b.a)] - v_[at(b.b)];
+    view_.dp[j] = ip_[j] >= 0 ? yp[ip_[j]] : view_.flow[j];
   }
   for (std::size_t r = 0; r < if_.size(); ++r) {
     view_.rate_velocity[r] = if_[r] >= 0 ? rate_out_[r] : rate_in_[r];
@@ -219,7 +227,7 @@ double Dae::dissipated_power() const {
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
-      power += laws.batch->dissipated_power(i, view_.p[j], view_.flow[j]);
+      power += laws.batch->dissipated_power(i, view_.p[j], view_.dp[j], view_.flow[j]);
     }
   }
   for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];

@@ -145,6 +145,12 @@ Consistency::Jump Consistency::jump(double t, std::vector<double>& y) {
   const std::vector<double> before = y;
   std::vector<double> p_before(network.deflections.size());
   const auto floating = [&](const Branch& b) { return structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0; };
+  for (std::size_t j = 0; j < p_before.size(); ++j) {
+    std::size_t i = 0;
+    DeflectionBatch& batch = dae_.batch_of(static_cast<int>(j), i);
+    if (batch.holds(i)) batch.set_direction(i, y[at(dae_.deflection_unknown(static_cast<int>(j)))], 0, 1);
+  }
+  dae_.update_holds();
   // Driven deflections have already gone along with the drive: their value before is the present one less the step.
   const std::vector<double> p_now = dae_.view(t, y.data(), zero_.data()).p;
   for (std::size_t j = 0; j < p_before.size(); ++j) {

@@ -45,21 +45,27 @@ class DeflectionBatch {
 
   /// How many event functions element i has (0 for laws without memory).
   virtual int events(std::size_t i) const = 0;
-  /// Event functions of element i at deflection p and velocity w, positive as long as the memory stays as it is. `noise`
-  /// is the velocity below which a reversal means nothing.
-  virtual void event_functions(std::size_t i, double p, double w, double noise, double* g) const = 0;
+  /// Event functions of element i at deflection p, its rate dp and velocity w, positive as long as the memory stays as it
+  /// is. `noise` is the velocity below which a reversal means nothing.
+  virtual void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const = 0;
   /// Changes the memory of element i as its event `which` demands, and says what happened ("reversal", "yield"). The
   /// force is the same before and after.
   virtual const char* switch_memory(std::size_t i, int which, double p, double w) = 0;
   /// The deflection jumps from p to p + jump at one instant (an end is moved by a step): the memory follows. Returns the
   /// energy that this turns into heat.
   virtual double jump(std::size_t i, double p, double jump) = 0;
-  /// Makes the memory fit a motion at velocity w that begins in `direction` (-1 or 1); true if that changed it.
+  /// Makes the memory fit a motion at velocity w that begins in `direction` (-1, 1, or 0 for rest); true if that changed
+  /// it.
   virtual bool set_direction(std::size_t i, double p, double w, int direction) = 0;
+  /// Both directions drive the velocity back to 0: the branch stands still while its force follows from its neighbours
+  /// (a sliding mode in the sense of Filippov). Its velocity is then 0 in place of p' + creep, until an event or
+  /// `set_direction`. False if the law does not know this.
+  virtual bool hold(std::size_t i, double p) = 0;
+  virtual bool holds(std::size_t i) const = 0;
 
   virtual double stored_energy(std::size_t i, double p) const = 0;
-  /// Power turned into heat at deflection p and velocity w; never negative.
-  virtual double dissipated_power(std::size_t i, double p, double w) const = 0;
+  /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
+  virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;
 };
 
 /// All elements of one rate law.

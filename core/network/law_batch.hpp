@@ -16,7 +16,7 @@ namespace rheonet {
 ///       template <class T> T creep(const T& f) const;                // p' = w - creep(f)
 ///       double start(double d);                                      // p at the start
 ///       double stored_energy(double p) const;
-///       double dissipated_power(double p, double w) const;
+///       double dissipated_power(double p, double dp, double w) const;
 ///     };
 struct MemorylessLaw {
   static constexpr bool creeping = false;
@@ -25,10 +25,12 @@ struct MemorylessLaw {
   T creep(const T&) const {
     return T(0.0);
   }
-  void event_functions(double, double, double, double*) const {}
+  void event_functions(double, double, double, double, double*) const {}
   const char* switch_memory(int, double, double) { return ""; }
   double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
+  bool hold(double) { return false; }
+  bool holds() const { return false; }
 };
 
 /// A batch of one deflection law.
@@ -63,8 +65,8 @@ class DeflectionBatchOf final : public DeflectionBatch {
   bool creeps(std::size_t) const override { return Law::creeping; }
   double start(std::size_t i, double d) override { return laws_[i].start(d); }
   int events(std::size_t i) const override { return laws_[i].event_count(); }
-  void event_functions(std::size_t i, double p, double w, double noise, double* g) const override {
-    laws_[i].event_functions(p, w, noise, g);
+  void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const override {
+    laws_[i].event_functions(p, dp, w, noise, g);
   }
   const char* switch_memory(std::size_t i, int which, double p, double w) override {
     return laws_[i].switch_memory(which, p, w);
@@ -73,8 +75,12 @@ class DeflectionBatchOf final : public DeflectionBatch {
   bool set_direction(std::size_t i, double p, double w, int direction) override {
     return laws_[i].set_direction(p, w, direction);
   }
+  bool hold(std::size_t i, double p) override { return laws_[i].hold(p); }
+  bool holds(std::size_t i) const override { return laws_[i].holds(); }
   double stored_energy(std::size_t i, double p) const override { return laws_[i].stored_energy(p); }
-  double dissipated_power(std::size_t i, double p, double w) const override { return laws_[i].dissipated_power(p, w); }
+  double dissipated_power(std::size_t i, double p, double dp, double w) const override {
+    return laws_[i].dissipated_power(p, dp, w);
+  }
 
  private:
   std::vector<Law> laws_;

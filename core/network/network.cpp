@@ -102,7 +102,7 @@ Network build_network(const Scene& scene) {
       }
       case Role::force:
         place = {role, static_cast<int>(network.forces.size())};
-        network.forces.push_back({index, element.a, element.b, element.signals.at(0)});
+        network.forces.push_back({index, element.a, element.at ? -1 : element.b, element.signals.at(0)});
         break;
     }
   }

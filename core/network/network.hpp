@@ -29,7 +29,7 @@ struct Laws {
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Motion { int element; NodeId node; Signal signal; bool position; };
-  struct Force { int element; NodeId a, b; Signal signal; };
+  struct Force { int element; NodeId a, b; Signal signal; };  ///< b = -1 for a force at one node
   /// Where an element went: a branch of `deflections` or `rates`, or an index into masses, motions, forces.
   struct Place { Role role; int index; };
 
