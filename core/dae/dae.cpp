@@ -42,11 +42,10 @@ void Dae::number_unknowns() {
   ip_.assign(network.deflections.size(), -1);
   if_.assign(network.rates.size(), -1);
   // Unknowns that belong together stand together: it keeps the columns of a chain near each other.
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    const Kind kind = structure_->kind[n];
-    const int group = structure_->group[n];
-    const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == static_cast<NodeId>(n);
-    if (kind != Kind::known && !reference) iv_[n] = size_++;
+  for (NodeId node : network.node_order) {
+    const int group = structure_->group[at(node)];
+    const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == node;
+    if (structure_->kind[at(node)] != Kind::known && !reference) iv_[at(node)] = size_++;
   }
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     if (!structure_->driven[j]) ip_[j] = size_++;
@@ -93,14 +92,14 @@ void Dae::derive_positions(const std::vector<char>& needed) {
     reached[at(node)] = 1;
     queue.push(node);
   };
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (structure_->kind[n] == Kind::known) root(static_cast<NodeId>(n));
+  for (NodeId node : network.node_order) {
+    if (structure_->kind[at(node)] == Kind::known) root(node);
   }
   spread();
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (!needed[n] || reached[n]) continue;
-    ix_[n] = size_++;
-    root(static_cast<NodeId>(n));
+  for (NodeId node : network.node_order) {
+    if (!needed[at(node)] || reached[at(node)]) continue;
+    ix_[at(node)] = size_++;
+    root(node);
     spread();
   }
   std::vector<char> wanted(nodes, 0);

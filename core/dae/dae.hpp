@@ -75,6 +75,8 @@ class Dae {
   int deflection_unknown(int branch) const { return ip_[at(branch)]; }
   int force_unknown(int rate) const { return if_[at(rate)]; }
   int position_unknown(NodeId node) const { return ix_[at(node)]; }
+  /// Gives the unknown forces of dashpots the values that belong to the velocities of y.
+  void guess_forces(double t, double* y);
   /// For messages: "the velocity of node `m`", "the deflection of `k1`".
   std::string describe(int unknown) const;
 
@@ -113,6 +115,7 @@ class Dae {
   void add_balance(PatternBuilder& builder, NodeId node, int row);
   void gather(double t, const double* y);
   void sum_forces();
+  void stiffen_resting_laws();
   double known_position(NodeId node) const;
 
   const Network* network_;

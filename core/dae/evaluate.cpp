@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/dae/dae.hpp"
 
@@ -100,11 +101,44 @@ void Dae::jacobian(double t, double cj, const double* y, const double*, double* 
     const std::size_t k = at(laws.first);
     laws.batch->linearise(&rate_in_[k], &rate_out_[k], &rate_d_[k]);
   }
+  stiffen_resting_laws();
   for (std::size_t e = 0; e < constant_.size(); ++e) values[e] = constant_[e] + cj * mass_[e];
   for (const Scatter& s : scatter_) {
     const std::vector<double>& d = s.source == Source::force ? df_ : s.source == Source::creep ? dc_ : rate_d_;
     const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
     values[s.entry] += weight * d[at(s.index)];
+  }
+}
+
+/// A power law other than Newton's has slope 0 at rest, and its equation no solution there to first order. A secant up to
+/// the forces now at work takes its place: Newton's iteration gets away from rest with it.
+void Dae::stiffen_resting_laws() {
+  double scale = -1;
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t r = at(laws.first) + i;
+      if (rate_d_[r] != 0) continue;
+      if (scale < 0) {
+        sum_forces();
+        for (std::size_t n = 1; n < v_.size(); ++n) {
+          scale = std::max({scale, std::abs(view_.nodal[n]), std::abs(view_.applied[n])});
+        }
+        if (!(scale > 0)) scale = 1;
+      }
+      const double w = laws.batch->velocity_at(i, scale);
+      rate_d_[r] = if_[r] >= 0 ? w / scale : scale / w;
+    }
+  }
+}
+
+void Dae::guess_forces(double t, double* y) {
+  gather(t, y);
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t r = at(laws.first) + i;
+      const Branch& b = network_->rates[r];
+      if (if_[r] >= 0) y[if_[r]] = laws.batch->force_at(i, v_[at(b.a)] - v_[at(b.b)]);
+    }
   }
 }
 

@@ -164,6 +164,7 @@ Consistency::Jump Consistency::jump(double t, std::vector<double>& y) {
   // Between floating nodes a jump of the deflection comes out of the balance, and its direction decides the law.
   for (int sweep = 0; sweep < 20; ++sweep) {
     y = before;
+    dae_.guess_forces(t, y.data());
     newton(t, before, terms, y);
     bool again = false;
     for (std::size_t j = 0; j < p_before.size(); ++j) {

@@ -82,6 +82,9 @@ class RateBatch {
   /// in[i] is w (by_force: f), out[i] is f (by_force: w).
   virtual void evaluate(const double* in, double* out) const = 0;
   virtual void linearise(const double* in, double* out, double* derivative) const = 0;
+  /// Force of element i at velocity w, and its velocity at force f, whichever way it is solved.
+  virtual double force_at(std::size_t i, double w) const = 0;
+  virtual double velocity_at(std::size_t i, double f) const = 0;
 };
 
 /// A law at a limit of its parameters is another law.

@@ -93,7 +93,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
 ///       bool by_force() const;
 ///       double impulse() const;
 ///       template <class T> T force(const T& w) const;   // f = force(w)
-///       template <class T> T rate(const T& f) const;    // its inverse; called only if by_force()
+///       template <class T> T rate(const T& f) const;    // its inverse
 ///     };
 template <class Law>
 class RateBatchOf final : public RateBatch {
@@ -121,6 +121,9 @@ class RateBatchOf final : public RateBatch {
       derivative[i] = y.derivative;
     }
   }
+
+  double force_at(std::size_t i, double w) const override { return laws_[i].force(w); }
+  double velocity_at(std::size_t i, double f) const override { return laws_[i].rate(f); }
 
  private:
   std::vector<Law> laws_;

@@ -60,10 +60,17 @@ Network build_network(const Scene& scene) {
   network.scene = &scene;
   network.places.assign(scene.elements.size(), {Role::nothing, -1});
   ByComponent deflections, rates;
+  std::vector<char> named(scene.nodes.size(), 0);
+  const auto name_node = [&](NodeId node) {
+    if (named[static_cast<std::size_t>(node)]++ == 0) network.node_order.push_back(node);
+  };
+  name_node(ground);
 
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const SceneElement& element = scene.elements[e];
     const int index = static_cast<int>(e);
+    name_node(element.a);
+    if (!element.at) name_node(element.b);
     const Component* declared = components()[static_cast<std::size_t>(element.declaration)];
     if (declared->check) {
       if (const std::string wrong = declared->check(element.values); !wrong.empty()) {
@@ -110,6 +117,7 @@ Network build_network(const Scene& scene) {
            [](const Component& c, const Values& v) { return c.deflection(v); });
   batch_up(rates, Role::rate, network.rates, network.rate_laws, network.places,
            [](const Component& c, const Values& v) { return c.rate(v); });
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) name_node(static_cast<NodeId>(n));
   return network;
 }
 

@@ -42,6 +42,9 @@ struct Network {
   std::vector<Motion> motions;
   std::vector<Force> forces;
   std::vector<Place> places;  ///< one for each element of the scene
+  /// All nodes, ground first, in the order in which elements name them: the equations are numbered by it, so that two
+  /// ways of writing a network give the same numbers.
+  std::vector<NodeId> node_order;
   std::vector<std::string> notes;
 
   const std::string& name_of(const Branch& branch) const {

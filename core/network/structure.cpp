@@ -57,8 +57,9 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
     if (anchored[i]) viscous[at(part[i])] = 1;
   }
   std::vector<int> group_of_part(at(parts), -1);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!massless(static_cast<NodeId>(i))) continue;
+  for (NodeId node : network.node_order) {
+    const std::size_t i = at(node);
+    if (!massless(node)) continue;
     if (viscous[at(part[i])]) {
       s.kind[i] = Kind::viscous;
       continue;
@@ -68,7 +69,7 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
       group = static_cast<int>(s.groups.size());
       s.groups.emplace_back();
     }
-    s.groups[at(group)].nodes.push_back(static_cast<NodeId>(i));
+    s.groups[at(group)].nodes.push_back(node);
     s.group[i] = group;
   }
 }

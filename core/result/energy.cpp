@@ -21,6 +21,7 @@ void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vec
     sum_.dissipated += heat;
   }
   stored_ = stored;
+  largest_ = std::max(largest_, std::abs(stored_));
 }
 
 EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t) {
@@ -66,6 +67,7 @@ void EnergyAccount::step(const Integrator& integrator) {
   const Power added = lobatto(integrator, a, b, pa, pb, 0);
   sum_.supplied += added.supplied;
   sum_.dissipated += added.dissipated;
+  largest_ = std::max({largest_, std::abs(stored_), std::abs(sum_.supplied), std::abs(sum_.dissipated)});
 }
 
 }  // namespace rheonet

@@ -22,6 +22,7 @@ class EnergyAccount {
   double supplied() const { return sum_.supplied; }
   double dissipated() const { return sum_.dissipated; }
   double stored() const { return stored_ - stored_at_start_; }
+  double largest() const { return largest_; }
   double missing() const { return supplied() - stored() - dissipated(); }
 
  private:

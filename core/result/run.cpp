@@ -131,6 +131,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   summary.supplied = recorder.energy().supplied();
   summary.stored = recorder.energy().stored();
   summary.dissipated = recorder.energy().dissipated();
+  summary.largest = recorder.energy().largest();
   summary.missing = recorder.energy().missing();
   summary.notes = network.notes;
   summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());

@@ -31,6 +31,8 @@ struct Summary {
   double stored = 0;      ///< gain of kinetic and elastic energy since the start
   double dissipated = 0;
   double missing = 0;     ///< supplied - stored - dissipated: 0 but for the error of the solution
+  double largest = 0;     ///< largest magnitude in the run of any of these and of the energy stored: what `missing` is to
+                          ///< be compared with
   double wall_seconds = 0;
   double cpu_seconds = 0;
   std::vector<std::string> notes;  ///< what was assumed, and what a user should know of the result
