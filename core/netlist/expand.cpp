@@ -10,9 +10,6 @@ namespace rheonet {
 
 namespace {
 
-/// More than a machine of today can simulate, and what takes a few GB to hold.
-constexpr std::size_t most_elements = 5'000'000;
-
 /// Levels of groups and models within each other: each takes some stack.
 constexpr int most_levels = 500;
 
@@ -34,6 +31,12 @@ void Expander::run(Scope& scope, const Environment& environment, const ActiveOve
 NodeId Expander::new_node(std::string name, Spot spot) {
   scene_.nodes.push_back({std::move(name), not_given, not_given, spot});
   return static_cast<NodeId>(scene_.nodes.size()) - 1;
+}
+
+bool Expander::refuse_number(Spot spot) {
+  context_.mistakes.error(spot, "the scene has more than " + std::to_string(most_elements) + " elements");
+  stopped_ = true;
+  return false;
 }
 
 NodeId Expander::node(Locals& locals, int index) {
@@ -91,11 +94,7 @@ bool Expander::body(const Plan& plan, Ends ends, const std::string& path, const 
 }
 
 bool Expander::element(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
-  if (scene_.elements.size() >= most_elements) {
-    context_.mistakes.error(plan.spot, "the scene has more than " + std::to_string(most_elements) + " elements");
-    stopped_ = true;
-    return false;
-  }
+  if (scene_.elements.size() >= most_elements) return refuse_number(plan.spot);
   SceneElement element;
   if (!element_values(plan, around.environment, element)) return false;
   element.name = path;

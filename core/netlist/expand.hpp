@@ -63,12 +63,16 @@ class Expander {
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);
   std::size_t begin_assembly(const Plan& plan, Ends ends, const std::string& path);
   void end_assembly(std::size_t assembly, Terms force, const Surroundings& around);
+  bool refuse_number(Spot spot);
   NodeId new_node(std::string name, Spot spot);
   NodeId node(Locals& locals, int index);
 
   /// The plan with the overrides that change its own keys applied; `deeper` receives those that concern what is in it.
   const Plan& overridden(const Plan& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
                          ActiveOverrides& deeper);
+
+  /// More than a machine of today can simulate, and what takes a few GB to hold.
+  static constexpr std::size_t most_elements = 5'000'000;
 
   Context& context_;
   Planner& planner_;

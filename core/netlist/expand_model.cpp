@@ -116,6 +116,8 @@ bool Expander::instance_parameters(const Plan& plan, const Environment& around, 
 bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
   Model& model = *plan.model;
   if (!model.sound) return false;
+  if (static_cast<double>(scene_.elements.size()) + model.least_elements > static_cast<double>(most_elements))
+    return refuse_number(plan.spot);
   Environment environment{.names = {}, .outer = model.environment};
   if (!instance_parameters(plan, around.environment, environment)) return false;
 

@@ -8,6 +8,9 @@ namespace rheonet {
 
 namespace {
 
+// More than anyone reads; each excerpt takes time in proportion to the file.
+constexpr std::size_t most_shown = 1000;
+
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// Index of character `column` (from 1) of line `line` (from 1) in `text`.
@@ -30,6 +33,12 @@ std::size_t escaped_length(std::string_view text, std::size_t at) {
   return text[at + 1] == 'u' ? 6 : text[at + 1] == 'U' ? 10 : 2;
 }
 
+/// A path that fits on a line.
+std::string shortened(const std::string& path) {
+  constexpr std::size_t part = 40;
+  return path.size() <= 2 * part ? path : path.substr(0, part) + "..." + path.substr(path.size() - part);
+}
+
 }  // namespace
 
 void Mistakes::error(Spot spot, std::string message, std::string hint) {
@@ -43,7 +52,7 @@ void Mistakes::warning(Spot spot, std::string message, std::string hint) {
 void Mistakes::add(Severity severity, Spot spot, std::string message, std::string hint) {
   if (severity == Severity::error) ++errors_;
   if (!seen_.insert({spot.file, spot.line, spot.column, message}).second) return;
-  if (path_ && spot.file >= 0) message += " (in `" + *path_ + "`)";
+  if (path_ && spot.file >= 0) message += " (in `" + shortened(*path_) + "`)";
   all_.push_back({severity, spot, std::move(message), std::move(hint)});
 }
 
@@ -88,6 +97,12 @@ std::vector<Diagnostic> Mistakes::sorted() const {
     const auto rank = [](const Spot& s) { return std::tuple(s.file < 0, s.file, s.line, s.column); };
     return rank(a.spot) < rank(b.spot);
   });
+  if (result.size() > most_shown) {
+    const std::size_t others = result.size() - most_shown;
+    result.resize(most_shown + 1);
+    result.back() = {Severity::error, result.back().spot,
+                     "and " + std::to_string(others) + " more mistakes, from here on", ""};
+  }
   return result;
 }
 

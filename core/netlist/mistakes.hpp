@@ -44,7 +44,8 @@ class Mistakes {
     const std::string* before_;
   };
 
-  /// The mistakes in the order of files and lines, those of the command line last.
+  /// The mistakes in the order of files and lines, those of the command line last; beyond a thousand only
+  /// their number.
   std::vector<Diagnostic> sorted() const;
 
  private:

@@ -93,6 +93,14 @@ std::string place(Spot spot, const Context& context) {
   return context.files.shown(spot.file) + ":" + std::to_string(spot.line);
 }
 
+/// The least number of elements that come of a plan, its models' numbers being known.
+double least_elements(const Plan& plan) {
+  if (plan.kind == Plan::Kind::element) return 1;
+  double sum = plan.model ? plan.model->least_elements : 0;
+  for (const Plan& member : plan.members) sum += least_elements(member);
+  return sum;
+}
+
 /// The models that occur in a plan, in any depth.
 void collect_models(const Plan& plan, const std::function<void(const Plan&)>& visit) {
   if (plan.model) visit(plan);
@@ -168,6 +176,7 @@ void plan_models(Context& context, Models& models) {
   std::vector<bool> finite(all.size(), false);
   for (const std::size_t i : dependencies.order) {
     finite[i] = true;
+    for (const Plan& entry : all[i]->scope.entries) all[i]->least_elements += least_elements(entry);
     for (const std::size_t used : uses[i]) all[i]->sound = all[i]->sound && all[used]->sound;
   }
   for (std::size_t i = 0; i < all.size(); ++i) all[i]->sound = all[i]->sound && finite[i];

@@ -76,6 +76,7 @@ struct Model {
   Scope scope;
   std::vector<Number> defaults;              ///< of the parameters; NaN where there is none, or none that is known
   const Environment* environment = nullptr;  ///< the [parameters] of its file
+  double least_elements = 0;                 ///< that an instance makes: each `repeat` counted once
   bool sound = false;
 };
 

@@ -1,0 +1,256 @@
+#include <doctest/doctest.h>
+
+#include "tests/netlist/fake_declarations.hpp"
+#include "tests/netlist/reading.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The messages of a scene that includes or names a file, `DIR` standing for the folder.
+std::string messages_in(const Folder& folder, const std::string& netlist, const ReadOptions& options = {}) {
+  const ReadResult result = read(netlist, options, folder.path() / "scenes");
+  CHECK_FALSE(result.scene);
+  std::string text = '\n' + messages(result);
+  const std::string name = folder.path().string();
+  for (std::size_t at = text.find(name); at != text.npos; at = text.find(name)) text.replace(at, name.size(), "DIR");
+  return text;
+}
+
+std::string including(const std::string& file) {
+  return "include = [\"" + file +
+         "\"]\n[elements]\nk1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n";
+}
+
+std::string with_table(const std::string& file) {
+  return "[elements]\nm = { type = \"motion\", at = \"a\", velocity = { table = \"" + file + "\" } }\n";
+}
+
+}  // namespace
+
+TEST_CASE("bad includes: from elsewhere") {
+  const Folder folder;
+  folder.write("outside.toml", "");
+  folder.write("scenes/sub/part.toml", "include = [\"../beside.toml\"]\n");
+  folder.write("scenes/beside.toml", "");
+  fs::create_symlink("../outside.toml", folder.path() / "scenes" / "link.toml");
+
+  CHECK(messages_in(folder, including("nothing.toml")) == R"~(
+scene.toml:1:12: error: there is no file `nothing.toml`
+    1 | include = ["nothing.toml"]
+      |            ^
+  files are looked for beside the one that names them and below, then in the library
+)~");
+  CHECK(messages_in(folder, including("/etc/passwd")) == R"~(
+scene.toml:1:12: error: `/etc/passwd` leads outside the netlist's folder
+    1 | include = ["/etc/passwd"]
+      |            ^
+  files are looked for beside the one that names them and below, then in the library
+)~");
+  CHECK(messages_in(folder, including("sub/../../outside.toml")) == R"~(
+scene.toml:1:12: error: `sub/../../outside.toml` leads outside the netlist's folder
+    1 | include = ["sub/../../outside.toml"]
+      |            ^
+  files are looked for beside the one that names them and below, then in the library
+)~");
+  CHECK(messages_in(folder, including("link.toml")) == R"~(
+scene.toml:1:12: error: `link.toml` is a link that leads outside the netlist's folder
+    1 | include = ["link.toml"]
+      |            ^
+  files are looked for beside the one that names them and below, then in the library
+)~");
+  // Beside the including file, not beside the scene.
+  CHECK(messages_in(folder, including("sub/part.toml")) == R"~(
+DIR/scenes/sub/part.toml:1:12: error: `../beside.toml` leads outside the netlist's folder
+    1 | include = ["../beside.toml"]
+      |            ^
+  files are looked for beside the one that names them and below, then in the library
+)~");
+  CHECK(messages_in(folder, including("sub")) == R"~(
+scene.toml:1:12: error: `sub` is no file
+    1 | include = ["sub"]
+      |            ^
+)~");
+  CHECK(messages_in(folder, including("")) == R"~(
+scene.toml:1:12: error: the name of a file is empty
+    1 | include = [""]
+      |            ^
+)~");
+}
+
+TEST_CASE("bad includes: circles, and what an included file may have") {
+  const Folder folder;
+  folder.write("scenes/loop1.toml", "include = [\"loop2.toml\"]\n");
+  folder.write("scenes/loop2.toml", "\ninclude = [\"loop1.toml\"]\n");
+  folder.write("scenes/scene2.toml",
+               "[elements]\nk = { type = \"spring\", between = [\"a\", \"b\"], stiffness = 1 }\n");
+  folder.write("scenes/broken.toml", "[models.cell\n");
+  folder.write("scenes/latin.toml", "title = \"caf\xE9\"\n");
+  folder.write("scenes/cell.toml",
+               "\n[models.cell]\nports = [\"a\"]\nelements = { k = { type = \"mass\", at = \"a\", mass = 1 } }\n");
+
+  CHECK(messages_in(folder, including("loop1.toml")) == R"~(
+DIR/scenes/loop2.toml:2:12: error: files include each other in a circle: `DIR/scenes/loop1.toml` -> `DIR/scenes/loop2.toml` -> `DIR/scenes/loop1.toml`
+    2 | include = ["loop1.toml"]
+      |            ^
+)~");
+  CHECK(messages_in(folder, including("scene2.toml")) == R"~(
+DIR/scenes/scene2.toml:1:2: error: an included file cannot have `elements`
+    1 | [elements]
+      |  ^
+  it gives models: it may have `models`, `parameters`, `include` and `title`
+)~");
+  CHECK(messages_in(folder, including("broken.toml")) == R"~(
+DIR/scenes/broken.toml:1:13: error: the header of a table is not closed
+    1 | [models.cell
+      |             ^
+  close it with ]
+)~");
+  CHECK(messages_in(folder, including("latin.toml")) ==
+        "\n"
+        "DIR/scenes/latin.toml:1:13: error: byte 0xE9 is not UTF-8\n"
+        "    1 | title = \"caf\xE9\"\n"
+        "      |             ^\n"
+        "  a netlist is UTF-8 text: save the file in that encoding\n");
+  CHECK(messages_in(folder, R"~(
+include = ["cell.toml"]
+[models.cell]
+ports = ["a"]
+elements = { k = { type = "mass", at = "a", mass = 1 } }
+[elements]
+m = { type = "cell", at = "a" }
+)~") == R"~(
+scene.toml:2:9: error: model `cell` is defined already, at DIR/scenes/cell.toml:2
+    2 | [models.cell]
+      |         ^
+  rename one of them
+)~");
+  // A type that may be a model of a file that could not be read is no second mistake.
+  CHECK(messages_in(folder, R"~(
+include = "cell.toml"
+[elements]
+m = { type = "cell", at = "a" }
+)~") == R"~(
+scene.toml:1:11: error: `include` must be an array, but is the string "cell.toml"
+    1 | include = "cell.toml"
+      |           ^
+  include = ["library/rheology.toml"]
+)~");
+}
+
+TEST_CASE("bad includes: a scene that includes itself") {
+  const Folder folder;
+  const auto file = folder.write("scene.toml", including("scene.toml") + "[simulate]\nstop = 1\n");
+  const ReadResult result = read_scene(file, fake_declarations());
+  CHECK_FALSE(result.scene);
+  REQUIRE(result.diagnostics.size() == 1);
+  CHECK(result.diagnostics[0].message == "files include each other in a circle: `scene.toml` -> `scene.toml`");
+}
+
+TEST_CASE("a file that is no netlist") {
+  const Folder folder;
+  const auto first = [](const ReadResult& result) {
+    CHECK_FALSE(result.scene);
+    REQUIRE(result.diagnostics.size() == 1);
+    return format(result.diagnostics[0], result.sources);
+  };
+  const std::string nothing = (folder.path() / "nothing.toml").string();
+  CHECK(first(read_scene(nothing, fake_declarations())) ==
+        nothing + ": error: cannot be read: No such file or directory");
+  CHECK(first(read_scene(folder.path(), fake_declarations())) ==
+        folder.path().string() + ": error: cannot be read: it is a folder");
+  const auto latin = folder.write("latin.toml",
+                                  "# Gr\xFC\xDF"
+                                  "e\n");
+  CHECK(first(read_scene(latin, fake_declarations())) ==
+        latin.string() +
+            ":1:5: error: byte 0xFC is not UTF-8\n    1 | # Gr\xFC\xDF"
+            "e\n      |     ^\n"
+            "  a netlist is UTF-8 text: save the file in that encoding");
+}
+
+TEST_CASE("bad netlists: text that no editor shows") {
+  const auto first = [](const std::string& text) {
+    const ReadResult result = read(text);
+    CHECK_FALSE(result.scene);
+    REQUIRE(result.diagnostics.size() >= 1);
+    return result.diagnostics[0];
+  };
+  CHECK(first("title = \"overlong \xC0\x80\"\n").message == "byte 0xC0 is not UTF-8");
+  CHECK(first("title = \"surrogate \xED\xA0\x80\"\n").message == "byte 0xED is not UTF-8");
+  CHECK(
+      first(std::string("title = \"nul \0\"\n", 15)).message.starts_with("not valid TOML: string: unescaped control"));
+
+  // Columns count characters, whatever came before; a byte order mark and a carriage return are no characters.
+  const Diagnostic umlaut = first("\xEF\xBB\xBFtitle = \"\u00e4\"\r\n[elements]\r\n\"\u00e4\" = { typ = 1 }\r\n");
+  CHECK(umlaut.spot.line == 3);
+  CHECK(umlaut.spot.column == 9);
+
+  std::string deep(300, '[');
+  CHECK(first("a = " + deep).message == "arrays and tables are nested deeper than 256 levels");
+  CHECK(first("a" + std::string(100'000, '.') + "a = 1").message == "a key has at most 32 parts, this one has more");
+}
+
+TEST_CASE("bad tables of a signal: the line of the CSV file") {
+  const Folder folder;
+  folder.write("scenes/word.csv", "time,value\n0,0\n1, x\n");
+  folder.write("scenes/back.csv", "# measured\n1;0\n\n0;1\n");
+  folder.write("scenes/three.csv", "1,0,3\n");
+  folder.write("scenes/empty.csv", "t,x\n");
+  folder.write("scenes/infinite.csv", "0 inf\n");
+  CHECK(messages_in(folder, with_table("word.csv")) == R"~(
+DIR/scenes/word.csv:3:4: error: expected a finite number, found `x`
+    3 | 1, x
+      |    ^
+)~");
+  CHECK(messages_in(folder, with_table("back.csv")) == R"~(
+DIR/scenes/back.csv:4:1: error: the times of a table must not decrease
+    4 | 0;1
+      | ^
+)~");
+  CHECK(messages_in(folder, with_table("three.csv")) == R"~(
+DIR/scenes/three.csv:1:1: error: a table of a signal has two columns, time and value; this row has 3
+    1 | 1,0,3
+      | ^
+)~");
+  CHECK(messages_in(folder, with_table("empty.csv")) == R"~(
+scene.toml:2:55: error: the table `empty.csv` has no rows
+    2 | m = { type = "motion", at = "a", velocity = { table = "empty.csv" } }
+      |                                                       ^
+)~");
+  CHECK(messages_in(folder, with_table("infinite.csv")) == R"~(
+DIR/scenes/infinite.csv:1:3: error: expected a finite number, found `inf`
+    1 | 0 inf
+      |   ^
+)~");
+  CHECK(messages_in(folder, with_table("../word.csv")) == R"~(
+scene.toml:2:55: error: `../word.csv` leads outside the netlist's folder
+    2 | m = { type = "motion", at = "a", velocity = { table = "../word.csv" } }
+      |                                                       ^
+  files are looked for beside the one that names them and below, then in the library
+)~");
+}
+
+TEST_CASE("an accuracy of the command line out of bounds") {
+  ReadOptions options;
+  options.accuracy = 7;
+  const std::string netlist = "[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n";
+  CHECK(messages(read(netlist, options)) == R"~(command line: error: `accuracy` must be from 1e-12 to 0.1, but is 7
+      | --accuracy 7
+      |            ^
+)~");
+  options.accuracy = 1e-3;
+  CHECK(scene_of(netlist, options).accuracy == 1e-3);
+}
+
+TEST_CASE("more mistakes than anyone reads") {
+  std::string netlist = "[elements]\n";
+  for (int i = 0; i < 1500; ++i) netlist += "k" + std::to_string(i) + " = { type = \"sprong\" }\n";
+  const ReadResult result = read(netlist);
+  REQUIRE(result.diagnostics.size() == 1001);
+  CHECK(result.diagnostics.back().message == "and 500 more mistakes, from here on");
+}
+
+}  // namespace rheonet::test

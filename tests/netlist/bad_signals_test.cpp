@@ -1,0 +1,120 @@
+#include <doctest/doctest.h>
+
+#include "tests/netlist/reading.hpp"
+
+namespace rheonet::test {
+
+TEST_CASE("bad netlists: signals") {
+  check_all({
+      {"signals",
+       R"~(
+[elements]
+a = { type = "motion", at = "a", velocity = { stp = 1 } }
+b = { type = "motion", at = "b", velocity = { step = 1, sine = 2 } }
+c = { type = "motion", at = "c", velocity = { sine = 1 } }
+d = { type = "motion", at = "d", velocity = { step = 1, frequency = 3 } }
+e = { type = "motion", at = "e", velocity = { step = "1 m" } }
+f = { type = "motion", at = "f", velocity = { ramp = "1 m/s" } }
+g = { type = "motion", at = "g", velocity = { sine = "1 m", amplitude = "1 m/s", frequency = 1 } }
+h = { type = "motion", at = "h", velocity = { sine = 1, frequency = "3 s" } }
+i = { type = "motion", at = "i", velocity = { sine = 1, frequency = -3 } }
+j = { type = "motion", at = "j", velocity = { sine = 1, frequency = 3, phase = "2 m" } }
+k = { type = "motion", at = "k", velocity = { pulse = 1, width = 2, frequency = 1 } }
+l = { type = "motion", at = "l", velocity = { table = [[0, 0], [1]] } }
+m = { type = "motion", at = "m", velocity = { table = [[0, 0], [-1, 2]] } }
+n = { type = "motion", at = "n", velocity = { table = [] } }
+o = { type = "motion", at = "o", velocity = { table = [[0, "1 m"]] } }
+p = { type = "motion", at = "p", velocity = { table = 3 } }
+q = { type = "motion", at = "q", velocity = [1, 2] }
+r = { type = "motion", at = "r", velocity = inf }
+s = { type = "motion", at = "s", velocity = {} }
+t = { type = "motion", at = "t", velocity = { chirp = 1, frequency = 1 } }
+u = { type = "motion", at = "u", velocity = { time = 1 } }
+v = { type = "motion", at = "v", velocity = { step = 1, time = nan } }
+w = { type = "motion", at = "w", velocity = { table = [[0, 0], [1, nan]] } }
+)~",
+       R"~(
+scene.toml:2:47: error: signal `velocity` has no shape
+    2 | a = { type = "motion", at = "a", velocity = { stp = 1 } }
+      |                                               ^
+  did you mean `step`?
+scene.toml:3:57: error: signal `velocity` is both a `step` and a `sine`
+    3 | b = { type = "motion", at = "b", velocity = { step = 1, sine = 2 } }
+      |                                                         ^
+  a signal has one shape
+scene.toml:4:47: error: a `sine` signal needs `frequency`
+    4 | c = { type = "motion", at = "c", velocity = { sine = 1 } }
+      |                                               ^
+scene.toml:5:57: error: unknown key `frequency` of a `step` signal
+    5 | d = { type = "motion", at = "d", velocity = { step = 1, frequency = 3 } }
+      |                                                         ^
+  its keys are `step`, `amplitude`, `time` and `offset`
+scene.toml:6:54: error: `step`: expected a velocity (m/s), found a length (m)
+    6 | e = { type = "motion", at = "e", velocity = { step = "1 m" } }
+      |                                                      ^
+scene.toml:7:54: error: `ramp`: expected an acceleration (m/s^2), the rise of `velocity` per second, found a velocity (m/s)
+    7 | f = { type = "motion", at = "f", velocity = { ramp = "1 m/s" } }
+      |                                                      ^
+scene.toml:8:54: error: `sine`: expected a velocity (m/s), found a kinematic viscosity (m^2/s)
+    8 | g = { type = "motion", at = "g", velocity = { sine = "1 m", amplitude = "1 m/s", frequency = 1 } }
+      |                                                      ^
+scene.toml:9:69: error: `frequency`: expected a frequency (Hz), found a time (s)
+    9 | h = { type = "motion", at = "h", velocity = { sine = 1, frequency = "3 s" } }
+      |                                                                     ^
+scene.toml:10:69: error: `frequency` must be greater than 0, but is -3 Hz
+   10 | i = { type = "motion", at = "i", velocity = { sine = 1, frequency = -3 } }
+      |                                                                     ^
+scene.toml:11:80: error: `phase`: expected an angle (rad), found a length (m)
+   11 | j = { type = "motion", at = "j", velocity = { sine = 1, frequency = 3, phase = "2 m" } }
+      |                                                                                ^
+scene.toml:12:66: error: `width` must be less than the period, 1/`frequency`
+   12 | k = { type = "motion", at = "k", velocity = { pulse = 1, width = 2, frequency = 1 } }
+      |                                                                  ^
+scene.toml:13:64: error: a point of a table is an array of two values, [time, value], but this has 1
+   13 | l = { type = "motion", at = "l", velocity = { table = [[0, 0], [1]] } }
+      |                                                                ^
+scene.toml:14:65: error: the times of a table must not decrease
+   14 | m = { type = "motion", at = "m", velocity = { table = [[0, 0], [-1, 2]] } }
+      |                                                                 ^
+scene.toml:15:55: error: `table` has no points
+   15 | n = { type = "motion", at = "n", velocity = { table = [] } }
+      |                                                       ^
+scene.toml:16:60: error: the value of a point: expected a velocity (m/s), found a length (m)
+   16 | o = { type = "motion", at = "o", velocity = { table = [[0, "1 m"]] } }
+      |                                                            ^
+scene.toml:17:55: error: `table` must be an array of points or the name of a CSV file, but is the number 3
+   17 | p = { type = "motion", at = "p", velocity = { table = 3 } }
+      |                                                       ^
+  points are given so: table = [[0, 0], [1, 0.5]]
+scene.toml:18:45: error: `velocity` must be a number, a string or a table, but is an array
+   18 | q = { type = "motion", at = "q", velocity = [1, 2] }
+      |                                             ^
+  points are given so: { table = [[0, 0], [1, 0.5]] }
+scene.toml:19:45: error: `velocity` must be finite, but is infinite
+   19 | r = { type = "motion", at = "r", velocity = inf }
+      |                                             ^
+scene.toml:20:45: error: signal `velocity` has no shape
+   20 | s = { type = "motion", at = "s", velocity = {} }
+      |                                             ^
+  expected one of `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` or `table`
+scene.toml:21:47: error: a `chirp` signal needs `end_frequency`
+   21 | t = { type = "motion", at = "t", velocity = { chirp = 1, frequency = 1 } }
+      |                                               ^
+scene.toml:21:47: error: a `chirp` signal needs `duration`
+   21 | t = { type = "motion", at = "t", velocity = { chirp = 1, frequency = 1 } }
+      |                                               ^
+scene.toml:22:45: error: signal `velocity` has no shape
+   22 | u = { type = "motion", at = "u", velocity = { time = 1 } }
+      |                                             ^
+  expected one of `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` or `table`
+scene.toml:23:64: error: `time` is not a number (NaN)
+   23 | v = { type = "motion", at = "v", velocity = { step = 1, time = nan } }
+      |                                                                ^
+scene.toml:24:68: error: the value of a point is not a number (NaN)
+   24 | w = { type = "motion", at = "w", velocity = { table = [[0, 0], [1, nan]] } }
+      |                                                                    ^
+)~"},
+  });
+}
+
+}  // namespace rheonet::test

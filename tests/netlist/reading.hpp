@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/netlist/read.hpp"
+
+namespace rheonet::test {
+
+/// A folder for the files that a test needs; it goes when the test ends.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  /// Writes a file, making the folders that its name needs. Its path.
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Reads a scene, called scene.toml, with the fake declarations. A line break at its very start is taken off (raw
+/// strings begin on a line of their own), and a [simulate] that stops at 1 s is added if it has none.
+ReadResult read(const std::string& netlist, const ReadOptions& options = {},
+                const std::filesystem::path& folder = "no-such-folder");
+
+/// All that a user would see, each message ending in a line break; "" for a sound scene.
+std::string messages(const ReadResult& result);
+
+/// The scene of a sound netlist; fails the test with its messages otherwise.
+Scene scene_of(const std::string& netlist, const ReadOptions& options = {},
+               const std::filesystem::path& folder = "no-such-folder");
+
+struct BadNetlist {
+  const char* what;
+  const char* netlist;   ///< begins with a line break, as do the messages
+  const char* messages;  ///< exactly
+  std::vector<std::string> overrides = {};
+};
+
+/// Checks that each is refused with exactly its messages.
+void check_all(const std::vector<BadNetlist>& netlists);
+
+}  // namespace rheonet::test
