@@ -1,31 +1,12 @@
 #include "tests/netlist/reading.hpp"
 
 #include <doctest/doctest.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "tests/netlist/fake_declarations.hpp"
 
 namespace rheonet::test {
 
 namespace fs = std::filesystem;
-
-Folder::Folder() {
-  static int number = 0;
-  path_ = fs::temp_directory_path() / ("rheonet-test-" + std::to_string(getpid()) + "-" + std::to_string(number++));
-  fs::create_directories(path_);
-}
-
-Folder::~Folder() { fs::remove_all(path_); }
-
-fs::path Folder::write(const std::string& name, const std::string& text) const {
-  const fs::path file = path_ / name;
-  fs::create_directories(file.parent_path());
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  return file;
-}
 
 ReadResult read(const std::string& netlist, const ReadOptions& options, const fs::path& folder) {
   std::string text = netlist.starts_with('\n') ? netlist.substr(1) : netlist;

@@ -5,24 +5,9 @@
 #include <vector>
 
 #include "core/netlist/read.hpp"
+#include "tests/support/program.hpp"
 
 namespace rheonet::test {
-
-/// A folder for the files that a test needs; it goes when the test ends.
-class Folder {
- public:
-  Folder();
-  ~Folder();
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  /// Writes a file, making the folders that its name needs. Its path.
-  std::filesystem::path write(const std::string& name, const std::string& text) const;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// Reads a scene, called scene.toml, with the fake declarations. A line break at its very start is taken off (raw
 /// strings begin on a line of their own), and a [simulate] that stops at 1 s is added if it has none.

@@ -23,9 +23,11 @@ Folder::~Folder() {
   fs::remove_all(path_, ignored);
 }
 
-void Folder::write(const std::string& name, const std::string& text) const {
-  fs::create_directories((path_ / name).parent_path());
-  std::ofstream(path_ / name, std::ios::binary) << text;
+fs::path Folder::write(const std::string& name, const std::string& text) const {
+  const fs::path file = path_ / name;
+  fs::create_directories(file.parent_path());
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
 }
 
 std::string Folder::read(const std::string& name) const { return has(name) ? text_of(path_ / name) : ""; }

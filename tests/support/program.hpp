@@ -21,7 +21,8 @@ class Folder {
   Folder& operator=(const Folder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  void write(const std::string& name, const std::string& text) const;
+  /// Writes a file, making the folders that its name needs. Its path.
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;  ///< "" if there is no such file
   bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
 
