@@ -32,6 +32,10 @@ class Consistency {
   void second_derivative(double t, double dt, const std::vector<double>& y, const std::vector<double>& yp,
                          std::vector<double>& ypp);
 
+  /// Estimate of the fastest rate at which the network itself changes near a state, like omega of an oscillator or 1/T of
+  /// a lag [1/s]; 0 if nothing changes.
+  double fastest_rate(double t, const std::vector<double>& y, const std::vector<double>& yp);
+
   /// Makes the memories of all laws fit the direction in which their branches are about to move, and y' fit the memories.
   /// `dt` is a time short against everything that happens. Returns the branches whose memory changed.
   std::vector<int> settle(double t, double dt, const std::vector<double>& y, std::vector<double>& yp);

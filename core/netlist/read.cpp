@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/netlist/expand.hpp"
+#include "core/netlist/group_names.hpp"
 #include "core/netlist/include.hpp"
 #include "core/netlist/keys.hpp"
 #include "core/netlist/models.hpp"
@@ -87,6 +88,7 @@ class Reader {
       mistakes_.error(elements->spot, "the scene has no elements");
     Expander expander(context_, planner, scene_);
     expander.run(scope, environment, element_overrides(scope));
+    check_names(scope, mistakes_);  // again: overrides may have named nodes
 
     // What something is wrong with is not reported again where it is used.
     std::set<std::string> doubtful = expander.failed();

@@ -19,6 +19,8 @@ constexpr double first_step_error = 0.3;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
+// The same relative to the time in which the network itself changes.
+constexpr double lookahead_of_cycle = 0.01;
 // Restarts that bring the time on by less than this share of the run, one after the other, are chattering.
 constexpr double chatter_share = 1e-10;
 constexpr int chatter_restarts = 500;
@@ -226,10 +228,14 @@ class Run {
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance (Hairer,
   /// Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
   void restart(double t, double until, double shrink) {
-    const double ahead = lookahead * horizon(t);
+    double ahead = lookahead * horizon(t);
+    if (tolerances_.blind()) {
+      const double rate = consistency_.fastest_rate(t, y_, yp_);
+      if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
+    }
     std::vector<double> ypp;
     consistency_.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
-    tolerances_.foresee(t, ahead, y_, yp_, ypp);
+    tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
     double sum = 0;
     for (std::size_t i = 0; i < ypp.size(); ++i) {
       const double e = ypp[i] / 2 / tolerances_.values()[i];

@@ -60,6 +60,15 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   for (double f : view.applied) applied_force_ = std::max(applied_force_, std::abs(f));
 }
 
+bool Tolerances::blind() const {
+  std::array<bool, 4> there{}, known{};
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    there[static_cast<std::size_t>(sort_[i])] = true;
+    if (seen_[i] > 0) known[static_cast<std::size_t>(sort_[i])] = true;
+  }
+  return there != known;
+}
+
 void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                          const std::vector<double>& ypp) {
   forget_ = t + 10 * ahead;

@@ -14,8 +14,10 @@ class Tolerances {
  public:
   Tolerances(Dae& dae, double relative);
 
-  /// Before a restart at t: the first step has no history, so scales come from y, y' and y'' over the time `ahead`; they
-  /// are forgotten after ten times that.
+  /// True if nothing of some kind (velocity, force, ...) has been seen yet: its scale must be foreseen.
+  bool blind() const;
+  /// Before a restart at t. Where nothing has been seen, scales come from y, y' and y'' over the time `ahead` (0: do not
+  /// foresee); they are forgotten after ten times that.
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                const std::vector<double>& ypp);
   /// After a step, with the view of the state that it reached.
