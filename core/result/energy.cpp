@@ -12,6 +12,7 @@ EnergyAccount::EnergyAccount(Dae& dae, double tolerance) : dae_(dae), tolerance_
 
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {
   dae_.view(t, y.data(), yp.data());
+  last_ = {dae_.supplied_power(), dae_.dissipated_power()};
   const double stored = dae_.stored_energy();
   if (!begun_) {
     stored_at_start_ = stored;
@@ -62,8 +63,10 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
 void EnergyAccount::step(const Integrator& integrator) {
   const double a = integrator.previous_time(), b = integrator.time();
   if (!(b > a)) return;
-  const Power pa = power(integrator, a), pb = power(integrator, b);
+  dae_.view(b, integrator.y().data(), integrator.yp().data());
+  const Power pa = last_, pb{dae_.supplied_power(), dae_.dissipated_power()};
   stored_ = dae_.stored_energy();
+  last_ = pb;
   const Power added = lobatto(integrator, a, b, pa, pb, 0);
   sum_.supplied += added.supplied;
   sum_.dissipated += added.dissipated;

@@ -34,7 +34,7 @@ class EnergyAccount {
   double tolerance_;
   bool adaptive_;
   bool begun_ = false;
-  Power sum_;
+  Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
   std::vector<double> y_, yp_;
 };

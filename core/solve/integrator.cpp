@@ -18,9 +18,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Measured on chains of masses, springs and dashpots: see tools/bench/README.md.
-constexpr int dense_limit = 16;
-
 void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));
 }
@@ -42,7 +39,7 @@ struct Integrator::Implementation {
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
-  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol)
+  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, int dense)
       : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y) {
     const sunindextype n = dae.size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
@@ -54,7 +51,7 @@ struct Integrator::Implementation {
     require(IDASetUserData(ida, this), "IDASetUserData");
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
-    past.sparse = n > dense_limit;
+    past.sparse = n > dense;
     if (past.sparse) {
       matrix = SUNSparseMatrix(n, n, dae.pattern().entries(), CSC_MAT, context);
       linear = SUNLinSol_KLU(ny, matrix, context);
@@ -144,8 +141,8 @@ struct Integrator::Implementation {
   }
 };
 
-Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance)
-    : impl_(std::make_unique<Implementation>(dae, events, tolerance)) {}
+Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, int dense)
+    : impl_(std::make_unique<Implementation>(dae, events, tolerance, dense)) {}
 
 Integrator::~Integrator() = default;
 

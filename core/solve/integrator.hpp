@@ -28,8 +28,12 @@ class Integrator {
     singular,  ///< the equations have no unique solution here
   };
 
-  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step.
-  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance);
+  /// Up to this many unknowns a dense matrix is factorised faster than KLU does it: see tools/bench/linear_algebra.md.
+  static constexpr int dense_limit = 4;
+
+  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step. Linear algebra is
+  /// dense up to `dense` unknowns.
+  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, int dense = dense_limit);
   ~Integrator();
 
   /// Starts afresh at t from a consistent state. The first step is h.
