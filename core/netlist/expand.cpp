@@ -15,8 +15,6 @@ constexpr int most_levels = 500;
 
 constexpr NodeId no_node = std::numeric_limits<NodeId>::min();
 
-const ActiveOverrides no_overrides;
-
 std::string joined(const std::string& path, const std::string& name) { return path.empty() ? name : path + '.' + name; }
 
 }  // namespace
