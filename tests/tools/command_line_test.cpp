@@ -7,15 +7,17 @@ using namespace rheonet::test;
 
 TEST_CASE("help and version go to standard output with status 0") {
   const Folder folder;
-  for (const char* words : {"--help", "-h", "run --help", "check --help", "components --help", "schema --help"}) {
+  for (const std::string words : {"--help", "-h", "run --help", "check --help", "components --help", "schema --help"}) {
     CAPTURE(words);
     const Finished help = folder.shell(std::string("rheonet ") + words);
     CHECK(help.status == 0);
     CHECK(contains(help.out, "Usage: rheonet"));
-    CHECK(contains(help.out, "Exit status"));
     CHECK(help.err == "");
   }
-  for (const char* option : {"--set", "--accuracy", "--output", "--quiet"}) {
+  for (const std::string words : {"run --help", "check --help"}) {
+    CHECK(contains(folder.shell(std::string("rheonet ") + words).out, "Exit status"));
+  }
+  for (const std::string option : {"--set", "--accuracy", "--output", "--quiet"}) {
     CHECK(contains(folder.shell("rheonet run --help").out, option));
   }
   const Finished version = folder.shell("rheonet --version");
@@ -25,9 +27,9 @@ TEST_CASE("help and version go to standard output with status 0") {
 
 TEST_CASE("a wrong command line has status 2, an empty standard output, and says what would mend it") {
   struct Case {
-    const char* words;
-    const char* message;
-    const char* hint;
+    std::string words;
+    std::string message;
+    std::string hint;
   };
   const Case cases[] = {
       {"", "no command given", "rheonet run SCENE"},
@@ -43,9 +45,9 @@ TEST_CASE("a wrong command line has status 2, an empty standard output, and says
       {"run scene.toml other.toml", "unexpected argument `other.toml`", "`rheonet run --help`"},
       {"run scene.toml --accuracy much", "`--accuracy` takes a number such as 1e-6, not `much`", ""},
       {"run scene.toml --accuracy 1e-3x", "`--accuracy` takes a number such as 1e-6, not `1e-3x`", ""},
-      {"run scene.toml --accuracy", "--accuracy", "missing"},
-      {"run scene.toml -o", "--output", "missing"},
-      {"run scene.toml -o a.csv -o b.csv", "--output", ""},
+      {"run scene.toml --accuracy", "`--accuracy` needs a value", "`rheonet run --help`"},
+      {"run scene.toml -o", "`--output` needs a value", ""},
+      {"run scene.toml -o a.csv -o b.csv", "`--output` is given more than once", ""},
       {"check scene.toml run", "unexpected argument `run`", ""},
       {"check scene.toml -o out.csv", "unknown option `-o`", "`rheonet check --help`"},
       {"components spring mass", "unexpected argument `mass`", ""},
@@ -75,10 +77,10 @@ TEST_CASE("--set takes one value or several, before the scene or after it") {
       folder.shell("rheonet run -q scene.toml --set k1.stiffness='\"300 N/m\"' --set simulate.stop=0.5").out;
   CHECK(expected != plain);
   CHECK(contains(expected, "\n0.5,"));
-  for (const char* words : {"--set k1.stiffness='\"300 N/m\"' simulate.stop=0.5 scene.toml",
-                            "--set=k1.stiffness='\"300 N/m\"' --set=simulate.stop=0.5 scene.toml",
-                            "--set k1.stiffness='\"300 N/m\"' scene.toml --set simulate.stop=0.5",
-                            "--set k1.stiffness='300 N/m' simulate.stop='0.5 s' -- scene.toml"}) {
+  for (const std::string words : {"--set k1.stiffness='\"300 N/m\"' simulate.stop=0.5 scene.toml",
+                                  "--set=k1.stiffness='\"300 N/m\"' --set=simulate.stop=0.5 scene.toml",
+                                  "--set k1.stiffness='\"300 N/m\"' scene.toml --set simulate.stop=0.5",
+                                  "--set k1.stiffness='300 N/m' simulate.stop='0.5 s' -- scene.toml"}) {
     CAPTURE(words);
     const Finished result = folder.shell(std::string("rheonet run -q ") + words);
     CHECK(result.status == 0);

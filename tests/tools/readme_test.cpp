@@ -97,7 +97,7 @@ TEST_CASE("every example of README.md does what it says") {
     CAPTURE(i);
     CHECK(std::abs(found[i] - expected[i]) < 5e-6);
   }
-  for (const char* file : {"stiff.csv", "fine.csv", "rheonet.schema.json", "home/.local/bin/rheonet"}) {
+  for (const std::string file : {"stiff.csv", "fine.csv", "rheonet.schema.json", "home/.local/bin/rheonet"}) {
     CHECK(folder.has(file));
   }
 }
@@ -113,8 +113,9 @@ TEST_CASE("README.md begins with the two commands, and CI runs the second") {
 TEST_CASE("every link of the project's pages leads somewhere") {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   int links = 0;
-  for (const char* page : {"README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
-                           "netlists/library/README.md", "netlists/teaching/README.md", "netlists/thesis/README.md"}) {
+  for (const std::string page :
+       {"README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
+        "netlists/library/README.md", "netlists/teaching/README.md", "netlists/thesis/README.md"}) {
     CAPTURE(page);
     const std::string text = text_of(source / page);
     for (std::sregex_iterator i(text.begin(), text.end(), link), end; i != end; ++i, ++links) {

@@ -18,9 +18,20 @@ struct WrongCommandLine {
   std::string hint;
 };
 
-constexpr const char* footer =
-    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted;\n"
-    "2 the scene or the command line is wrong.";
+constexpr const char* of_rheonet =
+    "For instance:\n"
+    "  rheonet run scene.toml -o result.csv\n"
+    "  rheonet components spring\n"
+    "`rheonet run --help` says more of `run`, and so on.";
+constexpr const char* of_run =
+    "For instance:\n"
+    "  rheonet run scene.toml -o result.csv\n"
+    "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
+    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
+    "rows could not be written; 2 the scene or the command line is wrong.";
+constexpr const char* of_check =
+    "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
+    "line is wrong.";
 
 bool is_override(const std::string& word) {
   const std::size_t equals = word.find('=');
@@ -61,6 +72,7 @@ void refuse_extra_words(const CLI::App& app) {
   for (const CLI::App* level : {&app, command}) {
     if (level == nullptr) continue;
     for (const std::string& word : level->remaining()) {
+      if (word == "--") continue;  // only says that what follows is no option
       if (is_option(word)) {
         const std::string name = word.substr(0, word.find('='));
         throw WrongCommandLine{fmt::format("unknown option `{}`", name), did_you_mean(name, long_options(*level))};
@@ -75,6 +87,17 @@ void refuse_extra_words(const CLI::App& app) {
       throw WrongCommandLine{fmt::format("unexpected argument `{}`", word), ""};
     }
   }
+}
+
+// What CLI11 says of an option with too few or too many values, in words.
+std::string in_words(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string option = text.substr(0, text.find(':'));
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ArgumentMismatch) || !option.starts_with('-')) {
+    return text;
+  }
+  if (text.ends_with(" missing")) return fmt::format("`{}` needs a value", option);
+  return fmt::format("`{}` is given more than once", option);
 }
 
 double read_accuracy(const std::string& text) {
@@ -100,25 +123,31 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   Arguments arguments;
   std::string accuracy;
 
-  CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses.", "rheonet");
-  app.set_version_flag("--version", "rheonet " RHEONET_VERSION);
-  app.footer(footer);
+  CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
+               "rheonet");
+  app.set_help_flag("-h,--help", "print this help");
+  app.set_version_flag("--version", "rheonet " RHEONET_VERSION, "print the version");
+  app.footer(of_rheonet);
   // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
   app.allow_extras()->require_subcommand(0, 1);
 
-  const auto add_command = [&app](const char* name, const char* description) {
-    return app.add_subcommand(name, description)->allow_extras();
+  const auto add_command = [&app](const char* name, const char* description, const char* footer = "") {
+    CLI::App* command = app.add_subcommand(name, description)->allow_extras();
+    command->footer(footer);
+    return command;
   };
   const auto add_scene = [&arguments](CLI::App* command) {
     command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
-    command->add_option("--set", arguments.overrides, "override a value of the scene by its path; may be repeated")
+    command
+        ->add_option("--set", arguments.overrides,
+                     "in place of a value of the scene, named by its path; may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
   };
 
-  CLI::App* run = add_command("run", "simulate a scene and write its records as CSV");
+  CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", of_run);
   add_scene(run);
   run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
       ->type_name("FILE");
@@ -126,7 +155,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       ->type_name("E");
   run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
 
-  CLI::App* check = add_command("check", "read and check a scene without simulating it");
+  CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
   add_scene(check);
   check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
 
@@ -146,7 +175,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       return done;
     } catch (const CLI::ParseError& error) {
       refuse_extra_words(app);  // a misspelt word is often why another is missing
-      throw WrongCommandLine{error.what(), ""};
+      throw WrongCommandLine{in_words(error), ""};
     }
     refuse_extra_words(app);
     if (!accuracy.empty()) arguments.accuracy = read_accuracy(accuracy);

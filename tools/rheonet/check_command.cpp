@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/network/component.hpp"
@@ -8,6 +9,7 @@
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -23,25 +25,28 @@ double flow_index_of(const Parameter& parameter, const Declaration& declaration,
   return 1;
 }
 
-void print_element(const SceneElement& element, const Scene& scene, int name_width) {
+/// An element as a row: name, type, place, values.
+std::array<std::string, 4> row(const SceneElement& element, const Scene& scene) {
   const Declaration& declaration = *declarations()[static_cast<std::size_t>(element.declaration)];
   const auto node = [&scene](NodeId id) { return scene.nodes[static_cast<std::size_t>(id)].name; };
-  const std::string place = element.at ? "at " + node(element.a) : node(element.a) + " - " + node(element.b);
 
-  std::string values;
+  std::vector<std::string> values;
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
     const std::string name = parameter.name_in(scene.domain);
-    if (std::find(element.signal_parameters.begin(), element.signal_parameters.end(), i) !=
-        element.signal_parameters.end()) {
-      values += fmt::format("  {}(t)", name);
+    const std::string unit = unit_of(parameter.quantity, scene.domain, flow_index_of(parameter, declaration, element));
+    const auto& with_signal = element.signal_parameters;
+    const auto found = std::find(with_signal.begin(), with_signal.end(), static_cast<int>(i));
+    if (found != with_signal.end()) {
+      const auto which = static_cast<std::size_t>(found - with_signal.begin());
+      values.push_back(fmt::format("{} = {}", name, in_words(element.signals[which], unit)));
     } else if (!std::isnan(element.values[i])) {
-      const std::string unit =
-          unit_of(parameter.quantity, scene.domain, flow_index_of(parameter, declaration, element));
-      values += fmt::format("  {} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit);
+      values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
   }
-  fmt::print("  {:<{}}  {:<8}  {}{}\n", element.name, name_width, declaration.type, place, values);
+  return {element.name, declaration.type,
+          element.at ? "at " + node(element.a) : node(element.a) + " - " + node(element.b),
+          fmt::format("{}", fmt::join(values, "  "))};
 }
 
 void print_network(const Scene& scene) {
@@ -58,22 +63,34 @@ void print_network(const Scene& scene) {
 
   fmt::print("nodes:\n");
   for (const SceneNode& node : scene.nodes) {
-    std::string start;
-    if (!std::isnan(node.position)) {
+    std::string start = &node == &scene.nodes.front() ? "  never moves" : "";
+    if (start.empty() && !std::isnan(node.position)) {
       start += fmt::format("  position = {:.10g} {}", node.position, unit_of(Quantity::position, scene.domain));
     }
-    if (!std::isnan(node.velocity)) {
+    if (&node != &scene.nodes.front() && !std::isnan(node.velocity)) {
       start += fmt::format("  velocity = {:.10g} {}", node.velocity, unit_of(Quantity::velocity, scene.domain));
     }
     fmt::print("  {:<{}}{}\n", node.name, start.empty() ? 0 : name_width, start);
   }
   fmt::print("elements:\n");
-  for (const SceneElement& element : scene.elements) print_element(element, scene, name_width);
+  std::vector<std::array<std::string, 4>> rows;
+  std::size_t type_width = 0, place_width = 0;
+  for (const SceneElement& element : scene.elements) {
+    rows.push_back(row(element, scene));
+    type_width = std::max(type_width, rows.back()[1].size());
+    place_width = std::max(place_width, rows.back()[2].size());
+  }
+  for (const auto& [name, type, place, values] : rows) {
+    fmt::print("  {:<{}}  {:<{}}  {:<{}}  {}\n", name, name_width, type, type_width, place, place_width, values);
+  }
   if (!scene.assemblies.empty()) fmt::print("assemblies:\n");
   for (const SceneAssembly& assembly : scene.assemblies) {
     fmt::print("  {:<{}}  {} - {}\n", assembly.name, name_width, scene.nodes[static_cast<std::size_t>(assembly.a)].name,
                scene.nodes[static_cast<std::size_t>(assembly.b)].name);
   }
+  std::string records;
+  for (const Record& record : scene.records) records += (records.empty() ? "" : " ") + record.path;
+  fmt::print("recorded:\n  {}\n", wrapped(records, 2));
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/rheonet/words.hpp"
+
 namespace rheonet::tool {
 namespace {
 
@@ -94,28 +96,6 @@ std::string ports(Declaration::Ports p) {
 }
 
 std::string becomes(const Limit& limit) { return limit.becomes.empty() ? "no force at all" : limit.becomes; }
-
-// Breaks a text into lines that leave room for the indent of what they explain.
-std::string wrapped(const std::string& text, std::size_t indent) {
-  constexpr std::size_t width = 100;
-  std::string result;
-  std::size_t column = indent;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (column > indent && column + 1 + word.size() > width) {
-      result += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-    begin = end + 1;
-  }
-  return result;
-}
 
 // Stars outside code would set what stands between them in italics.
 std::string prose(const std::string& text) {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace rheonet::tool {
@@ -34,20 +33,23 @@ std::string describe(const Summary& s, long rows, const std::string& destination
   };
 
   line("rows", grouped(rows), "to " + destination);
-  line("unknowns", grouped(s.unknowns), s.sparse ? "sparse linear algebra (KLU)" : "dense linear algebra");
+  line("unknowns", grouped(s.unknowns),
+       s.unknowns == 0 ? "every motion is prescribed"
+       : s.sparse      ? "sparse linear algebra (KLU)"
+                       : "dense linear algebra");
   line("steps", grouped(s.steps), fmt::format("{} rejected", grouped(s.rejected_steps)));
   line("residual evaluations", grouped(s.residual_evaluations), "");
   line("Jacobian evaluations", grouped(s.jacobian_evaluations), "");
   line("events", grouped(s.events), "reversals, yields, jumps and corners of signals");
-  line("restarts", grouped(s.restarts), "of the integrator");
+  line("starts", grouped(s.restarts), "of the integrator: the first, and those after jumps");
   line("wall time", in_time_units(s.wall_seconds), "");
   line("CPU time", in_time_units(s.cpu_seconds), "");
   energy("energy supplied", s.supplied, "");
   energy("energy stored", s.stored, "  gained since the start");
   energy("energy dissipated", s.dissipated, "");
-  const double largest = std::max({std::abs(s.supplied), std::abs(s.stored), std::abs(s.dissipated)});
-  energy("energy missing", s.missing,
-         largest > 0 ? fmt::format("  {:.1e} of the largest of these", std::abs(s.missing) / largest) : "");
+  energy(
+      "energy missing", s.missing,
+      s.largest > 0 ? fmt::format("  {:.1e} of the largest energy in the run", std::abs(s.missing) / s.largest) : "");
   for (const std::string& note : s.notes) text += fmt::format("  note: {}\n", note);
   return text;
 }

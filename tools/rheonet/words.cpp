@@ -1,0 +1,81 @@
+#include "tools/rheonet/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace rheonet::tool {
+namespace {
+
+std::string number(double x, const std::string& unit) { return fmt::format("{:.10g} {}", x, unit); }
+
+// What most signals share, where it is not 0.
+std::string rest(double phase, double time, double offset, const std::string& unit) {
+  std::string text;
+  if (phase != 0) text += ", phase " + number(phase, "rad");
+  if (time != 0) text += ", from " + number(time, "s") + " on";
+  if (offset != 0) text += ", offset " + number(offset, unit);
+  return text;
+}
+
+/// Says each shape of a signal.
+struct Words {
+  const std::string& unit;
+
+  std::string operator()(const Signal::Constant& s) const { return number(s.value, unit); }
+  std::string operator()(const Signal::Step& s) const {
+    return "step of " + number(s.height, unit) + " at " + number(s.time, "s") + rest(0, 0, s.offset, unit);
+  }
+  std::string operator()(const Signal::Ramp& s) const {
+    return "ramp of " + number(s.slope, unit) + " per s" + rest(0, s.time, s.offset, unit);
+  }
+  std::string operator()(const Signal::Sine& s) const { return wave("sine", s); }
+  std::string operator()(const Signal::Square& s) const { return wave("square", s); }
+  std::string operator()(const Signal::Triangle& s) const { return wave("triangle", s); }
+  std::string operator()(const Signal::Chirp& s) const {
+    return fmt::format("chirp of {}, {} to {} in {}{}", number(s.amplitude, unit), number(s.frequency, "Hz"),
+                       number(s.end_frequency, "Hz"), number(s.duration, "s"), rest(s.phase, s.time, s.offset, unit));
+  }
+  std::string operator()(const Signal::Pulse& s) const {
+    return fmt::format("pulse of {} for {} at {}{}{}", number(s.height, unit), number(s.width, "s"),
+                       number(s.time, "s"), s.frequency > 0 ? ", again at " + number(s.frequency, "Hz") : "",
+                       rest(0, 0, s.offset, unit));
+  }
+  std::string operator()(const Signal::Table& s) const {
+    return fmt::format("table of {} points over {} to {}{}", s.times.size(), number(s.times.front(), "s"),
+                       number(s.times.back(), "s"), rest(0, s.time, s.offset, unit));
+  }
+
+  template <class Wave>
+  std::string wave(const char* name, const Wave& s) const {
+    return fmt::format("{} of {}, {}{}", name, number(s.amplitude, unit), number(s.frequency, "Hz"),
+                       rest(s.phase, s.time, s.offset, unit));
+  }
+};
+
+}  // namespace
+
+std::string wrapped(const std::string& text, std::size_t indent) {
+  constexpr std::size_t width = 100;
+  std::string result;
+  std::size_t column = indent;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (column > indent && column + 1 + word.size() > width) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    begin = end + 1;
+  }
+  return result;
+}
+
+std::string in_words(const Signal& signal, const std::string& unit) { return std::visit(Words{unit}, signal.shape()); }
+
+}  // namespace rheonet::tool
