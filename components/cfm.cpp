@@ -32,11 +32,12 @@ struct Cfm : SolidFriction {
   void event_functions(double p, double dp, double w, double noise, double* g) const {
     g[0] = g[1] = 1;
     if (standing) {
-      // df/dt at rest lies between what the two directions give, -E f/B; beyond, the motion begins.
-      const double f = force(p), df = sigma * dp, forward = -slope(f, 1) * f / B, backward = -slope(f, -1) * f / B;
-      const double margin = 1e-7 * (forward - backward);
-      g[0] = forward + margin - df;
-      g[1] = df - backward + margin;
+      // Beyond what the two directions give, df/dt = -E f/B, the motion begins.
+      Dual forward, backward;
+      hold_rates(p, forward, backward);
+      const double margin = 1e-7 * (forward.value - backward.value);
+      g[0] = forward.value + margin - dp;
+      g[1] = dp - backward.value + margin;
     } else if (s == 0) {
       g[0] = noise > 0 ? noise - std::abs(w) : 1;  // leaving rest
     } else {
@@ -76,6 +77,12 @@ struct Cfm : SolidFriction {
     }
     return changed;
   }
+  static constexpr bool can_hold = true;
+  void hold_rates(const Dual& p, Dual& forward, Dual& backward) const {
+    const Dual f = force(p);
+    forward = -slope(f, 1) * f / (sigma * B);
+    backward = -slope(f, -1) * f / (sigma * B);
+  }
   bool hold(double p) {
     rest(p);
     standing = true;
@@ -102,7 +109,10 @@ struct Cfm : SolidFriction {
   bool along_sigma = false;  // s = 0: df/dp = sigma
   bool standing = false;     // held at w = 0 by both directions
 
-  double slope(double f, double direction) const { return sigma * std::pow(std::max(0.0, 1 - direction * f / Fc), i); }
+  Dual slope(const Dual& f, double direction) const {
+    const Dual u = 1 - direction / Fc * f;
+    return u.value > 0 ? sigma * pow(u, i) : Dual(0);
+  }
   void rest(double p) {
     f_ref = force(p);
     p_ref = p;

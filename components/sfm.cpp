@@ -41,6 +41,8 @@ struct Sfm : SolidFriction {
     turn(p, direction);
     return true;
   }
+  static constexpr bool can_hold = false;
+  void hold_rates(const Dual&, Dual&, Dual&) const {}
   bool hold(double) { return false; }
   bool holds() const { return false; }
   double dissipated_power(double p, double, double w) const { return heating(p, w); }

@@ -50,7 +50,7 @@ struct SolidFriction {
     return s * value_of(f) < Fc ? f : T(s * Fc);
   }
 
-  double u(double p) const { return 1 - s * force(p) / Fc; }
+  int direction() const { return s < 0 ? -1 : s > 0 ? 1 : 0; }
 
   /// Deflection travelled since p_ref at which the bound is reached; infinite for i >= 1.
   double travel_to_bound() const {

@@ -209,7 +209,7 @@ std::vector<int> Consistency::settle(double t, double dt, const std::vector<doub
       again = true;
       if (std::find(changed.begin(), changed.end(), j) == changed.end()) changed.push_back(j);
       if (sweep < 2) continue;
-      if (++turns[at(j)] >= 2 && can_stand(j)) batch.hold(i, now.p[at(j)]);
+      if (++turns[at(j)] >= 2 && can_stand(j)) dae_.hold_bundle(j);
       break;
     }
     if (!again) break;

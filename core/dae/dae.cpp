@@ -52,6 +52,9 @@ void Dae::number_unknowns() {
   }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.rates[at(laws.first) + i];
+      const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
+      if (known(b.a) && known(b.b)) laws.batch->velocity_given(i);
       if (laws.batch->by_force(i)) if_[at(laws.first) + i] = size_++;
     }
   }
@@ -197,6 +200,11 @@ void Dae::build_pattern() {
   }
 
   if (idle_) put(0, 0, 0, 1);
+  find_bundles();
+  for (Follower& f : followers_) {
+    f.own_entry = builder.ticket(f.row, ip_[at(f.branch)]);
+    f.leader_entry = builder.ticket(f.row, ip_[at(f.leader)]);
+  }
 
   std::vector<int> entry;
   pattern_ = builder.build(size_, entry);
@@ -207,6 +215,13 @@ void Dae::build_pattern() {
     fixed_mass_[at(entry[at(d.ticket)])] += d.mass;
   }
   for (FlowEntry& f : flow_entries_) f.entry = entry[at(f.entry)];
+  for (Follower& f : followers_) {
+    f.own_entry = entry[at(f.own_entry)];
+    f.leader_entry = entry[at(f.leader_entry)];
+    for (int e = 0; e < pattern_.entries(); ++e) {
+      if (pattern_.row[at(e)] == f.row) f.row_entries.push_back(e);
+    }
+  }
   for (Scatter& s : scatter) s.entry = entry[at(s.entry)];
   scatter_ = std::move(scatter);
   moving_.assign(ip_.size(), 1);
@@ -222,6 +237,11 @@ void Dae::update_holds() {
   differential_.assign(at(size_), 0);
   for (int e = 0; e < pattern_.entries(); ++e) {
     if (mass_[at(e)] != 0) differential_[at(pattern_.row[at(e)])] = 1;
+  }
+  for (Follower& f : followers_) {
+    std::size_t i = 0;
+    f.active = batch_of(f.branch, i).holds(i);
+    if (f.active) differential_[at(f.row)] = 1;
   }
 }
 

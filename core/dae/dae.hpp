@@ -85,6 +85,10 @@ class Dae {
 
   /// To be called when a law has begun or ceased to hold its branch still (DeflectionBatch::holds).
   void update_holds();
+  /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends.
+  void hold_bundle(int branch);
+  /// All that are held still between the ends of this branch are let go as it has been: in the direction of its law.
+  void release_bundle(int branch, double w);
 
   /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed.
   double supplied_power() const;
@@ -107,6 +111,18 @@ class Dae {
   struct Scatter { int entry; Source source; int index; double sign; };
   /// A loop or a position: terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
   struct Row { int row; bool position; int flow_begin, flow_end, velocity_begin, velocity_end; };
+
+  /// Branches between the same ends that are held still together have one velocity, 0, and so one sign of it between -1
+  /// and 1 (Filippov: the same mixture of both directions for all of them). The first carries the equation w = 0, the
+  /// others share its mixture: with the rates of hold_rates
+  ///     (p' - backward)/(forward - backward) = (the same of the first).
+  struct Bundle { std::vector<int> branches; };
+  struct Follower { int branch, leader, row, own_entry, leader_entry; std::vector<int> row_entries; bool active; };
+  void find_bundles();
+  /// Rate p' of a follower, and its derivatives by p, by the leader's p and by the leader's p'.
+  struct Shared { double rate, by_own, by_leader, by_leader_rate; };
+  Shared share(const Follower& follower, double leader_rate) const;
+  void share_jacobian(double cj, const double* yp, double* values, bool consistency) const;
 
   void number_unknowns();
   void derive_positions(const std::vector<char>& needed);
@@ -131,6 +147,8 @@ class Dae {
   Pattern pattern_;
   std::vector<double> constant_, mass_;  ///< of each entry of the pattern
   struct FlowEntry { int entry, branch; double sign; };
+  std::vector<Bundle> bundles_;            ///< of two or more
+  std::vector<Follower> followers_;
   std::vector<FlowEntry> flow_entries_;    ///< coefficients of p' that vanish while their branch is held still
   std::vector<double> fixed_mass_;         ///< mass_ without those
   std::vector<double> moving_;             ///< of each deflection branch: 1, or 0 while it is held still

@@ -89,9 +89,12 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     }
     r[row.row] = sum;
   }
+  for (const Follower& f : followers_) {
+    if (f.active) r[f.row] = yp[f.row] - share(f, yp[ip_[at(f.leader)]]).rate;
+  }
 }
 
-void Dae::jacobian(double t, double cj, const double* y, const double*, double* values) {
+void Dae::jacobian(double t, double cj, const double* y, const double* yp, double* values) {
   gather(t, y);
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
     const std::size_t k = at(laws.first);
@@ -108,6 +111,7 @@ void Dae::jacobian(double t, double cj, const double* y, const double*, double* 
     const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
     values[s.entry] += weight * d[at(s.index)];
   }
+  share_jacobian(cj, yp, values, false);
 }
 
 /// A power law other than Newton's has slope 0 at rest, and its equation no solution there to first order. A secant up to
@@ -147,6 +151,7 @@ void Dae::consistency_matrix(double t, const double* y, double* values) {
   for (std::size_t e = 0; e < constant_.size(); ++e) {
     if (differential_[at(pattern_.row[e])]) values[e] = mass_[e];
   }
+  share_jacobian(0, nullptr, values, true);
 }
 
 void Dae::time_derivative(double* r) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/netlist/declaration.hpp"
+#include "core/network/dual.hpp"
 
 namespace rheonet {
 
@@ -62,6 +63,12 @@ class DeflectionBatch {
   /// `set_direction`. False if the law does not know this.
   virtual bool hold(std::size_t i, double p) = 0;
   virtual bool holds(std::size_t i) const = 0;
+  /// The direction that its memory stands for: -1, 1, or 0 for rest and laws that know none.
+  virtual int direction(std::size_t i) const = 0;
+  /// Element i can be held still at all.
+  virtual bool can_hold(std::size_t i) const = 0;
+  /// While it is held: the rates p' that motion to either side would begin with; the true one lies between them.
+  virtual void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const = 0;
 
   virtual double stored_energy(std::size_t i, double p) const = 0;
   /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
@@ -73,9 +80,10 @@ class RateBatch {
  public:
   virtual ~RateBatch() = default;
   virtual std::size_t size() const = 0;
-  /// Element i is to be solved for its force (w = rate(f)) instead of f = force(w), because its slope df/dw is infinite
-  /// at rest.
+  /// Element i is solved for its force (w = rate(f)) instead of f = force(w), because its slope df/dw is infinite at rest.
   virtual bool by_force(std::size_t i) const = 0;
+  /// The velocity of element i is given, whatever its force: f = force(w) will do.
+  virtual void velocity_given(std::size_t i) = 0;
   /// Impulse that a displacement step of 1 at infinite rate needs: the damping of a linear dashpot, infinite or 0 for
   /// others.
   virtual double impulse(std::size_t i) const = 0;

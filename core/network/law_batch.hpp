@@ -29,8 +29,11 @@ struct MemorylessLaw {
   const char* switch_memory(int, double, double) { return ""; }
   double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
+  static constexpr bool can_hold = false;
   bool hold(double) { return false; }
   bool holds() const { return false; }
+  int direction() const { return 0; }
+  void hold_rates(const Dual&, Dual&, Dual&) const {}
 };
 
 /// A batch of one deflection law.
@@ -77,6 +80,11 @@ class DeflectionBatchOf final : public DeflectionBatch {
   }
   bool hold(std::size_t i, double p) override { return laws_[i].hold(p); }
   bool holds(std::size_t i) const override { return laws_[i].holds(); }
+  int direction(std::size_t i) const override { return laws_[i].direction(); }
+  bool can_hold(std::size_t) const override { return Law::can_hold; }
+  void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const override {
+    laws_[i].hold_rates(p, forward, backward);
+  }
   double stored_energy(std::size_t i, double p) const override { return laws_[i].stored_energy(p); }
   double dissipated_power(std::size_t i, double p, double dp, double w) const override {
     return laws_[i].dissipated_power(p, dp, w);
@@ -100,23 +108,27 @@ class RateBatchOf final : public RateBatch {
  public:
   explicit RateBatchOf(const Values& values) {
     laws_.reserve(values.size());
-    for (std::span<const double> v : values) laws_.emplace_back(v);
+    for (std::span<const double> v : values) {
+      laws_.emplace_back(v);
+      by_force_.push_back(laws_.back().by_force());
+    }
   }
 
   std::size_t size() const override { return laws_.size(); }
-  bool by_force(std::size_t i) const override { return laws_[i].by_force(); }
+  bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
+  void velocity_given(std::size_t i) override { by_force_[i] = 0; }
   double impulse(std::size_t i) const override { return laws_[i].impulse(); }
 
   void evaluate(const double* in, double* out) const override {
     for (std::size_t i = 0; i < laws_.size(); ++i) {
-      out[i] = laws_[i].by_force() ? laws_[i].rate(in[i]) : laws_[i].force(in[i]);
+      out[i] = by_force_[i] ? laws_[i].rate(in[i]) : laws_[i].force(in[i]);
     }
   }
 
   void linearise(const double* in, double* out, double* derivative) const override {
     for (std::size_t i = 0; i < laws_.size(); ++i) {
       const Dual x(in[i], 1);
-      const Dual y = laws_[i].by_force() ? laws_[i].rate(x) : laws_[i].force(x);
+      const Dual y = by_force_[i] ? laws_[i].rate(x) : laws_[i].force(x);
       out[i] = y.value;
       derivative[i] = y.derivative;
     }
@@ -127,6 +139,7 @@ class RateBatchOf final : public RateBatch {
 
  private:
   std::vector<Law> laws_;
+  std::vector<char> by_force_;
 };
 
 template <class Law>

@@ -168,6 +168,9 @@ Structure::Loop express(const Structure& s, NodeId a, NodeId b, int branch) {
   for (auto [node, sign] : velocities) {
     if (sign != 0 && node != ground) loop.velocities.push_back({node, sign});
   }
+  std::sort(loop.velocities.begin(), loop.velocities.end(), [&](const Structure::Term& x, const Structure::Term& y) {
+    return s.rank[at(x.index)] < s.rank[at(y.index)];
+  });
   return loop;
 }
 
@@ -184,6 +187,8 @@ Structure analyse(const Network& network) {
   s.motion.assign(n, -1);
   s.group.assign(n, -1);
   s.mass.assign(n, 0);
+  s.rank.resize(n);
+  for (std::size_t k = 0; k < n; ++k) s.rank[at(network.node_order[k])] = static_cast<int>(k);
   assign_known_and_massive(network, s);
   assign_viscous_and_floating(network, s);
   grow_tree(network, s);

@@ -40,6 +40,7 @@ struct Structure {
   };
 
   std::vector<Kind> kind;        ///< of each node
+  std::vector<int> rank;         ///< of each node: its place in Network::node_order
   std::vector<int> motion;       ///< of each node: index of the motion that prescribes it, -1
   std::vector<int> group;        ///< of each node: index into groups, -1
   std::vector<double> mass;      ///< of each node

@@ -218,7 +218,9 @@ class Run {
       const auto [branch, which] = events_[k];
       std::size_t i = 0;
       DeflectionBatch& batch = dae_.batch_of(branch, i);
+      const bool held = batch.holds(i);
       note_event(t, branch, batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]));
+      if (held) dae_.release_bundle(branch, view.flow[at(branch)]);
       last_switched_ = element_name(branch);
     }
     dae_.update_holds();

@@ -1,0 +1,95 @@
+#include <algorithm>
+#include <map>
+
+#include "core/dae/dae.hpp"
+
+namespace rheonet {
+
+void Dae::find_bundles() {
+  std::map<std::pair<NodeId, NodeId>, std::vector<int>> by_ends;
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = network_->deflections[j];
+    std::size_t i = 0;
+    if (ip_[j] >= 0 && batch_of(static_cast<int>(j), i).can_hold(i)) {
+      by_ends[std::minmax(b.a, b.b)].push_back(static_cast<int>(j));
+    }
+  }
+  std::vector<char> in_tree(ip_.size(), 0);
+  for (const Structure::Group& g : structure_->groups) in_tree[at(g.tree_branch)] = 1;
+  for (auto& [ends, branches] : by_ends) {
+    if (branches.size() < 2) continue;
+    // A branch of the tree has no loop of its own whose equation could be given up: it leads.
+    const auto leader = std::find_if(branches.begin(), branches.end(), [&](int j) { return in_tree[at(j)] != 0; });
+    if (leader != branches.end()) std::iter_swap(branches.begin(), leader);
+    for (std::size_t k = 1; k < branches.size(); ++k) {
+      followers_.push_back({branches[k], branches.front(), ip_[at(branches[k])], -1, -1, {}, false});
+    }
+    bundles_.push_back({branches});
+  }
+}
+
+void Dae::hold_bundle(int branch) {
+  const auto hold = [&](int j) {
+    std::size_t i = 0;
+    DeflectionBatch& batch = batch_of(j, i);
+    if (!batch.holds(i)) batch.hold(i, view_.p[at(j)]);
+  };
+  hold(branch);
+  for (const Bundle& bundle : bundles_) {
+    if (std::find(bundle.branches.begin(), bundle.branches.end(), branch) == bundle.branches.end()) continue;
+    for (int j : bundle.branches) hold(j);
+  }
+}
+
+void Dae::release_bundle(int branch, double w) {
+  std::size_t i = 0;
+  const int direction = batch_of(branch, i).direction(i);
+  const Branch& released = network_->deflections[at(branch)];
+  for (const Bundle& bundle : bundles_) {
+    if (std::find(bundle.branches.begin(), bundle.branches.end(), branch) == bundle.branches.end()) continue;
+    for (int j : bundle.branches) {
+      const double side = network_->deflections[at(j)].a == released.a ? 1 : -1;
+      DeflectionBatch& batch = batch_of(j, i);
+      if (batch.holds(i)) batch.set_direction(i, view_.p[at(j)], side * w, static_cast<int>(side) * direction);
+    }
+  }
+}
+
+Dae::Shared Dae::share(const Follower& follower, double leader_rate) const {
+  std::size_t i = 0, l = 0;
+  const DeflectionBatch& own = batch_of(follower.branch, i);
+  const DeflectionBatch& lead = batch_of(follower.leader, l);
+  // With opposite ends the same motion is forward for one and backward for the other.
+  const bool same = network_->deflections[at(follower.branch)].a == network_->deflections[at(follower.leader)].a;
+  const auto rate = [&](const Dual& p_own, const Dual& p_lead, const Dual& rate_lead) {
+    Dual forward, backward, lead_forward, lead_backward;
+    own.hold_rates(i, p_own, forward, backward);
+    lead.hold_rates(l, p_lead, lead_forward, lead_backward);
+    const Dual span = lead_forward - lead_backward;
+    // Without force neither direction relaxes anything: nothing to mix.
+    const Dual mixture = span.value == 0 ? Dual(0.5) : (rate_lead - lead_backward) / span;
+    const Dual along = same ? mixture : 1 - mixture;
+    return backward + (forward - backward) * along;
+  };
+  const double p_own = view_.p[at(follower.branch)], p_lead = view_.p[at(follower.leader)];
+  const Dual by_own = rate(Dual(p_own, 1), p_lead, leader_rate);
+  return {by_own.value, by_own.derivative, rate(p_own, Dual(p_lead, 1), leader_rate).derivative,
+          rate(p_own, p_lead, Dual(leader_rate, 1)).derivative};
+}
+
+void Dae::share_jacobian(double cj, const double* yp, double* values, bool consistency) const {
+  for (const Follower& f : followers_) {
+    if (!f.active) continue;
+    const Shared s = share(f, yp ? yp[ip_[at(f.leader)]] : 0);
+    for (int e : f.row_entries) values[e] = 0;
+    if (consistency) {
+      values[f.own_entry] = 1;
+      values[f.leader_entry] = -s.by_leader_rate;
+    } else {
+      values[f.own_entry] = cj - s.by_own;
+      values[f.leader_entry] = -s.by_leader - cj * s.by_leader_rate;
+    }
+  }
+}
+
+}  // namespace rheonet
