@@ -68,8 +68,8 @@ void check_legs(const std::vector<double>& velocities, double exponent, double f
   std::string points;
   std::vector<double> forces = {f0};
   for (std::size_t j = 0; j < velocities.size(); ++j) {
-    const double t = double(j) * leg;
-    points += fmt::format("[{:.17g}, {:.17g}], [{:.17g}, {:.17g}], ", t, velocities[j], t + leg, velocities[j]);
+    const double t = double(j) * leg, end = double(j + 1) * leg;
+    points += fmt::format("[{:.17g}, {:.17g}], [{:.17g}, {:.17g}], ", t, velocities[j], end, velocities[j]);
     forces.push_back(force_after(forces.back(), velocities[j], exponent, leg));
   }
   const auto force = [&](double t) {

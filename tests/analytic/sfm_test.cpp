@@ -47,8 +47,8 @@ Path velocity_table(const std::string& name, const std::vector<double>& velociti
   std::vector<double> turns = {0};
   double last = velocities.front();
   for (std::size_t j = 0; j < velocities.size(); ++j) {
-    const double t = double(j) * tick;
-    points += fmt::format("[{:.17g}, {:.17g}], [{:.17g}, {:.17g}], ", t, velocities[j], t + tick, velocities[j]);
+    const double t = double(j) * tick, end = double(j + 1) * tick;
+    points += fmt::format("[{:.17g}, {:.17g}], [{:.17g}, {:.17g}], ", t, velocities[j], end, velocities[j]);
     if (velocities[j] * last < 0) turns.push_back(t);
     if (velocities[j] != 0) last = velocities[j];
   }

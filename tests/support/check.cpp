@@ -65,4 +65,10 @@ std::string netlist(Named parameters, std::string_view tables, double stop, int 
   return text + fmt::format("\n[simulate]\nstop = {:.17g}\noutput = {{ points = {} }}\n", stop, rows);
 }
 
+std::string record(const Expectations& expected) {
+  std::string names;
+  for (const Expectation& one : expected) names += fmt::format("\"{}\", ", one.column);
+  return "record = [" + names + "]\n";
+}
+
 }  // namespace rheonet::test

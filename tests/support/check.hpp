@@ -39,4 +39,7 @@ Exact from(double start, Exact after, double before = 0);
 using Named = std::initializer_list<std::pair<std::string_view, double>>;
 std::string netlist(Named parameters, std::string_view tables, double stop, int rows = 201);
 
+/// A last line for such a netlist: records the columns expected, some of which may not be recorded unasked.
+std::string record(const Expectations& expected);
+
 }  // namespace rheonet::test
