@@ -65,6 +65,10 @@ struct Cfm : SolidFriction {
     release(p);
     return "release";
   }
+  bool fits(double w) const {
+    if (standing) return false;
+    return w == 0 ? s == 0 : w * s > 0 && !(held && s * w < Fc / B);
+  }
   bool set_direction(double p, double w, int direction) {
     bool changed = false;
     if (standing || direction != s) {

@@ -36,6 +36,7 @@ struct Sfm : SolidFriction {
     held = true;
     return "yield";
   }
+  bool fits(double w) const { return w * s >= 0; }
   bool set_direction(double p, double, int direction) {
     if (direction == 0 || direction == s) return false;
     turn(p, direction);

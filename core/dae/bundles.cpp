@@ -41,7 +41,8 @@ void Dae::hold_bundle(int branch) {
   }
 }
 
-void Dae::release_bundle(int branch, double w) {
+std::vector<int> Dae::release_bundle(int branch, double w) {
+  std::vector<int> released_branches;
   std::size_t i = 0;
   const int direction = batch_of(branch, i).direction(i);
   const Branch& released = network_->deflections[at(branch)];
@@ -50,9 +51,12 @@ void Dae::release_bundle(int branch, double w) {
     for (int j : bundle.branches) {
       const double side = network_->deflections[at(j)].a == released.a ? 1 : -1;
       DeflectionBatch& batch = batch_of(j, i);
-      if (batch.holds(i)) batch.set_direction(i, view_.p[at(j)], side * w, static_cast<int>(side) * direction);
+      if (!batch.holds(i)) continue;
+      batch.set_direction(i, view_.p[at(j)], side * w, static_cast<int>(side) * direction);
+      released_branches.push_back(j);
     }
   }
+  return released_branches;
 }
 
 Dae::Shared Dae::share(const Follower& follower, double leader_rate) const {

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+int sign_of(double x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }
 
 }  // namespace
 
@@ -198,20 +199,32 @@ std::vector<int> Consistency::settle(double t, double dt, const std::vector<doub
     }
     const std::vector<double> w = dae_.view(t + dt, ahead.data(), ahead_p.data()).flow;
     const Dae::View& now = dae_.view(t, y.data(), yp.data());
-    bool again = false;
+    double fastest = 0;
+    for (double flow : w) fastest = std::max(fastest, std::abs(flow));
+    // What is held still moves by rounding only: that is no direction.
+    const double rounding = 1e-12 * fastest;
+    std::vector<int> wrong;
     for (int j : watched) {
       std::size_t i = 0;
-      DeflectionBatch& batch = dae_.batch_of(j, i);
-      if (batch.holds(i)) continue;
-      const int direction = w[at(j)] < 0 ? -1 : w[at(j)] > 0 ? 1 : 0;
-      if (direction == 0 && now.flow[at(j)] != 0) continue;
-      if (!batch.set_direction(i, now.p[at(j)], w[at(j)], direction)) continue;
-      again = true;
-      if (std::find(changed.begin(), changed.end(), j) == changed.end()) changed.push_back(j);
-      if (sweep < 2) continue;
-      if (++turns[at(j)] >= 2 && can_stand(j)) dae_.hold_bundle(j);
-      break;
+      const DeflectionBatch& batch = dae_.batch_of(j, i);
+      if (batch.holds(i) || (w[at(j)] == 0) != (now.flow[at(j)] == 0)) continue;
+      if (fastest > 0 && std::abs(w[at(j)]) <= rounding) continue;
+      if (!batch.fits(i, w[at(j)])) wrong.push_back(j);
     }
+    const auto turn = [&](int j) {
+      std::size_t i = 0;
+      dae_.batch_of(j, i).set_direction(i, now.p[at(j)], w[at(j)], sign_of(w[at(j)]));
+      if (std::find(changed.begin(), changed.end(), j) == changed.end()) changed.push_back(j);
+    };
+    if (sweep < 2) {
+      for (int j : wrong) turn(j);
+    } else if (!wrong.empty()) {
+      const int j = *std::max_element(wrong.begin(), wrong.end(),
+                                      [&](int k, int l) { return std::abs(w[at(k)]) < std::abs(w[at(l)]); });
+      turn(j);
+      if (++turns[at(j)] >= 2 && can_stand(j)) dae_.hold_bundle(j);
+    }
+    const bool again = !wrong.empty();
     if (!again) break;
     dae_.update_holds();
     derivative(t, y, yp);

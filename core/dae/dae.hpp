@@ -88,7 +88,8 @@ class Dae {
   /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends.
   void hold_bundle(int branch);
   /// All that are held still between the ends of this branch are let go as it has been: in the direction of its law.
-  void release_bundle(int branch, double w);
+  /// Returns them.
+  std::vector<int> release_bundle(int branch, double w);
 
   /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed.
   double supplied_power() const;

@@ -58,6 +58,8 @@ class DeflectionBatch {
   /// Makes the memory fit a motion at velocity w that begins in `direction` (-1, 1, or 0 for rest); true if that changed
   /// it.
   virtual bool set_direction(std::size_t i, double p, double w, int direction) = 0;
+  /// True if the memory fits a motion at velocity w (0: rest): set_direction would not change it.
+  virtual bool fits(std::size_t i, double w) const = 0;
   /// Both directions drive the velocity back to 0: the branch stands still while its force follows from its neighbours
   /// (a sliding mode in the sense of Filippov). Its velocity is then 0 in place of p' + creep, until an event or
   /// `set_direction`. False if the law does not know this.

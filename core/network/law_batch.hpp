@@ -30,6 +30,7 @@ struct MemorylessLaw {
   double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
   static constexpr bool can_hold = false;
+  bool fits(double) const { return true; }
   bool hold(double) { return false; }
   bool holds() const { return false; }
   int direction() const { return 0; }
@@ -78,6 +79,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
   bool set_direction(std::size_t i, double p, double w, int direction) override {
     return laws_[i].set_direction(p, w, direction);
   }
+  bool fits(std::size_t i, double w) const override { return laws_[i].fits(w); }
   bool hold(std::size_t i, double p) override { return laws_[i].hold(p); }
   bool holds(std::size_t i) const override { return laws_[i].holds(); }
   int direction(std::size_t i) const override { return laws_[i].direction(); }

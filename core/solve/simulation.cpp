@@ -213,14 +213,21 @@ class Run {
     yp_ = integrator_.yp();
     const Dae::View view = dae_.view(t, y_.data(), yp_.data());
     const std::vector<int> fired = integrator_.events();
+    std::vector<int> switched;
     for (std::size_t k = 0; k < fired.size(); ++k) {
       if (fired[k] == 0) continue;
       const auto [branch, which] = events_[k];
+      // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
+      if (std::find(switched.begin(), switched.end(), branch) != switched.end()) continue;
       std::size_t i = 0;
       DeflectionBatch& batch = dae_.batch_of(branch, i);
       const bool held = batch.holds(i);
+      switched.push_back(branch);
       note_event(t, branch, batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]));
-      if (held) dae_.release_bundle(branch, view.flow[at(branch)]);
+      if (held) {
+        const std::vector<int> released = dae_.release_bundle(branch, view.flow[at(branch)]);
+        switched.insert(switched.end(), released.begin(), released.end());
+      }
       last_switched_ = element_name(branch);
     }
     dae_.update_holds();
