@@ -38,6 +38,7 @@ std::string unit(const Parameter& parameter, const Declaration& declaration, Dom
 std::string units(const Parameter& parameter, const Declaration& declaration) {
   const std::string translation = unit(parameter, declaration, Domain::translation);
   const std::string rotation = unit(parameter, declaration, Domain::rotation);
+  if (translation == "1") return "-";
   return translation == rotation ? translation : translation + " | " + rotation;
 }
 
@@ -112,6 +113,7 @@ std::string prose(const std::string& text) {
 // Names and units as code, each of two alternatives for itself.
 std::string code(const std::string& text) {
   const std::size_t bar = text.find(" | ");
+  if (text == "-") return text;
   if (bar == std::string::npos) return "`" + text + "`";
   return "`" + text.substr(0, bar) + "` | `" + text.substr(bar + 3) + "`";
 }
@@ -128,7 +130,7 @@ std::string as_text(const Component& component) {
   const Declaration& d = component.declaration;
   std::string text = d.type;
   if (!d.rotational_type.empty()) text += " (in rotation also " + d.rotational_type + ")";
-  text += ": " + d.summary + "\n";
+  text += " - " + d.summary + "\n";
   const auto line = [&text](const char* label, const std::string& value) {
     if (!value.empty()) text += fmt::format("  {:<8}{}\n", label, wrapped(value, 10));
   };

@@ -41,7 +41,7 @@ std::string describe(const Summary& s, long rows, const std::string& destination
   line("residual evaluations", grouped(s.residual_evaluations), "");
   line("Jacobian evaluations", grouped(s.jacobian_evaluations), "");
   line("events", grouped(s.events), "reversals, yields, jumps and corners of signals");
-  line("starts", grouped(s.restarts), "of the integrator: the first, and those after jumps");
+  line("starts", grouped(s.restarts), "of the integrator: the first, and those that events made necessary");
   line("wall time", in_time_units(s.wall_seconds), "");
   line("CPU time", in_time_units(s.cpu_seconds), "");
   energy("energy supplied", s.supplied, "");
