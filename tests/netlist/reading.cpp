@@ -29,10 +29,10 @@ Scene scene_of(const std::string& netlist, const ReadOptions& options, const fs:
 }
 
 void check_all(const std::vector<BadNetlist>& netlists) {
-  for (const auto& [what, netlist, expected, overrides] : netlists) {
-    INFO(what);
-    const ReadResult result = read(netlist, {.overrides = overrides, .accuracy = {}, .library = {}});
-    CHECK('\n' + messages(result) == expected);
+  for (const BadNetlist& bad : netlists) {
+    INFO(bad.what);
+    const ReadResult result = read(bad.netlist, {.overrides = bad.overrides, .accuracy = {}, .library = {}});
+    CHECK('\n' + messages(result) == bad.messages);
     CHECK_FALSE(result.scene);
   }
 }
