@@ -83,17 +83,24 @@ double Drive::next_reversal(int a, int b, double t, double limit) const {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (!std::isfinite(limit) || limit <= t) return never;
   const double grain = 1e-14 * (std::abs(t) + std::abs(limit)) + 1e-13 * (limit - t);
-  double side = 0;
+  double side = 0, zero = never;  // the side that w was last on, and where it was exactly 0 since
   for (double now = t; now < limit;) {
     const Flow f = flow(a, b, now, limit);
     const double sign = f.w > 0 ? 1 : f.w < 0 ? -1 : 0;
-    if (side * sign < 0 && now - t > 2 * grain) return now;
-    if (sign != 0) side = sign;
+    const double where = std::min(zero, now);
+    if (side * sign < 0 && where - t > 2 * grain) return where;
+    if (sign == 0) {
+      // On the crossing itself; or resting for good, as two equal motions do.
+      zero = where;
+      now += std::max(now - zero, grain);
+      continue;
+    }
+    side = sign;
+    zero = never;
     // |w| falls at most as fast as |w| - fall tau - bound tau^2/2: it is safe to go on to where that is 0.
     const double fall = std::max(0.0, -side * f.dw);
     const double root = std::sqrt(fall * fall + 2 * f.bound * std::abs(f.w));
-    double stride = fall + root > 0 ? 2 * std::abs(f.w) / (fall + root) : never;
-    if (sign == 0 && now > t) stride = 1e-3 * (limit - t);  // resting: two equal motions
+    const double stride = fall + root > 0 ? 2 * std::abs(f.w) / (fall + root) : never;
     now += std::max(stride, grain);
   }
   return never;

@@ -13,7 +13,6 @@
 
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
-#include "core/result/run.hpp"
 
 namespace rheonet::test {
 namespace {
@@ -74,9 +73,14 @@ Trajectory simulate(const std::string& toml, double accuracy) {
     for (const Diagnostic& diagnostic : read.diagnostics) text += format(diagnostic, read.sources) + "\n";
     throw std::runtime_error(text);
   }
+  return simulate(*read.scene);
+}
+
+Trajectory simulate(const Scene& scene, Summary* summary) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> csv(std::tmpfile(), &std::fclose);
   if (!csv) throw std::runtime_error("no temporary file");
-  run(*read.scene, {.csv = csv.get(), .interrupt = nullptr, .progress = nullptr});
+  const Summary result = run(scene, {.csv = csv.get(), .interrupt = nullptr, .progress = nullptr});
+  if (summary) *summary = result;
   return parse(contents(csv.get()));
 }
 

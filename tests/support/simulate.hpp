@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "core/netlist/scene.hpp"
+#include "core/result/run.hpp"
+
 namespace rheonet::test {
 
 /// The rows of a run, by column name; `time` is a column like the others.
@@ -21,6 +24,9 @@ struct Trajectory {
 /// Reads and runs a netlist given as text (accuracy 0: as the text says). A netlist that is refused, or a run that fails,
 /// throws std::runtime_error with the message that a user would see.
 Trajectory simulate(const std::string& toml, double accuracy = 0);
+
+/// Runs a scene. Throws SimulationError.
+Trajectory simulate(const Scene& scene, Summary* summary = nullptr);
 
 /// The message that `simulate` would throw; "" if it does not.
 std::string refusal(const std::string& toml);

@@ -1,0 +1,52 @@
+#include "tests/support/probe.hpp"
+
+#include "core/result/channels.hpp"
+#include "core/solve/simulation.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+class Visitor final : public Observer {
+ public:
+  Visitor(Dae& dae, int every, int samples, const Visit& visit)
+      : consistency_(dae), every_(every), samples_(samples), visit_(visit) {}
+
+  void begin(double, const std::vector<double>&, const std::vector<double>&, double) override {}
+  void step(const Integrator& integrator) override {
+    if (steps_++ % every_ != 0) return;
+    const double a = integrator.previous_time(), b = integrator.time();
+    for (int k = 0; k < samples_; ++k) {
+      // Not the ends of a step: there a law may be at an event, on a kink.
+      const double t = a + (b - a) * (k + 0.5) / samples_;
+      integrator.interpolate(t, 0, y_);
+      consistency_.derivative(t, y_, yp_);
+      visit_(t, y_, yp_);
+    }
+  }
+  void event(double, int, const char*) override {}
+  void end(double) override {}
+
+ private:
+  Consistency consistency_;
+  int every_, samples_;
+  const Visit& visit_;
+  long steps_ = 0;
+  std::vector<double> y_, yp_;
+};
+
+}  // namespace
+
+Probe::Probe(const Scene& scene) : scene_(scene), network_(build_network(scene_)), structure_(analyse(network_)) {
+  dae_ = std::make_unique<Dae>(network_, structure_, needed_positions(network_));
+}
+
+void Probe::along(int every, int samples, const Visit& visit) {
+  Visitor visitor(*dae_, every, samples, visit);
+  simulate(
+      *dae_,
+      {.start = scene_.start, .stop = scene_.stop, .accuracy = scene_.accuracy, .interrupt = nullptr, .progress = {}},
+      visitor);
+}
+
+}  // namespace rheonet::test

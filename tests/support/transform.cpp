@@ -1,0 +1,171 @@
+#include "tests/support/transform.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/network/component.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+const Declaration& declared(const SceneElement& element) { return *declarations()[at(element.declaration)]; }
+
+const Parameter& parameter_of(const SceneElement& element, std::size_t signal) {
+  return declared(element).parameters[at(element.signal_parameters[signal])];
+}
+
+struct Transform {
+  double value, time, add;
+
+  Signal::Shape operator()(Signal::Constant s) const { return Signal::Constant{value * s.value + add}; }
+  Signal::Shape operator()(Signal::Step s) const {
+    return Signal::Step{value * s.height, time * s.time, value * s.offset + add};
+  }
+  Signal::Shape operator()(Signal::Ramp s) const {
+    return Signal::Ramp{value / time * s.slope, time * s.time, value * s.offset + add};
+  }
+  template <class Periodic>  // Sine, Square, Triangle
+  Signal::Shape operator()(Periodic s) const {
+    return Periodic{value * s.amplitude, s.frequency / time, s.phase, time * s.time, value * s.offset + add};
+  }
+  Signal::Shape operator()(Signal::Chirp s) const {
+    return Signal::Chirp{value * s.amplitude, s.frequency / time,    s.end_frequency / time, time * s.duration, s.phase,
+                         time * s.time,       value * s.offset + add};
+  }
+  Signal::Shape operator()(Signal::Pulse s) const {
+    return Signal::Pulse{value * s.height, time * s.width, s.frequency / time, time * s.time, value * s.offset + add};
+  }
+  Signal::Shape operator()(Signal::Table s) const {
+    for (double& t : s.times) t *= time;
+    for (double& x : s.values) x *= value;
+    s.time *= time;
+    s.offset = value * s.offset + add;
+    return s;
+  }
+};
+
+void require_no_ground(const Scene& scene) {
+  for (const SceneElement& e : scene.elements) REQUIRE_MESSAGE((e.at || (e.a != ground && e.b != ground)), e.name);
+}
+
+Quantity quantity_of(Record::Channel channel) {
+  switch (channel) {
+    case Record::Channel::velocity:
+      return Quantity::velocity;
+    case Record::Channel::force:
+      return Quantity::force;
+    case Record::Channel::position:
+    case Record::Channel::displacement:
+      break;
+  }
+  return Quantity::position;
+}
+
+void negate_oriented(SceneElement& element) {
+  const std::vector<Parameter>& parameters = declared(element).parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (oriented(parameters[k])) element.values[k] = -element.values[k];
+  }
+}
+
+}  // namespace
+
+double Scaling::of(Quantity quantity, Domain domain, double flow_index) const {
+  const Dimension d = dimension_of(quantity, domain, flow_index);
+  // In base units: the mass that `force` gives `length` per `time`^2 to; in rotation the inertia over length^2.
+  const double mass = force * time * time / (domain == Domain::rotation ? length * length : length);
+  return std::pow(length, d.metre) * std::pow(mass, d.kilogram) * std::pow(time, d.second);
+}
+
+double factor(const Scene& scene, const Record& record, const Scaling& scaling) {
+  return scaling.of(quantity_of(record.channel), scene.domain);
+}
+
+bool oriented(const Parameter& parameter) {
+  const bool directed = parameter.quantity == Quantity::position || parameter.quantity == Quantity::velocity ||
+                        parameter.quantity == Quantity::force;
+  return parameter.kind == Parameter::Kind::signal || (directed && parameter.lower < 0);
+}
+
+double flow_index(const Declaration& declaration, const Parameter& parameter, const std::vector<double>& values) {
+  for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
+    if (declaration.parameters[k].name == parameter.flow_index) return values[k];
+  }
+  return 1;
+}
+
+Signal transformed(const Signal& signal, double value, double time, double add) {
+  return Signal(std::visit(Transform{value, time, add}, signal.shape()));
+}
+
+Scene rescaled(Scene scene, const Scaling& scaling) {
+  for (SceneNode& n : scene.nodes) {
+    n.position *= scaling.of(Quantity::position, scene.domain);
+    n.velocity *= scaling.of(Quantity::velocity, scene.domain);
+  }
+  for (SceneElement& e : scene.elements) {
+    const Declaration& d = declared(e);
+    const std::vector<double> before = e.values;
+    for (std::size_t k = 0; k < d.parameters.size(); ++k) {
+      e.values[k] *= scaling.of(d.parameters[k].quantity, scene.domain, flow_index(d, d.parameters[k], before));
+    }
+    for (std::size_t k = 0; k < e.signals.size(); ++k) {
+      e.signals[k] = transformed(e.signals[k], scaling.of(parameter_of(e, k).quantity, scene.domain), scaling.time);
+    }
+  }
+  scene.start *= scaling.time;
+  scene.stop *= scaling.time;
+  scene.output_every *= scaling.time;
+  return scene;
+}
+
+Scene negated(Scene scene) {
+  for (SceneNode& n : scene.nodes) {
+    n.position = -n.position;
+    n.velocity = -n.velocity;
+  }
+  for (SceneElement& e : scene.elements) {
+    negate_oriented(e);
+    for (Signal& s : e.signals) s = transformed(s, -1);
+  }
+  return scene;
+}
+
+Scene shifted(Scene scene, double dx) {
+  require_no_ground(scene);
+  for (std::size_t n = 1; n < scene.nodes.size(); ++n) scene.nodes[n].position += dx;
+  for (SceneElement& e : scene.elements) {
+    for (std::size_t k = 0; k < e.signals.size(); ++k) {
+      if (parameter_of(e, k).quantity == Quantity::position) e.signals[k] = transformed(e.signals[k], 1, 1, dx);
+    }
+  }
+  return scene;
+}
+
+Scene boosted(Scene scene, double v) {
+  require_no_ground(scene);
+  for (std::size_t n = 1; n < scene.nodes.size(); ++n) scene.nodes[n].velocity += v;
+  for (SceneElement& e : scene.elements) {
+    for (std::size_t k = 0; k < e.signals.size(); ++k) {
+      REQUIRE(parameter_of(e, k).quantity != Quantity::position);
+      if (parameter_of(e, k).quantity == Quantity::velocity) e.signals[k] = transformed(e.signals[k], 1, 1, v);
+    }
+  }
+  return scene;
+}
+
+Scene exchanged(Scene scene, int element) {
+  SceneElement& e = scene.elements[at(element)];
+  REQUIRE(!e.at);
+  std::swap(e.a, e.b);
+  negate_oriented(e);
+  // A signal belongs to the first end: for the same effect it is negated with the rest.
+  for (Signal& s : e.signals) s = transformed(s, -1);
+  return scene;
+}
+
+}  // namespace rheonet::test
