@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# valgrind.sh VALGRIND RHEONET: memcheck finds no error and no leak in three scenes, nor where there are mistakes to report.
+set -euo pipefail
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+netlists=$here/../../netlists
+valgrind=$1 rheonet=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+memcheck() {
+  local expected=$1 status=0
+  shift
+  "$valgrind" --quiet --leak-check=full --error-exitcode=99 --suppressions="$here/valgrind.supp" "$rheonet" "$@" \
+    >"$folder/out" 2>"$folder/err" || status=$?
+  if [ "$status" -ne "$expected" ]; then
+    cat "$folder/err"
+    echo "rheonet $*: exit status $status in place of $expected"
+    exit 1
+  fi
+}
+
+for scene in teaching/relaxation thesis/sfm-loops thesis/viscometer; do
+  memcheck 0 run "$netlists/$scene.toml" -o "$folder/rows.csv"
+done
+memcheck 0 check -v "$netlists/teaching/creep.toml"
+memcheck 2 check "$netlists/teaching/creep.toml" --set maxwell.stifness=3 --set simulate.stop='"3 kg"'
+echo "no error, no leak"
