@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rheonet {
 
@@ -253,7 +254,9 @@ class Run {
     const double curvature = ypp.empty() ? 0 : std::sqrt(sum / static_cast<double>(ypp.size()));
     double h = std::min(until - t, 100 * ahead);
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
-    integrator_.restart(t, y_, yp_, std::max(shrink * h, 1e-15 * (until - t)), until);
+    // Below a few units in the last place of t there is no time to step over.
+    const double grain = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
+    integrator_.restart(t, y_, yp_, std::min(std::max(shrink * h, grain), until - t), until);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
