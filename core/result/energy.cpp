@@ -6,8 +6,17 @@
 namespace rheonet {
 
 EnergyAccount::EnergyAccount(Dae& dae, double tolerance) : dae_(dae), tolerance_(tolerance) {
+  const Network& network = dae.network();
   const std::vector<char>& driven = dae.structure().driven;
-  adaptive_ = std::any_of(driven.begin(), driven.end(), [](char d) { return d != 0; });
+  const auto given = [&](NodeId node) {
+    return node < 0 || dae.structure().kind[static_cast<std::size_t>(node)] == Kind::known;
+  };
+  const auto between_given = [&](const auto& branch) { return given(branch.a) && given(branch.b); };
+  adaptive_ = std::any_of(driven.begin(), driven.end(), [](char d) { return d != 0; }) ||
+              std::any_of(network.rates.begin(), network.rates.end(), between_given) ||
+              std::any_of(network.forces.begin(), network.forces.end(), between_given) ||
+              std::any_of(network.masses.begin(), network.masses.end(),
+                          [&](const Network::Mass& m) { return given(m.node); });
 }
 
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {

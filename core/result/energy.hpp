@@ -8,7 +8,7 @@
 namespace rheonet {
 
 /// The energy account of a run: power integrated over each step from the integrator's polynomial, by the 4-point Lobatto
-/// rule; where a branch is driven on both sides (steps are then longer than what happens in it) by its adaptive 7-point
+/// rule; where an element is driven on all sides (steps are then longer than what happens in it) by its adaptive 7-point
 /// Kronrod extension (Gander and Gautschi, BIT 40 (2000) 84).
 class EnergyAccount {
  public:

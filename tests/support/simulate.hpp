@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,8 +26,11 @@ struct Trajectory {
 /// throws std::runtime_error with the message that a user would see.
 Trajectory simulate(const std::string& toml, double accuracy = 0);
 
-/// Runs a scene. Throws SimulationError.
+/// Runs a scene. Throws SimulationError, also where the run would go on for ever.
 Trajectory simulate(const Scene& scene, Summary* summary = nullptr);
+
+/// The rows that a run has written to a file.
+Trajectory read_rows(std::FILE* csv);
 
 /// The message that `simulate` would throw; "" if it does not.
 std::string refusal(const std::string& toml);
