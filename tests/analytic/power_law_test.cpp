@@ -169,3 +169,30 @@ TEST_CASE("A mass on a power-law dashpot is pushed from rest, then back") {
     }
   }
 }
+
+TEST_CASE("A mass on a power-law dashpot is turned back by a constant force") {
+  const double m = 1.37, B = 2.19, stop = 1.513;
+  for (const double n : {0.5, 2.0}) {
+    for (const double v0 : {1.83, -1.83}) {
+      const double force = -1.71 * v0;
+      const ConstantForce motion(m, B, n, force);
+      const double rest = -motion.braked_from(v0), x0 = motion.position(-rest);
+      CHECK_GT(rest, 0.1 * stop);
+      CHECK_LT(rest, 0.8 * stop);
+      const auto velocity = [=](double t) { return motion.velocity(t - rest); };
+      CAPTURE(n);
+      const std::string tables =
+          dashpot + mass +
+          fmt::format(
+              "[elements.push]\ntype = \"force\"\nat = \"end\"\nforce = {:.17g}\n[nodes]\nend = {{ velocity = {} }}\n",
+              force, v0);
+      check_at_all_accuracies(netlist({{"m", m}, {"B", B}, {"n", n}}, tables, stop),
+                              {
+                                  {"end.velocity", velocity},
+                                  {"end.position", [=](double t) { return motion.position(t - rest) - x0; }},
+                                  {"dashpot.force", [=](double t) { return B * power(velocity(t), n); }},
+                                  {"mass.force", [=](double t) { return force - B * power(velocity(t), n); }},
+                              });
+    }
+  }
+}
