@@ -10,6 +10,7 @@ namespace {
 struct Dashpot {
   double B;  // N (s/m)^n
   double n;  // flow index
+  double w_soft = 0;  // m/s: linear below, far under what is resolved
 
   explicit Dashpot(std::span<const double> v) : B(v[0]), n(v[1]) {}
 
@@ -17,8 +18,11 @@ struct Dashpot {
   bool by_force() const { return n < 1; }
   double impulse() const { return n == 1 ? B : n < 1 ? 0 : std::numeric_limits<double>::infinity(); }
 
+  void soften(double w) { w_soft = n < 1 ? w : 0; }
+
   template <class T>
   T force(const T& w) const {
+    if (std::abs(value_of(w)) < w_soft) return (B * std::pow(w_soft, n - 1)) * w;
     return n == 1 ? B * w : B * signed_power(w, n);
   }
   template <class T>

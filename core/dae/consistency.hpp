@@ -25,6 +25,9 @@ class Consistency {
   /// have jumped. Integrals keep their values, everything algebraic follows. Throws SimulationError.
   Jump jump(double t, std::vector<double>& y);
 
+  /// Solves the algebraic equations anew, for a state between two steps.
+  void project(double t, std::vector<double>& y);
+
   /// y' of every unknown, algebraic ones too, from the equations and their derivatives in time. Throws SimulationError.
   void derivative(double t, const std::vector<double>& y, std::vector<double>& yp);
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <queue>
 
 namespace rheonet {
@@ -54,7 +56,13 @@ void Dae::number_unknowns() {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network.rates[at(laws.first) + i];
       const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
-      if (known(b.a) && known(b.b)) laws.batch->velocity_given(i);
+      const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
+      const double impulse = laws.batch->impulse(i);
+      const bool linear = impulse > 0 && std::isfinite(impulse);
+      rough_ = rough_ || !linear;
+      // Where the velocities are given or belong to masses the force follows from them. At a massless node the balance
+      // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for.
+      laws.batch->set_by_force(i, !linear && (massless(b.a) || massless(b.b)));
       if (laws.batch->by_force(i)) if_[at(laws.first) + i] = size_++;
     }
   }
@@ -257,6 +265,14 @@ const DeflectionBatch& Dae::batch_of(int branch, std::size_t& i) const {
     }
   }
   throw std::out_of_range("no such branch");
+}
+
+bool Dae::differentiated(int unknown) const {
+  for (int e = pattern_.column_start[at(unknown)]; e < pattern_.column_start[at(unknown) + 1]; ++e) {
+    if (fixed_mass_[at(e)] != 0) return true;
+  }
+  // Deflections are; the balance at a massless node or a dashpot's force are not.
+  return std::find(ip_.begin(), ip_.end(), unknown) != ip_.end();
 }
 
 std::string Dae::describe(int unknown) const {

@@ -70,6 +70,12 @@ class Dae {
   /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
   double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
 
+  /// Some algebraic unknown may change like the root of time (a power law at rest): no polynomial follows it, and its
+  /// error says nothing of that of the others.
+  bool rough() const { return rough_; }
+  /// y' of this unknown is in some equation.
+  bool differentiated(int unknown) const;
+
   /// Index of an unknown; -1 if it is none.
   int velocity_unknown(NodeId node) const { return iv_[at(node)]; }
   int deflection_unknown(int branch) const { return ip_[at(branch)]; }
@@ -139,7 +145,7 @@ class Dae {
   const Structure* structure_;
   std::unique_ptr<Drive> drive_;
   int size_ = 0;
-  bool idle_ = false;
+  bool idle_ = false, rough_ = false;
   std::vector<int> iv_, ip_, if_, ix_;
   std::vector<Row> rows_;
   std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes

@@ -134,6 +134,11 @@ void Consistency::newton(double t, const std::vector<double>& before, const std:
   }
 }
 
+void Consistency::project(double t, std::vector<double>& y) {
+  const std::vector<double> before = y, terms(y.size(), 0.0);
+  newton(t, before, terms, y);
+}
+
 Consistency::Jump Consistency::jump(double t, std::vector<double>& y) {
   Jump result;
   const Network& network = dae_.network();

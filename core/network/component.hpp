@@ -82,10 +82,13 @@ class RateBatch {
  public:
   virtual ~RateBatch() = default;
   virtual std::size_t size() const = 0;
-  /// Element i is solved for its force (w = rate(f)) instead of f = force(w), because its slope df/dw is infinite at rest.
+  /// Element i is solved for its force (w = rate(f)) instead of f = force(w). At first: if its slope df/dw is infinite at
+  /// rest.
   virtual bool by_force(std::size_t i) const = 0;
-  /// The velocity of element i is given, whatever its force: f = force(w) will do.
-  virtual void velocity_given(std::size_t i) = 0;
+  virtual void set_by_force(std::size_t i, bool by_force) = 0;
+  /// Below the velocity `w` element i may be taken as linear, where its slope would be infinite at rest: a mass that it
+  /// brings to rest could not be followed otherwise.
+  virtual void soften(std::size_t i, double w) = 0;
   /// Impulse that a displacement step of 1 at infinite rate needs: the damping of a linear dashpot, infinite or 0 for
   /// others.
   virtual double impulse(std::size_t i) const = 0;

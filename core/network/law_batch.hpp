@@ -102,6 +102,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
 ///       explicit Law(std::span<const double> values);
 ///       bool by_force() const;
 ///       double impulse() const;
+///       void soften(double w);                          // see RateBatch::soften
 ///       template <class T> T force(const T& w) const;   // f = force(w)
 ///       template <class T> T rate(const T& f) const;    // its inverse
 ///     };
@@ -118,7 +119,8 @@ class RateBatchOf final : public RateBatch {
 
   std::size_t size() const override { return laws_.size(); }
   bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
-  void velocity_given(std::size_t i) override { by_force_[i] = 0; }
+  void set_by_force(std::size_t i, bool by_force) override { by_force_[i] = by_force; }
+  void soften(std::size_t i, double w) override { laws_[i].soften(w); }
   double impulse(std::size_t i) const override { return laws_[i].impulse(); }
 
   void evaluate(const double* in, double* out) const override {

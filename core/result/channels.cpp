@@ -103,6 +103,16 @@ double Channels::velocity(const Record& record, const Dae::View& view) const {
 
 const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                           bool exact) {
+  if (dae_.rough() && !exact) {
+    y_ = y;
+    consistency_.project(t, y_);
+    return read_state(t, y_, yp, exact);
+  }
+  return read_state(t, y, yp, exact);
+}
+
+const std::vector<double>& Channels::read_state(double t, const std::vector<double>& y, const std::vector<double>& yp,
+                                                bool exact) {
   const std::vector<double>* rates = &yp;
   if (rates_needed_ && !exact) {
     consistency_.derivative(t, y, yp_);

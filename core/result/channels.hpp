@@ -21,6 +21,7 @@ class Channels {
   const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
 
  private:
+  const std::vector<double>& read_state(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
   double element_force(int element, const Dae::View& view) const;
   double displacement(const Record& record, const Dae::View& view) const;
   double velocity(const Record& record, const Dae::View& view) const;
@@ -29,7 +30,7 @@ class Channels {
   const Scene& scene_;
   Consistency consistency_;
   bool rates_needed_ = false;  ///< a record needs y' of a floating node
-  std::vector<double> yp_, row_;
+  std::vector<double> y_, yp_, row_;
 };
 
 }  // namespace rheonet

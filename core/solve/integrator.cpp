@@ -34,7 +34,7 @@ struct Integrator::Implementation {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver linear = nullptr;
   void* ida = nullptr;
-  double time = 0, previous = 0;
+  double time = 0, previous = 0, stop = 0;
   std::vector<int> fired;
   Statistics past;  // of the stretches before the last restart
   bool started = false;
@@ -63,6 +63,11 @@ struct Integrator::Implementation {
     require(IDASetLinearSolver(ida, linear, matrix), "IDASetLinearSolver");
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
+    if (dae.rough()) {  // what follows from the others at every instant need not be followed by steps
+      for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
+      require(IDASetId(ida, nw), "IDASetId");
+      require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+    }
     fired.assign(at(event_functions.count()), 0);
     if (!fired.empty()) {
       require(IDARootInit(ida, event_functions.count(), roots), "IDARootInit");
@@ -153,6 +158,7 @@ void Integrator::restart(double t, const std::vector<double>& y, const std::vect
   s.y = y;
   s.yp = yp;
   s.time = s.previous = t;
+  s.stop = stop;
   require(IDAReInit(s.ida, t, s.ny, s.np), "IDAReInit");
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
   require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
@@ -163,7 +169,7 @@ Integrator::Outcome Integrator::step() {
   Implementation& s = *impl_;
   s.previous = s.time;
   double reached = s.time;
-  const int flag = IDASolve(s.ida, s.time + 1, &reached, s.ny, s.np, IDA_ONE_STEP);
+  const int flag = IDASolve(s.ida, s.stop, &reached, s.ny, s.np, IDA_ONE_STEP);
   if (flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN || flag == IDA_ROOT_RETURN) s.time = reached;
   switch (flag) {
     case IDA_SUCCESS:

@@ -111,9 +111,10 @@ void Tolerances::update() {
     }
     tolerance_[i] = relative_ * (scale > 0 ? scale : 1);
   }
+  unresolved_velocity_ = relative_ * largest[static_cast<std::size_t>(Sort::velocity)];
   for (std::size_t j = 0; j < noise_.size(); ++j) {
     // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
-    const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
+    const double velocity = unresolved_velocity_ / relative_;
     noise_[j] = given_[j] ? given_noise * flow_seen_[j]
                           : noise_share * relative_ * std::max(flow_seen_[j], floor_of_kind * velocity);
   }

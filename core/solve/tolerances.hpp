@@ -24,6 +24,8 @@ class Tolerances {
   void follow(double t, const std::vector<double>& y, const Dae::View& view);
 
   const std::vector<double>& values() const { return tolerance_; }
+  /// Velocity below which nothing is resolved, whatever the branch [m/s].
+  double unresolved_velocity() const { return unresolved_velocity_; }
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
 
@@ -40,6 +42,7 @@ class Tolerances {
   std::vector<char> given_;  ///< of each branch: its velocity is a function of time alone
   std::vector<double> seen_, foreseen_;         ///< of each unknown: largest magnitude
   std::vector<double> force_seen_, flow_seen_;  ///< of each branch
+  double unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, tolerance_;
 };
