@@ -7,6 +7,9 @@ namespace rheonet::test {
 
 namespace {
 
+// As in `simulate`: a run that would never end is to fail a test, not to stop all.
+constexpr long most_steps = 100000;
+
 class Visitor final : public Observer {
  public:
   Visitor(Dae& dae, int every, int samples, const Visit& visit)
@@ -14,6 +17,7 @@ class Visitor final : public Observer {
 
   void begin(double, const std::vector<double>&, const std::vector<double>&, double) override {}
   void step(const Integrator& integrator) override {
+    if (steps_ > most_steps) throw SimulationError("the run gets nowhere");
     if (steps_++ % every_ != 0) return;
     const double a = integrator.previous_time(), b = integrator.time();
     for (int k = 0; k < samples_; ++k) {

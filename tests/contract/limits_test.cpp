@@ -1,0 +1,84 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/contract/compare.hpp"
+#include "tests/contract/situation.hpp"
+#include "tests/support/scene_builder.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+/// The scene with the law of the limit written out in place of the element: another type, or nothing.
+Scene with_limit_law(Scene scene, int index, const Limit& limit) {
+  SceneElement& e = scene.elements[static_cast<std::size_t>(index)];
+  if (!limit.becomes.empty()) {
+    e.declaration = SceneBuilder::element("", limit.becomes).declaration;
+    e.values = limit.values(e.values);
+    return scene;
+  }
+  scene.elements.erase(scene.elements.begin() + index);
+  std::erase_if(scene.records,
+                [&](const Record& r) { return r.subject == Record::Subject::element && r.index == index; });
+  for (Record& r : scene.records) {
+    if (r.subject == Record::Subject::element && r.index > index) --r.index;
+  }
+  return scene;
+}
+
+/// Values near the limit: those that are 0 or infinite there, by `small` of or over their generic ones.
+std::vector<double> near(const std::vector<double>& limit, const std::vector<double>& generic, double small) {
+  std::vector<double> result = limit;
+  for (std::size_t k = 0; k < limit.size(); ++k) {
+    if (limit[k] == generic[k] || std::isnan(limit[k])) continue;
+    result[k] = limit[k] == 0 ? small * generic[k] : generic[k] / small;
+  }
+  return result;
+}
+
+/// Initial values are what a law remembers; at a limit it may have no memory.
+std::vector<double> without_initial(const Component& component, std::vector<double> values) {
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (component.declaration.parameters[k].kind == Parameter::Kind::initial) values[k] = not_given;
+  }
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("contract: at a limit a law is the law of the limit") {
+  for_each(cases(), [](const Case& c, const Situation& situation) {
+    const std::vector<double> generic = without_initial(*c.component, c.values);
+    for (std::size_t k = 0; k < c.component->limits.size(); ++k) {
+      const Limit& limit = c.component->limits[k];
+      CAPTURE(limit.when);
+      const std::vector<double> values = values_at_limit(*c.component, k, generic);
+      REQUIRE_MESSAGE(!values.empty(), "no values within the bounds are at the limit");
+      const Scene at_limit = situate(*c.component, values, c.place, c.seed).scene;
+      const Scene law = with_limit_law(at_limit, situation.element, limit);
+      const Trajectory of_limit = simulate(at_limit);
+      check_identical(of_limit, simulate(law));
+
+      // That it is the right law: the trajectory of values nearby is near, but for the start, where what the limit does
+      // at once takes a moment.
+      constexpr double small = 1e-9, distance = 1e-5;
+      const Trajectory nearby = simulate(situate(*c.component, near(values, generic, small), c.place, c.seed).scene);
+      for (const Record& r : law.records) {
+        // What the element alone has caused is 0 at the limit, and has no scale there.
+        const double scale = std::max(of_limit.scale(r.path), factor(law, r, typical));
+        double worst = 0;
+        for (std::size_t row = 1; row < nearby.time().size(); ++row) {
+          worst = std::max(worst, std::abs(nearby[r.path][row] - of_limit[r.path][row]));
+        }
+        CHECK_MESSAGE(worst <= distance * scale + 10 * accuracy * nearby.scale(r.path),
+                      fmt::format("{}: {:.3g} from the limit of {:.3g}", r.path, worst, scale));
+      }
+    }
+  });
+}
+
+}  // namespace rheonet::test
