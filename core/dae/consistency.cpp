@@ -98,7 +98,6 @@ void Consistency::solve(std::vector<double>& b) {
 }
 
 void Consistency::report_singular(double t) const {
-  // The groups whose branches all have lost their slope are the ones that nothing holds.
   const Network& network = dae_.network();
   const Structure& structure = dae_.structure();
   std::string nodes;

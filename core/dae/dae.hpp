@@ -10,7 +10,8 @@
 
 namespace rheonet {
 
-/// The equations of a network, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a constant matrix.
+/// The equations of a network, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a matrix that
+/// is constant but for branches that are held still together (Bundle).
 ///
 /// Unknowns y, in this order:
 ///   v  velocity of a massive or viscous node; of a floating node relative to its group's reference     [m/s]
@@ -35,7 +36,7 @@ class Dae {
   const Structure& structure() const { return *structure_; }
   Drive& drive() { return *drive_; }
 
-  /// Initial values in y, before anything has moved; tells the drive where its nodes are. Notes what was assumed. Throws
+  /// Initial values in y, before anything has moved; tells the drive where its nodes are. Throws
   /// SimulationError for start values that contradict each other.
   void initial(double t, std::vector<double>& y);
 
@@ -135,7 +136,6 @@ class Dae {
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
   void build_pattern();
-  void add_balance(PatternBuilder& builder, NodeId node, int row);
   void gather(double t, const double* y);
   void sum_forces();
   void stiffen_resting_laws();

@@ -1,6 +1,5 @@
 #include "core/netlist/expand.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -4,7 +4,6 @@
 #include <muParser.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>

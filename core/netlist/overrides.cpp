@@ -1,7 +1,6 @@
 #include "core/netlist/overrides.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/signals.hpp"

@@ -1,7 +1,6 @@
 #include "core/netlist/plan.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/keys.hpp"
