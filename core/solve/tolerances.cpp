@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace rheonet {
 
@@ -14,6 +15,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double floor_of_kind = 1e-4;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
+// Roundings of the time that a step may be off by without being rejected.
+constexpr double time_grains = 8;
 // Rounding of a velocity that is a given function of time.
 constexpr double given_noise = 1e-13;
 
@@ -76,16 +79,18 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
     foreseen_[i] = std::abs(y[i]) + ahead * (std::abs(yp[i]) + ahead / 2 * std::abs(ypp[i]));
   }
   see(y, dae_.view(t, y.data(), yp.data()));
-  update();
+  update(t, yp);
 }
 
-void Tolerances::follow(double t, const std::vector<double>& y, const Dae::View& view) {
+void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) std::fill(foreseen_.begin(), foreseen_.end(), 0.0);
   see(y, view);
-  update();
+  update(t, yp);
 }
 
-void Tolerances::update() {
+void Tolerances::update(double t, const std::vector<double>& yp) {
+  // Time itself is known to half a unit in the last place; what changes meanwhile cannot be resolved.
+  const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const std::vector<double>& slope = dae_.slopes();
   std::array<double, 4> largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
@@ -109,7 +114,7 @@ void Tolerances::update() {
       const double by_force = std::max(own, floor_of_kind * force);
       if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
     }
-    tolerance_[i] = relative_ * (scale > 0 ? scale : 1);
+    tolerance_[i] = std::max(relative_ * (scale > 0 ? scale : 1), grain * std::abs(yp[i]));
   }
   unresolved_velocity_ = relative_ * largest[static_cast<std::size_t>(Sort::velocity)];
   for (std::size_t j = 0; j < noise_.size(); ++j) {

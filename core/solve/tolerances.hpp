@@ -21,7 +21,7 @@ class Tolerances {
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                const std::vector<double>& ypp);
   /// After a step, with the view of the state that it reached.
-  void follow(double t, const std::vector<double>& y, const Dae::View& view);
+  void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
   const std::vector<double>& values() const { return tolerance_; }
   /// Velocity below which nothing is resolved, whatever the branch [m/s].
@@ -32,7 +32,7 @@ class Tolerances {
  private:
   enum class Sort : char { velocity, deflection, force, position };
   void see(const std::vector<double>& y, const Dae::View& view);
-  void update();
+  void update(double t, const std::vector<double>& yp);
 
   Dae& dae_;
   double relative_;

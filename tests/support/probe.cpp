@@ -8,7 +8,7 @@ namespace rheonet::test {
 namespace {
 
 // As in `simulate`: a run that would never end is to fail a test, not to stop all.
-constexpr long most_steps = 100000;
+constexpr long most_steps = 1000000;
 
 class Visitor final : public Observer {
  public:
