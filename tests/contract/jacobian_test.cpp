@@ -65,7 +65,7 @@ void compare(Dae& dae, double t, const std::vector<double>& y, const std::vector
       y_moved[c] = y[c];
       yp_moved[c] = yp[c];
       ++result.tried;
-      if (d.doubt > 3 * allowed) continue;
+      if (d.doubt > allowed) continue;
       ++result.conclusive;
       const double error = std::abs(dense[row * n + c] - d.value);
       if (error > 0) result.worst = std::max(result.worst, std::isfinite(error) ? error / allowed : HUGE_VAL);

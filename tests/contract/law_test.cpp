@@ -27,7 +27,7 @@ double allowed(double derivative, double scale) { return tolerance * std::max(sc
 void compare(double derivative, const Difference& d, double scale, Tally& tally) {
   ++tally.tried;
   const double limit = allowed(derivative, scale);
-  if (d.doubt > 3 * limit) return;
+  if (d.doubt > limit) return;
   ++tally.conclusive;
   const double error = std::abs(derivative - d.value);
   if (error == 0) return;
