@@ -46,7 +46,7 @@ void check_related(const Scene& scene, const Trajectory& base, const Trajectory&
 }
 
 void check_identical(const Trajectory& base, const Trajectory& other) {
-  for (const auto& [name, column] : other.columns) CHECK_MESSAGE(base[name] == column, name);
+  for (const std::string& name : other.header) CHECK_MESSAGE(base[name] == other[name], name);
 }
 
 }  // namespace rheonet::test
