@@ -51,7 +51,7 @@ const RegisterComponent registered({
                 {
                     {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .flow_index = "flow_index",
                      .symbol = "B", .description = "force at unit velocity (the consistency); 0 means no dashpot"},
-                    {.name = "flow_index", .quantity = Quantity::number, .fallback = 1.0, .lower = 0.05, .lower_open = false,
+                    {.name = "flow_index", .quantity = Quantity::number, .fallback = 1.0, .lower = 0.3, .lower_open = false,
                      .upper = 20, .symbol = "n",
                      .description = "1: Newtonian; below 1: pseudoplastic; above 1: dilatant; 7/4 and 2: turbulent drag"},
                     {.name = "d0", .quantity = Quantity::position, .kind = Parameter::Kind::initial,

@@ -1,0 +1,155 @@
+#include "tests/support/reference_law.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace rheonet::test {
+
+namespace {
+
+constexpr std::array<const char*, 6> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm"};
+
+constexpr double rounding = 4e-16;
+
+double sign_of(double x) { return x < 0 ? -1 : 1; }
+
+}  // namespace
+
+bool ReferenceLaw::is_law(const std::string& type) {
+  return std::find(type_names.begin(), type_names.end(), type) != type_names.end();
+}
+
+ReferenceLaw::ReferenceLaw(const SceneElement& element, const Declaration& declaration, double displacement) {
+  const auto found = std::find(type_names.begin(), type_names.end(), declaration.type);
+  if (found == type_names.end()) throw std::runtime_error("no law: " + declaration.type);
+  type_ = static_cast<Type>(found - type_names.begin());
+  double rest = 0, f0 = not_given, d0 = not_given;
+  breakaway_ = not_given;
+  for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
+    const std::string& name = declaration.parameters[k].name;
+    const double value = element.values[k];
+    if (name == "stiffness") stiffness_ = value;
+    if (name == "damping") damping_ = value;
+    if (name == "coulomb") coulomb_ = value;
+    if (name == "breakaway") breakaway_ = value;
+    if (name == "exponent" || name == "flow_index") exponent_ = value;
+    if (name == "rest") rest = value;
+    if (name == "f0") f0 = value;
+    if (name == "d0") d0 = value;
+  }
+  if (std::isnan(breakaway_)) breakaway_ = coulomb_;
+  if (!std::isnan(f0)) force_ = f0;
+  if (type_ == Type::spring) {
+    stretch_ = !std::isnan(f0) ? f0 / stiffness_ : (std::isnan(d0) ? displacement : d0) - rest;
+    force_ = stiffness_ * stretch_;
+  }
+}
+
+// With u = 1 - s f/Fc: du/dx = -(sigma/Fc) u^i, x the distance travelled (thesis, Eqs. 8 to 11, 18).
+ReferenceLaw::Value ReferenceLaw::solid_friction(double step) const {
+  const double s = sign_of(step), q = 1 - exponent_, x = stiffness_ / coulomb_ * std::abs(step);
+  const double before = std::max(0.0, 1 - s * force_ / coulomb_);
+  double u = 0;
+  if (exponent_ == 1) {
+    u = before * std::exp(-x);
+  } else if (exponent_ < 1) {
+    u = std::pow(std::max(0.0, std::pow(before, q) - q * x), 1 / q);
+  } else if (before > 0) {
+    u = std::pow(std::pow(before, q) - q * x, 1 / q);
+  }
+  return {s * coulomb_ * (1 - u), u > 0 ? stiffness_ * std::pow(u, exponent_) : 0};
+}
+
+// The cfm at the end of the step, as u = 1 - s f/Fc. The displacement along its solid friction is step - h f/B, and the
+// friction takes int du/u^i from u to `before` for it:  (Fc/sigma) int du/u^i + (h Fc/B) (1 - u) = s step.
+// The left side falls with u, from above s step at u = 0 (or the bound is reached) to below it at u = 2.
+double ReferenceLaw::relaxing(double step, double h, double s) const {
+  const double before = std::max(0.0, 1 - s * force_ / coulomb_), q = 1 - exponent_;
+  if (before == 0 && exponent_ >= 1) return 0;
+  const double travel = coulomb_ / stiffness_, relaxed = h * coulomb_ / damping_;
+  const auto excess = [&](double u) {
+    const double integral = exponent_ == 1 ? std::log(before / u) : (std::pow(before, q) - std::pow(u, q)) / q;
+    return travel * integral + relaxed * (1 - u) - s * step;
+  };
+  if (exponent_ < 1 && excess(0) <= 0) return 0;
+  double low = 0, high = 2, u = std::clamp(before, 1e-3, 2.0);
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double e = excess(u);
+    if (std::abs(e) <= rounding * (std::abs(step) + travel * (before + u) * std::pow(u, -exponent_) + relaxed)) return u;
+    (e > 0 ? low : high) = u;
+    const double next = u + e / (travel * std::pow(u, -exponent_) + relaxed);
+    if (next > low && next < high) {
+      // Newton's method squares its error.
+      if (std::abs(next - u) <= 1e-10 * u) return next;
+      u = next;
+    } else {
+      u = (low + high) / 2;
+      if (high - low <= 1e-16 * high) return u;
+    }
+  }
+  return u;
+}
+
+ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
+  switch (type_) {
+    case Type::spring:
+      return {stiffness_ * (stretch_ + step), stiffness_};
+    case Type::dashpot: {
+      const double rate = std::abs(step) / h;
+      if (exponent_ == 1) return {damping_ * step / h, damping_ / h};
+      return {sign_of(step) * damping_ * std::pow(rate, exponent_),
+              exponent_ * damping_ * std::pow(rate, exponent_ - 1) / h};
+    }
+    case Type::slider:
+      if (step > 0) return {slip_ > 0 ? coulomb_ : breakaway_, 0};
+      return {slip_ < 0 ? -coulomb_ : -breakaway_, 0};
+    case Type::sfm:
+      return solid_friction(step);
+    case Type::vfm: {
+      const double divisor = 1 + stiffness_ * h / damping_;
+      return {(force_ + stiffness_ * step) / divisor, stiffness_ / divisor};
+    }
+    case Type::cfm:
+      break;
+  }
+  const double s = sign_of(step), u = relaxing(step, h, s);
+  return {s * coulomb_ * (1 - u), u > 0 ? 1 / (std::pow(u, -exponent_) / stiffness_ + h / damping_) : 0};
+}
+
+ReferenceLaw::Interval ReferenceLaw::at_rest(double h) const {
+  if (type_ == Type::slider) return {slip_ < 0 ? -coulomb_ : -breakaway_, slip_ > 0 ? coulomb_ : breakaway_};
+  if (type_ == Type::cfm) return {-coulomb_ * (1 - relaxing(0, h, -1)), coulomb_ * (1 - relaxing(0, h, 1))};
+  const double f = value(0, h).force;
+  return {f, f};
+}
+
+double ReferenceLaw::preferred(double h) const {
+  if (type_ == Type::slider) return 0;
+  if (type_ == Type::cfm) return force_ / (1 + stiffness_ * h / damping_);
+  return value(0, h).force;
+}
+
+void ReferenceLaw::accept(double step, double force, double h) {
+  stretch_ += step;
+  force_ = force;
+  if (type_ == Type::spring || type_ == Type::dashpot || type_ == Type::vfm) return;
+  const int sign = step > 0 ? 1 : step < 0 ? -1 : 0;
+  if (type_ == Type::slider) slip_ = sign;
+  // What moves by no more than rounding has not turned.
+  const bool moves = step == 0 || stiffness_ * std::abs(step) > 1e-10 * coulomb_;
+  const int direction = moves ? sign : piece_.direction;
+  const double velocity = step / h, change = (velocity - velocity_) * h / (h + h_);
+  const bool turning = moves && direction != 0 && direction == piece_.direction && direction * (velocity + change) < 0;
+  piece_ = {direction, turning ? -direction : direction, type_ != Type::slider && std::abs(force) >= coulomb_};
+  velocity_ = velocity;
+  h_ = h;
+}
+
+double ReferenceLaw::typical_slope(double h) const {
+  if (type_ == Type::dashpot) return damping_ / h;
+  return stiffness_;
+}
+
+}  // namespace rheonet::test

@@ -1,0 +1,284 @@
+#include "tests/support/reference_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rheonet::test {
+
+namespace {
+
+// The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed.
+constexpr double stiffer = 1e3;
+constexpr int corrections = 200;
+constexpr int newton_steps = 200;
+// A balance is found to this part of the forces that meet there: some rounding errors.
+constexpr double balanced = 3e-14;
+// The stretch of a series spring that is left, against a force of the network in the spring.
+constexpr double unstretched = 1e-8;
+
+/// Solves a symmetric positive definite system in place; `a` is overwritten by its Cholesky factor.
+void solve(std::vector<double>& a, std::vector<double>& b) {
+  const std::size_t n = b.size();
+  for (std::size_t j = 0; j < n; ++j) {
+    double d = a[j * n + j];
+    for (std::size_t k = 0; k < j; ++k) d -= a[j * n + k] * a[j * n + k];
+    // A direction without stiffness: as if there were very little.
+    d = std::max(d, 1e-15 * a[j * n + j]);
+    a[j * n + j] = std::sqrt(d);
+    for (std::size_t i = j + 1; i < n; ++i) {
+      double s = a[i * n + j];
+      for (std::size_t k = 0; k < j; ++k) s -= a[i * n + k] * a[j * n + k];
+      a[i * n + j] = s / a[j * n + j];
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i * n + k] * b[k];
+    b[i] /= a[i * n + i];
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k * n + i] * b[k];
+    b[i] /= a[i * n + i];
+  }
+}
+
+}  // namespace
+
+ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles)
+    : nodes_(std::move(nodes)), bundles_(std::move(bundles)) {
+  unknown_.assign(nodes_.size(), -1);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (nodes_[n].prescribed) continue;
+    unknown_[n] = static_cast<int>(node_of_.size());
+    node_of_.push_back(static_cast<NodeId>(n));
+  }
+  for (const ReferenceBundle& b : bundles_) {
+    for (const ReferenceBundle::Member& m : b.members()) rounding_ += 1e-15 * m.law.coulomb();
+  }
+  x_.assign(nodes_.size(), 0);
+  nodal_ = x_;
+  points_.resize(bundles_.size());
+  preload_.assign(bundles_.size(), 0);
+  K_ = preload_;
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    for (const ReferenceBundle::Member& m : bundles_[k].members()) preload_[k] += m.sign * m.law.force();
+  }
+  gradient_.assign(node_of_.size(), 0);
+  size_ = gradient_;
+  matrix_.assign(node_of_.size() * node_of_.size(), 0);
+}
+
+/// Fills points_, gradient_, size_ and unbalance_ at x_.
+void ReferenceNetwork::evaluate(const Input& input) {
+  std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  std::fill(size_.begin(), size_.end(), 0.0);
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    const ReferenceBundle& b = bundles_[k];
+    const int i = unknown_[at(b.a)], j = unknown_[at(b.b)];
+    if (i < 0 && j < 0) continue;
+    const double total = x_[at(b.a)] - x_[at(b.b)];
+    points_[k] = K_[k] > 0 ? b.with_spring(total, K_[k], preload_[k], input.h) : b.at(total, input.h);
+    const double f = points_[k].force;
+    // The rounding of the positions of both ends shows in the force.
+    const double magnitude = std::abs(f) + points_[k].slope * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
+    largest_force_ = std::max(largest_force_, std::abs(f));
+    if (i >= 0) gradient_[at(i)] += f, size_[at(i)] += magnitude;
+    if (j >= 0) gradient_[at(j)] -= f, size_[at(j)] += magnitude;
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i < node_of_.size(); ++i) {
+    const Node& node = nodes_[at(node_of_[i])];
+    const double F = input.applied[at(node_of_[i])], x = x_[at(node_of_[i])];
+    const double inertia = node.mass * (x / input.h - node.velocity) / input.h;
+    gradient_[i] += inertia - F;
+    size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / input.h;
+    worst = std::max(worst, std::abs(gradient_[i]) / (balanced * (size_[i] + 1e-2 * largest_force_) + rounding_));
+  }
+  unbalance_ = worst;
+}
+
+double ReferenceNetwork::slope_along(const Input& input, const std::vector<double>& direction) {
+  evaluate(input);
+  return std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
+}
+
+/// Goes along `direction` from the point last evaluated to where the slope of the convex function has all but vanished,
+/// and evaluates there. False if it never does.
+bool ReferenceNetwork::search(const Input& input, const std::vector<double>& direction) {
+  const std::vector<double> from = x_;
+  const auto go = [&](double t) {
+    for (std::size_t i = 0; i < node_of_.size(); ++i) x_[at(node_of_[i])] = from[at(node_of_[i])] + t * direction[i];
+    return slope_along(input, direction);
+  };
+  const double first = std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
+  if (first >= 0) return true;  // rounding: no way down any more
+  double low = 0, high = 1, at_low = first, at_high = go(1);
+  while (at_high < 0.5 * first) {
+    low = high, at_low = at_high;
+    if ((high *= 4) > 1e12) return false;
+    at_high = go(high);
+  }
+  for (int iteration = 0; iteration < 100 && at_high > -0.5 * first; ++iteration) {
+    // Regula falsi, kept off the ends.
+    const double share = std::clamp(at_low / (at_low - at_high), 0.05, 0.95), middle = low + share * (high - low);
+    const double value = go(middle);
+    if (std::abs(value) <= -0.5 * first) return true;
+    if (high - low <= 1e-15 * high) return true;
+    (value < 0 ? low : high) = middle;
+    (value < 0 ? at_low : at_high) = value;
+  }
+  return true;
+}
+
+bool ReferenceNetwork::newton(const Input& input) {
+  const std::size_t n = node_of_.size();
+  evaluate(input);
+  double worst = unbalance_, before = INFINITY;
+  int stalled = 0;
+  for (int iteration = 0; iteration < newton_steps && worst > 1; ++iteration) {
+    std::fill(matrix_.begin(), matrix_.end(), 0.0);
+    for (std::size_t k = 0; k < bundles_.size(); ++k) {
+      const int i = unknown_[at(bundles_[k].a)], j = unknown_[at(bundles_[k].b)];
+      const double slope = points_[k].slope;
+      if (i >= 0) matrix_[at(i) * n + at(i)] += slope;
+      if (j >= 0) matrix_[at(j) * n + at(j)] += slope;
+      if (i >= 0 && j >= 0) matrix_[at(i) * n + at(j)] -= slope, matrix_[at(j) * n + at(i)] -= slope;
+    }
+    double largest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      matrix_[i * n + i] += nodes_[at(node_of_[i])].mass / (input.h * input.h);
+      largest = std::max(largest, matrix_[i * n + i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += 1e-14 * largest + 1e-200;
+    std::vector<double> direction(n);
+    for (std::size_t i = 0; i < n; ++i) direction[i] = -gradient_[i];
+    solve(matrix_, direction);
+    if (!search(input, direction)) return false;
+    worst = unbalance_;
+    // Rounding sets a floor that the estimate of it may miss by a little.
+    stalled = worst < 0.5 * before ? 0 : stalled + 1;
+    before = std::min(before, worst);
+    if (stalled > 3 && worst < 1e4) return true;
+  }
+  return worst <= 1e4;
+}
+
+/// The spring in series with a steep bundle: stiffer than what it works against, the bundle itself and the way around it.
+double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
+  double compliance = 0;
+  for (const NodeId end : {bundles_[bundle].a, bundles_[bundle].b}) {
+    if (unknown_[at(end)] < 0) continue;
+    double stiffness = nodes_[at(end)].mass / (h * h);
+    for (std::size_t k = 0; k < bundles_.size(); ++k) {
+      if (k != bundle && (bundles_[k].a == end || bundles_[k].b == end)) stiffness += bundles_[k].typical_slope(h);
+    }
+    compliance += 1 / stiffness;
+  }
+  const double sum = 1 / compliance + bundles_[bundle].typical_slope(h);
+  return stiffer * (sum > 0 ? sum : 1);
+}
+
+/// Where a law is steep, the minimum is sought with a stiff spring in series. The spring is then given the force found as
+/// its preload, so that it need not stretch for it, and so on until it is not stretched (method of multipliers).
+bool ReferenceNetwork::minimise(const Input& input) {
+  bool any = false;
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    const bool free = unknown_[at(bundles_[k].a)] >= 0 || unknown_[at(bundles_[k].b)] >= 0;
+    K_[k] = free && bundles_[k].steep() ? series_spring(k, input.h) : 0;
+    any = any || K_[k] > 0;
+  }
+  for (int correction = 0; correction < corrections; ++correction) {
+    if (!newton(input)) return false;
+    double change = 0;
+    for (std::size_t k = 0; k < bundles_.size(); ++k) {
+      if (K_[k] == 0) continue;
+      change = std::max(change, std::abs(points_[k].force - preload_[k]));
+      preload_[k] = points_[k].force;
+    }
+    if (!any || change <= unstretched * largest_force_ + 10 * rounding_) return true;
+  }
+  return false;
+}
+
+bool ReferenceNetwork::step(const Input& input) {
+  largest_force_ = 0;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    x_[n] = nodes_[n].prescribed ? input.displacement[n] : nodes_[n].velocity * input.h;
+  }
+  // A slider sticks up to its breakaway force and slips at its Coulomb force: which of the two is the map of this step
+  // depends on the step. Each round begins where the last one ended.
+  for (int round = 0; round < 20; ++round) {
+    if (!minimise(input)) return false;
+    bool again = false;
+    for (std::size_t k = 0; k < bundles_.size(); ++k) {
+      ReferenceBundle& b = bundles_[k];
+      if (unknown_[at(b.a)] < 0 && unknown_[at(b.b)] < 0) {
+        double total = x_[at(b.a)] - x_[at(b.b)];
+        // The difference of two equal motions may be left with some rounding.
+        const double rounding = 1e-15 * (std::abs(nodes_[at(b.a)].position) + std::abs(nodes_[at(b.b)].position)) +
+                                1e-13 * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
+        if (std::abs(total) <= rounding) total = 0;
+        points_[k] = total == 0 ? ReferenceBundle::Point{0, b.preferred(input.h), 0} : b.at(total, input.h);
+        if (b.follow_slips(total) && total != 0) points_[k] = b.at(total, input.h);
+      } else {
+        again = b.follow_slips(points_[k].step) || again;
+      }
+    }
+    if (!again) break;
+  }
+  note_ambiguity();
+  std::fill(nodal_.begin(), nodal_.end(), 0.0);
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    ReferenceBundle& b = bundles_[k];
+    nodal_[at(b.a)] += points_[k].force;
+    nodal_[at(b.b)] -= points_[k].force;
+    b.accept(points_[k].step, points_[k].force, input.h);
+  }
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    nodes_[n].position += x_[n];
+    nodes_[n].velocity = nodes_[n].prescribed ? input.velocity[n] : x_[n] / input.h;
+  }
+  return true;
+}
+
+bool ReferenceNetwork::turned_since(const ReferenceNetwork& before) const {
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    for (std::size_t m = 0; m < bundles_[k].members().size(); ++m) {
+      if (bundles_[k].members()[m].law.turned_since(before.bundles_[k].members()[m].law)) return true;
+    }
+  }
+  return false;
+}
+
+void ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetwork& before) {
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    for (std::size_t m = 0; m < bundles_[k].members().size(); ++m) {
+      bundles_[k].law(m).follow(other.bundles_[k].members()[m].law, before.bundles_[k].members()[m].law);
+    }
+  }
+}
+
+/// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it.
+void ReferenceNetwork::note_ambiguity() {
+  ambiguous_ = false;
+  std::vector<std::size_t> part(nodes_.size());
+  std::iota(part.begin(), part.end(), std::size_t{0});
+  const auto root = [&](NodeId node) {
+    std::size_t n = nodes_[at(node)].prescribed ? 0 : at(node);
+    while (part[n] != n) n = part[n];
+    return n;
+  };
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    const ReferenceBundle& b = bundles_[k];
+    if (points_[k].step != 0 || !b.set_valued()) continue;
+    const std::size_t i = root(b.a), j = root(b.b);
+    const bool cfms = std::none_of(b.members().begin(), b.members().end(), [](const ReferenceBundle::Member& m) {
+      return m.law.type() == ReferenceLaw::Type::slider;
+    });
+    const bool given = unknown_[at(b.a)] < 0 && unknown_[at(b.b)] < 0;
+    if (b.ambiguous_at_rest() || (i == j && !(cfms && given))) ambiguous_ = true;
+    part[i] = j;
+  }
+}
+
+}  // namespace rheonet::test

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <vector>
+
+#include "tests/support/reference_bundle.hpp"
+
+namespace rheonet::test {
+
+/// A network of nodes, bundles of elements and masses, and one implicit Euler step of it. With x the displacements of
+/// the nodes in a step of length h, the step is the minimum over the free nodes of the convex function
+///
+///     sum over bundles  int f d(step)  +  sum over masses  m (x/h - v)^2/2  -  sum  F x
+///
+/// where each law is a monotone map from the displacement of its ends to its force at the end of the step.
+class ReferenceNetwork {
+ public:
+  struct Node {
+    bool prescribed = false;
+    double mass = 0;
+    double position = 0, velocity = 0;  ///< at the end of the last step
+  };
+  /// What a step is given.
+  struct Input {
+    double h = 0;
+    std::vector<double> displacement;  ///< of prescribed nodes
+    std::vector<double> velocity;      ///< of prescribed nodes, at the end of the step
+    std::vector<double> applied;       ///< force at each node
+  };
+
+  ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles);
+
+  /// Takes one step. False if there is no minimum: nothing resists what is applied.
+  bool step(const Input& input);
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<ReferenceBundle>& bundles() const { return bundles_; }
+  /// Sum of the forces that the bundles exert on a node's surroundings: what must be applied there.
+  double nodal_force(NodeId node) const { return nodal_[at(node)]; }
+  /// True if a law is on another piece of its map than in `before`, or about to be: a reversal, a stop, a yield.
+  bool turned_since(const ReferenceNetwork& before) const;
+  /// Takes over the directions of those laws of `other` that have turned since `before`, though not here.
+  void follow(const ReferenceNetwork& other, const ReferenceNetwork& before);
+  /// True if in the last step forces at rest did not follow from the balance alone, as with sliders that form a loop: the
+  /// laws leave them open.
+  bool ambiguous() const { return ambiguous_; }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  bool minimise(const Input& input);
+  double series_spring(std::size_t bundle, double h) const;
+  void evaluate(const Input& input);
+  bool newton(const Input& input);
+  bool search(const Input& input, const std::vector<double>& direction);
+  double slope_along(const Input& input, const std::vector<double>& direction);
+  void note_ambiguity();
+
+  std::vector<Node> nodes_;
+  std::vector<ReferenceBundle> bundles_;
+  std::vector<int> unknown_;            ///< of each node; -1 if prescribed
+  std::vector<NodeId> node_of_;         ///< of each unknown
+  std::vector<double> x_;               ///< displacement of each node in this step
+  std::vector<ReferenceBundle::Point> points_;
+  std::vector<double> preload_, K_;     ///< of each steep bundle (see minimise)
+  std::vector<double> gradient_, size_; ///< of each unknown: what is out of balance, and the sum of magnitudes there
+  std::vector<double> matrix_;
+  std::vector<double> nodal_;
+  double unbalance_ = 0;                ///< the worst, of what rounding may leave
+  double largest_force_ = 0;
+  double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
+  bool ambiguous_ = false;
+};
+
+}  // namespace rheonet::test
