@@ -93,6 +93,8 @@ struct Cfm : SolidFriction {
     return true;
   }
   bool holds() const { return standing; }
+  double slope_along(double p, int direction) const { return slope(force(p), direction).value; }
+  bool constant() const { return held && !along_sigma; }
   double jump(double p, double jump) {
     if (jump == 0) return 0;
     go(p, jump < 0 ? -1 : 1);

@@ -3,23 +3,32 @@
 namespace rheonet {
 namespace {
 
+// Coulomb: w = 0 with |f| <= Fs, or f = Fc sgn w.
+Slip coulomb(std::span<const double> v) { return {.coulomb = v[0], .breakaway = v[1]}; }
+
+std::string breakaway_above_coulomb(std::span<const double> v) {
+  return v[1] >= v[0] ? "" : "`breakaway` is less than `coulomb`; once at rest it would have to slip at a force that holds it";
+}
+
 const RegisterComponent registered({
     .declaration =
         {
             .type = "slider",
             .ports = Declaration::Ports::between,
-            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false,
-                            .later = "an ideal slider is not simulated in this version; an `sfm` with a large stiffness comes close",
-                            .symbol = "Fc", .description = "force of sliding"},
+            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .symbol = "Fc",
+                            .description = "force of sliding; 0 means no force"},
                            {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .same_as = "coulomb",
-                            .later = "an ideal slider is not simulated in this version", .symbol = "Fs",
-                            .description = "force at which it breaks away"}},
-            .summary = "ideal Coulomb slider (described, not simulated in this version)",
+                            .symbol = "Fs", .description = "force at which it breaks away, not less than `coulomb`"}},
+            .summary = "ideal Coulomb slider: sticks without creep, or slips at a constant force",
             .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
-            .notes = "Dissipates f w, stores nothing.",
+            .notes = "Stores nothing, dissipates f w. Between nodes whose forces leave its own open, the forces of least norm.",
         },
-    .role = Role::nothing,
+    .role = Role::slip,
+    .limits = {{.when = "breakaway = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[1] == 0; },
+                .values = {}}},
+    .slip = coulomb,
+    .check = breakaway_above_coulomb,
     .drawing = "M0 .5 H.2 M.2 .3 H.8 V.7 H.2 Z M.1 .75 H.9 M.8 .5 H1",
 });
 

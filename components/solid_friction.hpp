@@ -50,6 +50,13 @@ struct SolidFriction {
     return s * value_of(f) < Fc ? f : T(s * Fc);
   }
 
+  /// Slope df/dp with which a motion in `direction` begins at deflection p.
+  double slope_along(double p, int direction) const {
+    const double u = 1 - direction * force(p) / Fc;
+    return u > 0 ? sigma * std::pow(u, i) : 0;
+  }
+  bool constant() const { return held; }
+
   int direction() const { return s < 0 ? -1 : s > 0 ? 1 : 0; }
 
   /// Deflection travelled since p_ref at which the bound is reached; infinite for i >= 1.

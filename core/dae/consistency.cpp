@@ -14,7 +14,6 @@ namespace {
 
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-int sign_of(double x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }
 
 }  // namespace
 
@@ -164,71 +163,54 @@ double Consistency::fastest_rate(double t, const std::vector<double>& y, const s
   return rate;
 }
 
-/// A branch between two masses cannot be held still by its force at once: that takes an impulse.
-bool Consistency::can_stand(int branch) const {
-  const Branch& b = dae_.network().deflections[at(branch)];
-  const auto massless = [&](NodeId node) {
-    const Kind kind = dae_.structure().kind[at(node)];
-    return kind == Kind::floating || kind == Kind::viscous;
+/// Solves the algebraic equations for y; the integrals of the differential ones stay, M (y - before) = 0. Newton's method,
+/// damped by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3), which does not
+/// depend on the units of the equations.
+void Consistency::project(double t, std::vector<double>& y) {
+  const std::vector<double> before = y;
+  const std::size_t n = y.size();
+  std::vector<double> change(n), trial(n), next(n), scale(n, 0), defect(n);
+  const auto defects = [&](const std::vector<double>& at_y) {
+    for (std::size_t i = 0; i < n; ++i) work_[i] = at_y[i] - before[i];
+    dae_.residual(t, at_y.data(), work_.data(), r1_.data());
+    dae_.residual(t, at_y.data(), zero_.data(), r0_.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      defect[i] = dae_.differential(static_cast<int>(i)) ? r1_[i] - r0_[i] : r0_[i];
+    }
   };
-  return massless(b.a) || massless(b.b);
-}
-
-std::vector<int> Consistency::settle(double t, double dt, const std::vector<double>& y, std::vector<double>& yp) {
-  std::vector<int> changed;
-  derivative(t, y, yp);
-  const Network& network = dae_.network();
-  std::vector<int> watched;
-  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->events(i) > 0) watched.push_back(laws.first + static_cast<int>(i));
+  const auto norm = [&](const std::vector<double>& x) {
+    double largest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!std::isfinite(x[i])) return std::numeric_limits<double>::infinity();
+      if (scale[i] > 0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
     }
+    return largest;
+  };
+  double damping = 1;
+  for (int iteration = 0; iteration < 500; ++iteration) {
+    factorise(t, y);
+    defects(y);
+    for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
+    solve(change);
+    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
+    const double size = norm(change);
+    if (!std::isfinite(size)) report_singular(t);
+    if (size <= 1e-14) return;
+    for (;; damping /= 2) {
+      for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
+      defects(trial);
+      for (std::size_t i = 0; i < n; ++i) next[i] = -defect[i];
+      solve(next);
+      if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
+      if (damping < 1e-6) {
+        if (size <= 1e-9) return;  // rounding stands in the way of the last digits
+        report_singular(t);
+      }
+    }
+    y = trial;
+    if (damping == 1 && norm(next) <= 1e-15) return;
+    damping = std::min(1.0, 2 * damping);
   }
-  if (watched.empty()) return changed;
-  std::vector<double> ypp, ahead(y), ahead_p(yp);
-  std::vector<int> turns(network.deflections.size(), 0);
-  // Directions depend on each other through massless nodes. Two sweeps turn all that do not fit; after that one at a time
-  // is turned, and one that turns back and forth is held still by both directions.
-  const int sweeps = 10 + 4 * static_cast<int>(watched.size());
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    second_derivative(t, dt, y, yp, ypp);
-    for (std::size_t k = 0; k < y.size(); ++k) {
-      ahead[k] = y[k] + dt * (yp[k] + dt / 2 * ypp[k]);
-      ahead_p[k] = yp[k] + dt * ypp[k];
-    }
-    const std::vector<double> w = dae_.view(t + dt, ahead.data(), ahead_p.data()).flow;
-    const Dae::View& now = dae_.view(t, y.data(), yp.data());
-    double fastest = 0;
-    for (double flow : w) fastest = std::max(fastest, std::abs(flow));
-    // What is held still moves by rounding only: that is no direction.
-    const double rounding = 1e-12 * fastest;
-    std::vector<int> wrong;
-    for (int j : watched) {
-      std::size_t i = 0;
-      const DeflectionBatch& batch = dae_.batch_of(j, i);
-      if (batch.holds(i) || (w[at(j)] == 0) != (now.flow[at(j)] == 0)) continue;
-      if (fastest > 0 && std::abs(w[at(j)]) <= rounding) continue;
-      if (!batch.fits(i, w[at(j)])) wrong.push_back(j);
-    }
-    const auto turn = [&](int j) {
-      std::size_t i = 0;
-      dae_.batch_of(j, i).set_direction(i, now.p[at(j)], w[at(j)], sign_of(w[at(j)]));
-      if (std::find(changed.begin(), changed.end(), j) == changed.end()) changed.push_back(j);
-    };
-    if (sweep < 2) {
-      for (int j : wrong) turn(j);
-    } else if (!wrong.empty()) {
-      const int j = *std::max_element(wrong.begin(), wrong.end(),
-                                      [&](int k, int l) { return std::abs(w[at(k)]) < std::abs(w[at(l)]); });
-      turn(j);
-      if (++turns[at(j)] >= 2 && can_stand(j)) dae_.hold_bundle(j);
-    }
-    const bool again = !wrong.empty();
-    if (!again) break;
-    dae_.update_holds();
-    derivative(t, y, yp);
-  }
-  return changed;
 }
 
 }  // namespace rheonet

@@ -8,8 +8,8 @@
 
 namespace rheonet {
 
-Dae::Dae(const Network& network, const Structure& structure, const std::vector<char>& needed)
-    : network_(&network), structure_(&structure) {
+Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
+    : network_(&network), structure_(&structure), drive_(&drive), bonds_(network, structure) {
   const std::size_t nodes = network.scene->nodes.size(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
   derive_positions(needed);
@@ -22,16 +22,21 @@ Dae::Dae(const Network& network, const Structure& structure, const std::vector<c
   for (std::size_t n = 0; n < nodes; ++n) {
     if (ix_[n] >= 0) add_row(ix_[n], true, minus_velocity(structure, static_cast<NodeId>(n)));
   }
-  for (const Structure::Group& g : structure.groups) group_row_.push_back(ip_[at(g.tree_branch)]);
+  for (const Structure::Group& g : structure.groups) group_row_.push_back(g.tie < 0 ? ip_[at(g.tree_branch)] : -1);
 
   offset_.assign(nd, 0);
+  drive_offset_ = offset_;
+  slip_force_.assign(network.sliders.size(), 0);
+  slider_shift_ = slip_force_;
+  view_.slider_velocity = view_.slider_force = slip_force_;
   v_.assign(nodes, 0);
   a_.assign(nodes, 0);
+  work_ = a_;
   rate_in_.assign(nr, 0);
   rate_out_ = rate_d_ = rate_in_;
   df_.assign(nd, 0);
   dc_ = df_;
-  view_.velocity = view_.nodal = view_.applied = view_.position = v_;
+  view_.velocity = view_.acceleration = view_.nodal = view_.applied = view_.position = v_;
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
@@ -47,14 +52,15 @@ void Dae::number_unknowns() {
   for (NodeId node : network.node_order) {
     const int group = structure_->group[at(node)];
     const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == node;
-    if (structure_->kind[at(node)] != Kind::known && !reference) iv_[at(node)] = size_++;
+    const Kind kind = structure_->kind[at(node)];
+    if (kind != Kind::known && kind != Kind::joined && !reference) iv_[at(node)] = size_++;
   }
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     if (!structure_->driven[j]) ip_[j] = size_++;
   }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network.rates[at(laws.first) + i];
+      const Branch& b = structure_->rates[at(laws.first) + i];
       const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
       const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
       const double impulse = laws.batch->impulse(i);
@@ -62,8 +68,8 @@ void Dae::number_unknowns() {
       rough_ = rough_ || !linear;
       // Where the velocities are given or belong to masses the force follows from them. At a massless node the balance
       // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for.
-      laws.batch->set_by_force(i, !linear && (massless(b.a) || massless(b.b)));
-      if (laws.batch->by_force(i)) if_[at(laws.first) + i] = size_++;
+      by_force_.push_back(!linear && b.a != b.b && (massless(b.a) || massless(b.b)));
+      if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }
   }
 }
@@ -80,6 +86,13 @@ void Dae::derive_positions(const std::vector<char>& needed) {
       branches[at(network.deflections[at(j)].b)].push_back(j);
     }
   }
+  std::vector<std::vector<int>> sliders(nodes);
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const Branch& b = network.sliders[k].branch;
+    if (!structure_->stuck[k] || !needed[at(b.a)] || !needed[at(b.b)]) continue;
+    sliders[at(b.a)].push_back(static_cast<int>(k));
+    sliders[at(b.b)].push_back(static_cast<int>(k));
+  }
   derived_.assign(nodes, {});
   std::vector<char> reached(nodes, 0);
   std::vector<NodeId> order;
@@ -89,14 +102,15 @@ void Dae::derive_positions(const std::vector<char>& needed) {
       const NodeId node = queue.front();
       queue.pop();
       order.push_back(node);
-      for (int j : branches[at(node)]) {
-        const Branch& b = network.deflections[at(j)];
+      const auto go = [&](int branch, int slider, const Branch& b) {
         const NodeId other = b.a == node ? b.b : b.a;
-        if (reached[at(other)]) continue;
+        if (reached[at(other)]) return;
         reached[at(other)] = 1;
-        derived_[at(other)] = {j, node, b.a == other ? 1.0 : -1.0};
+        derived_[at(other)] = {branch, slider, node, b.a == other ? 1.0 : -1.0};
         queue.push(other);
-      }
+      };
+      for (int k : sliders[at(node)]) go(-1, k, network.sliders[at(k)].branch);
+      for (int j : branches[at(node)]) go(j, -1, network.deflections[at(j)]);
     }
   };
   const auto root = [&](NodeId node) {
@@ -117,7 +131,7 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   for (std::size_t n = 0; n < nodes; ++n) {
     for (auto node = static_cast<NodeId>(n); needed[n] && !wanted[at(node)]; node = derived_[at(node)].parent) {
       wanted[at(node)] = 1;
-      if (derived_[at(node)].branch < 0) break;
+      if (derived_[at(node)].branch < 0 && derived_[at(node)].slider < 0) break;
     }
   }
   for (NodeId node : order) {
@@ -164,7 +178,8 @@ void Dae::build_pattern() {
     return g < 0 ? -1 : group_row_[at(g)];
   };
   for (std::size_t j = 0; j < network.deflections.size(); ++j) {
-    const Branch& b = network.deflections[j];
+    const Branch& b = structure_->deflections[j];
+    if (b.a == b.b) continue;
     const int index = static_cast<int>(j);
     if (balance_row(b.a) >= 0) depend(balance_row(b.a), ip_[j], Source::force, index, 1);
     if (balance_row(b.b) >= 0) depend(balance_row(b.b), ip_[j], Source::force, index, -1);
@@ -173,7 +188,8 @@ void Dae::build_pattern() {
     if (group_row(b.b) >= 0) depend(group_row(b.b), ip_[j], Source::force, index, -1);
   }
   for (std::size_t r = 0; r < network.rates.size(); ++r) {
-    const Branch& b = network.rates[r];
+    const Branch& b = structure_->rates[r];
+    if (b.a == b.b) continue;
     const int index = static_cast<int>(r);
     for (const auto& [node, sign] : {std::pair{b.a, 1.0}, std::pair{b.b, -1.0}}) {
       const int row = balance_row(node);
@@ -234,6 +250,47 @@ void Dae::build_pattern() {
   scatter_ = std::move(scatter);
   moving_.assign(ip_.size(), 1);
   update_holds();
+}
+
+void Dae::enter(double t, const State& state, const Modes& modes, std::vector<double>& y) {
+  set_rate_forms();
+  update_holds();
+  drive_->evaluate(t);
+  offset_ = state.offset;
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    const Branch& b = network_->sliders[k].branch;
+    slip_force_[k] = modes.slider[k] * network_->sliders[k].law.coulomb;
+    slider_shift_[k] = state.position[at(b.a)] - state.position[at(b.b)];
+  }
+  y.assign(at(size_), 0);
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = structure_->deflections[j];
+    if (ip_[j] >= 0) {
+      y[at(ip_[j])] = state.p[j];
+    } else {
+      drive_offset_[j] = known_position(b.a) - known_position(b.b) - state.p[j];
+    }
+  }
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n];
+    if (iv_[n] < 0) continue;
+    const int group = structure_->group[n];
+    const double base = group < 0 ? 0 : state.velocity[at(structure_->groups[at(group)].nodes.front())];
+    y[at(iv_[n])] = state.velocity[n] - base;
+  }
+  guess_forces(t, y.data());
+}
+
+void Dae::leave(State& state) const {
+  state.velocity = view_.velocity;
+  state.p = view_.p;
+  for (NodeId node : position_order_) state.position[at(node)] = view_.position[at(node)];
+}
+
+void Dae::set_rate_forms() {
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->set_by_force(i, by_force_[at(laws.first) + i] != 0);
+  }
 }
 
 void Dae::update_holds() {

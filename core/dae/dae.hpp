@@ -3,15 +3,19 @@
 #include <string>
 #include <vector>
 
+#include "core/dae/bonds.hpp"
 #include "core/dae/drive.hpp"
 #include "core/dae/matrix.hpp"
+#include "core/dae/state.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
 
-/// The equations of a network, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a matrix that
-/// is constant but for branches that are held still together (Bundle).
+/// The equations of a network in one set of modes, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a
+/// matrix that is constant but for branches that are held still together (Bundle).
+///
+/// Sliders are no part of the equations: those that stick join their ends, those that slip are constant forces.
 ///
 /// Unknowns y, in this order:
 ///   v  velocity of a massive or viscous node; of a floating node relative to its group's reference     [m/s]
@@ -26,8 +30,9 @@ namespace rheonet {
 ///   x  x' - velocity = 0
 class Dae {
  public:
-  /// `needed` marks the nodes whose positions are asked for (one flag a node). The network must outlive this.
-  Dae(const Network& network, const Structure& structure, const std::vector<char>& needed);
+  /// `needed` marks the nodes whose positions are asked for (one flag a node). Network, structure and drive must outlive
+  /// this.
+  Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed);
 
   int size() const { return size_; }
   /// Number of quantities that are really unknown: 0 where every motion is given (size() is then 1).
@@ -36,9 +41,11 @@ class Dae {
   const Structure& structure() const { return *structure_; }
   Drive& drive() { return *drive_; }
 
-  /// Initial values in y, before anything has moved; tells the drive where its nodes are. Throws
-  /// SimulationError for start values that contradict each other.
-  void initial(double t, std::vector<double>& y);
+  /// Goes on from a state at time t, with sliders that slip in the direction that `modes` says (those that stick are the
+  /// structure's): gives y, and makes the laws of the network work for these equations.
+  void enter(double t, const State& state, const Modes& modes, std::vector<double>& y);
+  /// The state last viewed.
+  void leave(State& state) const;
 
   // --- What IDA needs. No allocation.
   void residual(double t, const double* y, const double* yp, double* r);
@@ -52,24 +59,28 @@ class Dae {
   void consistency_matrix(double t, const double* y, double* values);
   /// dF/dt at constant y for algebraic equations, 0 for differential ones. Call after `consistency_matrix`.
   void time_derivative(double* r) const;
-  /// What jumps of node positions (`dx`) and of momenta (`impulse`), one for each node, add to the differential
-  /// equations integrated over the instant: M (y - y_before) + r = 0.
-  void jump_terms(const std::vector<double>& dx, const std::vector<double>& impulse, double* r) const;
 
   // --- Everything that follows from a state; valid until the next call of any function above.
   struct View {
     std::vector<double> velocity;      ///< of each node [m/s]
-    std::vector<double> nodal;         ///< sum of the forces of the branches at each node [N]
+    std::vector<double> acceleration;  ///< of known and massive nodes, and of those joined to them [m/s^2]; 0 for others
+    std::vector<double> nodal;         ///< sum of the forces of the branches and sliders at each node [N]
     std::vector<double> applied;       ///< sum of the applied forces at each node [N]
     std::vector<double> p, f, creep;   ///< of each deflection branch
     std::vector<double> flow;          ///< relative velocity of each deflection branch [m/s]
     std::vector<double> dp;            ///< p' of each deflection branch [m/s]
     std::vector<double> rate_velocity, rate_force;  ///< of each rate branch
+    std::vector<double> slider_velocity, slider_force;  ///< of each slider; what sticks may exceed its bound by rounding
     std::vector<double> position;      ///< of each known node, and of those marked as needed [m]
   };
   const View& view(double t, const double* y, const double* yp);
   /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
   double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
+  /// Sum of the forces at the nodes of a tie [N], and of their magnitudes. After `view`.
+  struct Balance { double sum, magnitude; };
+  Balance balance(const Structure::Tie& tie) const;
+  /// Whether a force that is applied to a tie changes with time at present.
+  bool load_changes(const Structure::Tie& tie) const;
 
   /// Some algebraic unknown may change like the root of time (a power law at rest): no polynomial follows it, and its
   /// error says nothing of that of the others.
@@ -110,8 +121,6 @@ class Dae {
   double reaction(NodeId node) const;
   /// What force number `index` of the network applies [N] in the state last viewed.
   double applied_force(int index) const { return drive_->force[at(index)]; }
-  /// Acceleration of a known node [m/s^2] (0 for others) in the state last viewed.
-  double known_acceleration(NodeId node) const { return a_[at(node)]; }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -138,12 +147,16 @@ class Dae {
   void build_pattern();
   void gather(double t, const double* y);
   void sum_forces();
+  void share_among_joined();
+  void view_velocities(const double* yp);
+  void set_rate_forms();
   void stiffen_resting_laws();
   double known_position(NodeId node) const;
 
   const Network* network_;
   const Structure* structure_;
-  std::unique_ptr<Drive> drive_;
+  Drive* drive_;
+  Bonds bonds_;
   int size_ = 0;
   bool idle_ = false, rough_ = false;
   std::vector<int> iv_, ip_, if_, ix_;
@@ -162,13 +175,18 @@ class Dae {
   std::vector<Scatter> scatter_;
 
   /// A position follows from a parent's through the deflection of `branch`: x = x_parent + sign (p + offset).
-  struct Derived { int branch = -1; NodeId parent = ground; double sign = 1; };
+  /// Or, along a slider that sticks, by what it has been since it does.
+  struct Derived { int branch = -1, slider = -1; NodeId parent = ground; double sign = 1; };
   std::vector<Derived> derived_;
   std::vector<NodeId> position_order_;  ///< needed for positions, parents first
 
-  std::vector<double> offset_;  ///< displacement minus deflection of each deflection branch that does not creep
+  std::vector<double> offset_;  ///< displacement less deflection of each deflection branch that does not creep
+  std::vector<double> drive_offset_;   ///< the same of driven ones, between the nodes that stand for their ends
+  std::vector<double> slider_shift_;   ///< displacement of each slider that sticks
+  std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
+  std::vector<char> by_force_;         ///< of each rate branch: the form in which these equations need its law
   // Work space of the residual.
-  std::vector<double> v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
+  std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;
 };
 

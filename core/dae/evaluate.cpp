@@ -22,34 +22,61 @@ void Dae::gather(double t, const double* y) {
     a_[node] = drive_->acceleration[m];
   }
   for (std::size_t j = 0; j < ip_.size(); ++j) {
-    const Branch& b = network_->deflections[j];
-    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : known_position(b.a) - known_position(b.b) - offset_[j];
+    const Branch& b = structure_->deflections[j];
+    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : known_position(b.a) - known_position(b.b) - drive_offset_[j];
   }
   for (std::size_t r = 0; r < if_.size(); ++r) {
-    const Branch& b = network_->rates[r];
+    const Branch& b = structure_->rates[r];
     rate_in_[r] = if_[r] >= 0 ? y[if_[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
 }
 
-/// Nodal sums of the forces of the branches, and of the applied forces.
+/// Sums, at the nodes that stand for others, of the forces of the branches and of the applied forces.
 void Dae::sum_forces() {
   std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
   std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
-    const Branch& b = network_->deflections[j];
-    view_.nodal[at(b.a)] += view_.f[j];
-    view_.nodal[at(b.b)] -= view_.f[j];
-  }
-  for (std::size_t r = 0; r < if_.size(); ++r) {
-    const Branch& b = network_->rates[r];
-    const double f = if_[r] >= 0 ? rate_in_[r] : rate_out_[r];
+  const auto add = [&](const Branch& b, double f) {
+    if (b.a == b.b) return;
     view_.nodal[at(b.a)] += f;
     view_.nodal[at(b.b)] -= f;
+  };
+  for (std::size_t j = 0; j < ip_.size(); ++j) add(structure_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < if_.size(); ++r) add(structure_->rates[r], if_[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    if (slip_force_[k] != 0) add(structure_->sliders[k], slip_force_[k]);
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    view_.applied[at(structure_->rigid[at(f.a)])] += drive_->force[k];
+    if (f.b >= 0) view_.applied[at(structure_->rigid[at(f.b)])] -= drive_->force[k];
+  }
+}
+
+/// The same at each node for itself: what sticks carries what is left.
+void Dae::share_among_joined() {
+  std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
+  std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
+  const auto add = [&](const Branch& b, double f) {
+    view_.nodal[at(b.a)] += f;
+    view_.nodal[at(b.b)] -= f;
+  };
+  for (std::size_t j = 0; j < ip_.size(); ++j) add(network_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < if_.size(); ++r) add(network_->rates[r], if_[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    if (slip_force_[k] != 0) add(network_->sliders[k].branch, slip_force_[k]);
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
     view_.applied[at(f.a)] += drive_->force[k];
     if (f.b >= 0) view_.applied[at(f.b)] -= drive_->force[k];
+  }
+  std::vector<double>& left = work_;
+  for (std::size_t n = 0; n < left.size(); ++n) {
+    left[n] = view_.nodal[n] - view_.applied[n] + structure_->own_mass[n] * view_.acceleration[n];
+  }
+  bonds_.solve(left, view_.slider_force);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
   }
 }
 
@@ -72,10 +99,10 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   for (std::size_t g = 0; g < group_row_.size(); ++g) {
     double sum = 0;
     for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
-    r[group_row_[g]] = sum;
+    if (group_row_[g] >= 0) r[group_row_[g]] = sum;
   }
   for (std::size_t k = 0; k < if_.size(); ++k) {
-    const Branch& b = network_->rates[k];
+    const Branch& b = structure_->rates[k];
     if (if_[k] >= 0) r[if_[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
   }
   for (const Row& row : rows_) {
@@ -140,7 +167,7 @@ void Dae::guess_forces(double t, double* y) {
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
-      const Branch& b = network_->rates[r];
+      const Branch& b = structure_->rates[r];
       if (if_[r] >= 0) y[if_[r]] = laws.batch->force_at(i, v_[at(b.a)] - v_[at(b.b)]);
     }
   }
@@ -158,11 +185,12 @@ void Dae::time_derivative(double* r) const {
   std::fill(r, r + size_, 0.0);
   const auto add = [&](NodeId node, double x) {
     if (node < 0) return;
+    node = structure_->rigid[at(node)];
     if (iv_[at(node)] >= 0 && !differential_[at(iv_[at(node)])]) r[iv_[at(node)]] += x;
-    if (const int g = structure_->group[at(node)]; g >= 0) r[group_row_[at(g)]] += x;
+    if (const int g = structure_->group[at(node)]; g >= 0 && group_row_[at(g)] >= 0) r[group_row_[at(g)]] += x;
   };
   for (std::size_t k = 0; k < if_.size(); ++k) {
-    const Branch& b = network_->rates[k];
+    const Branch& b = structure_->rates[k];
     const double dw = a_[at(b.a)] - a_[at(b.b)];
     if (if_[k] >= 0) {
       r[if_[k]] += dw;
@@ -183,18 +211,6 @@ void Dae::time_derivative(double* r) const {
   }
 }
 
-void Dae::jump_terms(const std::vector<double>& dx, const std::vector<double>& impulse, double* r) const {
-  std::fill(r, r + size_, 0.0);
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (structure_->kind[n] == Kind::massive) r[iv_[n]] = -impulse[n];
-  }
-  for (const Row& row : rows_) {
-    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
-      r[row.row] += velocities_[at(k)].sign * dx[at(velocities_[at(k)].index)];
-    }
-  }
-}
-
 const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   gather(t, y);
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
@@ -206,20 +222,25 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     laws.batch->evaluate(&rate_in_[k], &rate_out_[k]);
   }
   sum_forces();
-  view_.velocity = v_;
-  for (std::size_t g = 0; g < structure_->groups.size(); ++g) {
-    const Structure::Group& group = structure_->groups[g];
-    const std::size_t j = at(group.tree_branch);
-    const double base =
-        view_.velocity[at(group.parent)] - v_[at(group.node)] + group.sign * moving_[j] * (yp[ip_[j]] + view_.creep[j]);
-    for (NodeId node : group.nodes) view_.velocity[at(node)] = base + v_[at(node)];
+  view_velocities(yp);
+  for (std::size_t n = 0; n < v_.size(); ++n) {
+    view_.acceleration[n] = a_[n];
+    if (structure_->kind[n] == Kind::massive) {
+      view_.acceleration[n] = (view_.applied[n] - view_.nodal[n]) / structure_->mass[n];
+    }
   }
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
-    const Branch& b = network_->deflections[j];
-    const bool floating = structure_->group[at(b.a)] >= 0 || structure_->group[at(b.b)] >= 0;
-    // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
-    view_.flow[j] = floating ? moving_[j] * (yp[ip_[j]] + view_.creep[j]) : v_[at(b.a)] - v_[at(b.b)];
-    view_.dp[j] = ip_[j] >= 0 ? yp[ip_[j]] : view_.flow[j];
+  if (!bonds_.empty()) {
+    for (std::size_t n = 0; n < v_.size(); ++n) {
+      const std::size_t leader = at(structure_->rigid[n]);
+      view_.acceleration[n] = view_.acceleration[leader];
+      view_.velocity[n] = view_.velocity[leader];
+    }
+    share_among_joined();
+  }
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    const Branch& b = structure_->sliders[k];
+    view_.slider_velocity[k] = structure_->stuck[k] ? 0 : view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
+    if (!structure_->stuck[k]) view_.slider_force[k] = slip_force_[k];
   }
   for (std::size_t r = 0; r < if_.size(); ++r) {
     view_.rate_velocity[r] = if_[r] >= 0 ? rate_out_[r] : rate_in_[r];
@@ -234,9 +255,52 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       view_.position[at(node)] = y[ix_[at(node)]];
     } else if (d.branch >= 0) {
       view_.position[at(node)] = view_.position[at(d.parent)] + d.sign * (view_.p[at(d.branch)] + offset_[at(d.branch)]);
+    } else if (d.slider >= 0) {
+      view_.position[at(node)] = view_.position[at(d.parent)] + d.sign * slider_shift_[at(d.slider)];
     }
   }
   return view_;
+}
+
+void Dae::view_velocities(const double* yp) {
+  view_.velocity = v_;
+  const auto flow = [&](int j) { return moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]); };
+  for (const Structure::Group& group : structure_->groups) {
+    double base = 0;
+    if (group.tie >= 0) {
+      const Structure::Loop& sum = structure_->ties[at(group.tie)].velocity;
+      for (const Structure::Term& x : sum.flows) base -= x.sign * flow(x.index);
+      for (const Structure::Term& x : sum.velocities) base -= x.sign * v_[at(x.index)];
+    } else {
+      base = view_.velocity[at(group.parent)] - v_[at(group.node)] + group.sign * flow(group.tree_branch);
+    }
+    for (NodeId node : group.nodes) view_.velocity[at(node)] = base + v_[at(node)];
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = structure_->deflections[j];
+    const bool floating = structure_->group[at(b.a)] >= 0 || structure_->group[at(b.b)] >= 0;
+    // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
+    view_.flow[j] = b.a == b.b ? 0 : floating ? flow(static_cast<int>(j)) : v_[at(b.a)] - v_[at(b.b)];
+    view_.dp[j] = ip_[j] >= 0 ? yp[ip_[j]] : view_.flow[j];
+  }
+}
+
+Dae::Balance Dae::balance(const Structure::Tie& tie) const {
+  Balance result{0, 0};
+  for (NodeId node : tie.nodes) {
+    result.sum += view_.nodal[at(node)] - view_.applied[at(node)];
+    result.magnitude += std::abs(view_.nodal[at(node)]) + std::abs(view_.applied[at(node)]);
+  }
+  return result;
+}
+
+bool Dae::load_changes(const Structure::Tie& tie) const {
+  const auto within = [&](NodeId node) { return std::find(tie.nodes.begin(), tie.nodes.end(), node) != tie.nodes.end(); };
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    if (drive_->force_rate[k] != 0 && within(f.a) != within(f.b)) return true;
+  }
+  return false;
 }
 
 const std::vector<double>& Dae::slopes() {
@@ -248,7 +312,7 @@ const std::vector<double>& Dae::slopes() {
 }
 
 double Dae::reaction(NodeId node) const {
-  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->mass[at(node)] * a_[at(node)];
+  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * a_[at(node)];
 }
 
 double Dae::supplied_power() const {
@@ -270,6 +334,7 @@ double Dae::dissipated_power() const {
     }
   }
   for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) power += slip_force_[k] * view_.slider_velocity[k];
   return power;
 }
 
@@ -281,7 +346,7 @@ double Dae::stored_energy() const {
     }
   }
   for (std::size_t n = 0; n < v_.size(); ++n) {
-    energy += structure_->mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
+    energy += structure_->own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
   }
   return energy;
 }

@@ -5,26 +5,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dae/consistency.hpp"
+#include "core/dae/convex.hpp"
+#include "core/dae/instant.hpp"
 
 namespace rheonet {
 
 namespace {
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Forces that balance but for this share of their magnitudes balance.
+constexpr double balance_rounding = 1e-12;
+
 }  // namespace
 
 /// Within an instant a linear dashpot turns a step into the impulse B dx; masses stay where they are; massless nodes
 /// between dashpots go where the impulses balance, sum B (dx_a - dx_b) = 0. Laws that know no impulse do not resist.
-void Consistency::position_steps(double t, std::vector<double>& dx, std::vector<double>& impulse,
-                                 std::vector<std::string>& notes) {
-  const Network& network = dae_.network();
-  const Structure& structure = dae_.structure();
-  dx.assign(structure.kind.size(), 0);
-  impulse = dx;
+void Instant::position_steps(double t, std::vector<double>& dx, std::vector<std::string>& notes) const {
+  const Network& network = network_;
+  const Structure& structure = structure_;
   bool any = false;
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
-    dx[at(network.motions[m].node)] = dae_.drive().steps()[m];
-    any = any || dae_.drive().steps()[m] != 0;
+    dx[at(network.motions[m].node)] = drive_.steps()[m];
+    any = any || drive_.steps()[m] != 0;
   }
   if (!any || network.rates.empty()) return;
 
@@ -75,8 +78,6 @@ void Consistency::position_steps(double t, std::vector<double>& dx, std::vector<
     const Branch& b = network.rates[r];
     const double step = dx[at(b.a)] - dx[at(b.b)];
     if (std::abs(step) <= 1e-12 * (std::abs(dx[at(b.a)]) + std::abs(dx[at(b.b)]))) continue;
-    impulse[at(b.a)] -= damping[r] * step;
-    impulse[at(b.b)] += damping[r] * step;
     notes.push_back(fmt::format(
         "at t = {:.6g} s a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which "
         "no row shows and the energy account leaves out",
@@ -84,112 +85,97 @@ void Consistency::position_steps(double t, std::vector<double>& dx, std::vector<
   }
 }
 
-/// Solves the algebraic equations for y, with the integrals of the differential ones over the instant: M (y - before) +
-/// terms = 0. Newton's method, damped by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems,
-/// 2004, 3.3), which does not depend on the units of the equations.
-void Consistency::newton(double t, const std::vector<double>& before, const std::vector<double>& terms,
-                         std::vector<double>& y) {
-  const std::size_t n = y.size();
-  std::vector<double> change(n), trial(n), next(n), scale(n, 0), defect(n);
-  const auto defects = [&](const std::vector<double>& at_y) {
-    for (std::size_t i = 0; i < n; ++i) work_[i] = at_y[i] - before[i];
-    dae_.residual(t, at_y.data(), work_.data(), r1_.data());
-    dae_.residual(t, at_y.data(), zero_.data(), r0_.data());
-    for (std::size_t i = 0; i < n; ++i) {
-      defect[i] = dae_.differential(static_cast<int>(i)) ? r1_[i] - r0_[i] + terms[i] : r0_[i];
-    }
+// Within an instant forces stay finite: masses keep their places, dashpots with them, and what has neither goes where the
+// forces balance, along the laws' own curves and against the friction of the sliders.
+bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, const Modes&,
+                   std::vector<double>& force, Change& change) {
+  const std::size_t nodes = structure_.kind.size();
+  drive_.evaluate(t);
+  // The nodes of a group move as one: its dashpots take no impulse.
+  const auto node_of = [&](NodeId node) {
+    const int g = structure_.group[at(node)];
+    return g < 0 ? node : structure_.groups[at(g)].nodes.front();
   };
-  const auto norm = [&](const std::vector<double>& x) {
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!std::isfinite(x[i])) return std::numeric_limits<double>::infinity();
-      if (scale[i] > 0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
+  const Nodal now = nodal(state, force, false);
+  std::vector<double> sum(nodes, 0), magnitude(nodes, 0);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    sum[at(node_of(static_cast<NodeId>(n)))] += now.sum[n];
+    magnitude[at(node_of(static_cast<NodeId>(n)))] += now.magnitude[n];
+  }
+  bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
+  ConvexNetwork problem(static_cast<int>(nodes));
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (structure_.group[n] < 0) {
+      problem.fix(static_cast<int>(n), dx[n]);
+    } else if (node_of(static_cast<NodeId>(n)) != static_cast<NodeId>(n)) {
+      problem.fix(static_cast<int>(n), 0);  // spoken for by its group's first
+    } else if (std::abs(sum[n]) > balance_rounding * magnitude[n]) {
+      problem.load(static_cast<int>(n), -sum[n]);
+      needed = true;
     }
-    return largest;
-  };
-  double damping = 1;
-  for (int iteration = 0; iteration < 500; ++iteration) {
-    factorise(t, y);
-    defects(y);
-    for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
-    solve(change);
-    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
-    const double size = norm(change);
-    if (!std::isfinite(size)) report_singular(t);
-    if (size <= 1e-14) return;
-    for (;; damping /= 2) {
-      for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
-      defects(trial);
-      for (std::size_t i = 0; i < n; ++i) next[i] = -defect[i];
-      solve(next);
-      if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
-      if (damping < 1e-6) {
-        if (size <= 1e-9) return;  // rounding stands in the way of the last digits
-        report_singular(t);
-      }
+  }
+  const auto light = [&](const Branch& b) { return structure_.group[at(b.a)] >= 0 || structure_.group[at(b.b)] >= 0; };
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    needed = needed || (light(b) && std::abs(force[k]) > bound(k) * (1 + balance_rounding));
+  }
+  if (!needed) return false;
+
+  std::vector<double> f(state.p.size()), c(f);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    laws.batch->evaluate(&state.p[at(laws.first)], &f[at(laws.first)], &c[at(laws.first)]);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      const NodeId a = node_of(network_.deflections[j].a), b = node_of(network_.deflections[j].b);
+      if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
+      const DeflectionBatch& batch = *laws.batch;
+      const double p = state.p[j], f0 = f[j];
+      problem.add(a, b, {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1),
+                         .beyond = [&batch, i, p, f0](double step, double& slope) {
+                           return batch.force_along(i, p, step, slope) - f0;
+                         }});
     }
-    y = trial;
-    if (damping == 1 && norm(next) <= 1e-15) return;
-    damping = std::min(1.0, 2 * damping);
   }
-}
-
-void Consistency::project(double t, std::vector<double>& y) {
-  const std::vector<double> before = y, terms(y.size(), 0.0);
-  newton(t, before, terms, y);
-}
-
-Consistency::Jump Consistency::jump(double t, std::vector<double>& y) {
-  Jump result;
-  const Network& network = dae_.network();
-  const Structure& structure = dae_.structure();
-  std::vector<double> dx, impulse, terms(y.size());
-  position_steps(t, dx, impulse, result.notes);
-  dae_.jump_terms(dx, impulse, terms.data());
-
-  const std::vector<double> before = y;
-  std::vector<double> p_before(network.deflections.size());
-  const auto floating = [&](const Branch& b) { return structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0; };
-  for (std::size_t j = 0; j < p_before.size(); ++j) {
-    std::size_t i = 0;
-    DeflectionBatch& batch = dae_.batch_of(static_cast<int>(j), i);
-    if (batch.holds(i)) batch.set_direction(i, y[at(dae_.deflection_unknown(static_cast<int>(j)))], 0, 1);
+  std::vector<int> slider_branch(network_.sliders.size(), -1);
+  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
+    const NodeId a = node_of(network_.sliders[k].branch.a), b = node_of(network_.sliders[k].branch.b);
+    if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
+    slider_branch[k] = problem.add(a, b, {.low = -bound(k) - force[k], .high = bound(k) - force[k]});
   }
-  dae_.update_holds();
-  // Driven deflections have already gone along with the drive: their value before is the present one less the step.
-  const std::vector<double> p_now = dae_.view(t, y.data(), zero_.data()).p;
-  for (std::size_t j = 0; j < p_before.size(); ++j) {
-    const Branch& b = network.deflections[j];
-    const double step = dx[at(b.a)] - dx[at(b.b)];
-    p_before[j] = p_now[j] - (structure.driven[j] ? step : 0);
-    std::size_t i = 0;
-    if (step != 0 && !floating(b)) result.heat += dae_.batch_of(static_cast<int>(j), i).jump(i, p_before[j], step);
+  if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
+    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
+    throw SimulationError(fmt::format("at t = {:.6g} s the forces at the massless nodes cannot be balanced", t));
   }
 
-  // Between floating nodes a jump of the deflection comes out of the balance, and its direction decides the law.
-  for (int sweep = 0; sweep < 20; ++sweep) {
-    y = before;
-    dae_.guess_forces(t, y.data());
-    newton(t, before, terms, y);
-    bool again = false;
-    for (std::size_t j = 0; j < p_before.size(); ++j) {
-      if (!floating(network.deflections[j])) continue;
-      const double p = y[at(dae_.deflection_unknown(static_cast<int>(j)))], step = p - p_before[j];
-      if (std::abs(step) <= 1e-12 * (std::abs(p) + std::abs(p_before[j]))) continue;
-      std::size_t i = 0;
-      DeflectionBatch& batch = dae_.batch_of(static_cast<int>(j), i);
-      again = batch.set_direction(i, p_before[j], 0, step < 0 ? -1 : 1) || again;
+  const auto moved = [&](NodeId node) { return problem.value(node_of(node)); };
+  double stored = 0, work = 0, heat = 0;
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      const double step = moved(network_.deflections[j].a) - moved(network_.deflections[j].b);
+      if (step == 0) continue;
+      stored -= laws.batch->stored_energy(i, state.p[j]);
+      heat += laws.batch->jump(i, state.p[j], step);
+      state.p[j] += step;
+      stored += laws.batch->stored_energy(i, state.p[j]);
     }
-    if (!again) break;
   }
-  for (std::size_t j = 0; j < p_before.size(); ++j) {
-    if (!floating(network.deflections[j])) continue;
-    const double p = y[at(dae_.deflection_unknown(static_cast<int>(j)))], step = p - p_before[j];
-    if (std::abs(step) <= 1e-12 * (std::abs(p) + std::abs(p_before[j]))) continue;
-    std::size_t i = 0;
-    result.heat += dae_.batch_of(static_cast<int>(j), i).jump(i, p_before[j], step);
+  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const double step = moved(b.a) - moved(b.b);
+    heat += network_.sliders[k].law.coulomb * std::abs(step);
+    if (slider_branch[k] < 0) continue;
+    if (step != 0) broken_[k] = 1;
+    force[k] += problem.force(slider_branch[k]);
   }
-  return result;
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    const Network::Force& load = network_.forces[k];
+    work += drive_.force[k] * (moved(load.a) - (load.b < 0 ? 0 : moved(load.b)));
+  }
+  // A step of the drive does what work it takes; without one, what is lost becomes heat.
+  change.heat += stepped ? heat : std::max(0.0, work - stored);
+  for (std::size_t n = 0; n < nodes; ++n) state.position[n] += moved(static_cast<NodeId>(n));
+  return true;
 }
 
 }  // namespace rheonet

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <vector>
 
-#include "core/dae/dae.hpp"
+#include "core/dae/start.hpp"
 
 namespace rheonet {
 
@@ -63,8 +64,8 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
 
 }  // namespace
 
-void Dae::initial(double t, std::vector<double>& y) {
-  const Scene& scene = *network_->scene;
+Start start(const Network& network, double t) {
+  const Scene& scene = *network.scene;
   const std::size_t nodes = scene.nodes.size();
   std::vector<double> x(nodes, 0);
   std::vector<char> fixed(nodes, 0);
@@ -74,10 +75,10 @@ void Dae::initial(double t, std::vector<double>& y) {
     x[n] = scene.nodes[n].position;
     fixed[n] = 1;
   }
-  for (const Network::Motion& m : network_->motions) {
-    const std::size_t n = at(m.node);
+  for (const Network::Motion& m : network.motions) {
+    const std::size_t n = static_cast<std::size_t>(m.node);
     const SceneNode& node = scene.nodes[n];
-    const std::string& name = scene.elements[at(m.element)].name;
+    const std::string& name = scene.elements[static_cast<std::size_t>(m.element)].name;
     const double velocity = m.position ? m.signal.piece(t).rate(t) : m.signal.value(t);
     if (m.position) {
       const double before = m.signal.before(t), after = m.signal.value(t);
@@ -96,27 +97,25 @@ void Dae::initial(double t, std::vector<double>& y) {
     }
     fixed[n] = 1;
   }
-  follow_displacements(*network_, x, fixed);
-  drive_ = std::make_unique<Drive>(*network_, t, x);
+  follow_displacements(network, x, fixed);
 
-  y.assign(at(size_), 0);
+  Start result{.state = {}, .drive = Drive(network, t, x)};
+  State& state = result.state;
+  state.position = x;
+  state.velocity.assign(nodes, 0);
   for (std::size_t n = 1; n < nodes; ++n) {
-    if (ix_[n] >= 0) y[at(ix_[n])] = x[n];
-    if (structure_->kind[n] == Kind::massive && !std::isnan(scene.nodes[n].velocity)) {
-      y[at(iv_[n])] = scene.nodes[n].velocity;
-    }
+    if (!std::isnan(scene.nodes[n].velocity)) state.velocity[n] = scene.nodes[n].velocity;
   }
-  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const std::size_t j = at(laws.first) + i;
-      const Branch& b = network_->deflections[j];
-      const double d = x[at(b.a)] - x[at(b.b)];
-      const double d0 = initial_displacement(*network_, b);
-      const double p = laws.batch->start(i, std::isnan(d0) ? d : d0);
-      offset_[j] = d - p;
-      if (ip_[j] >= 0) y[at(ip_[j])] = p;
+      const Branch& b = network.deflections[static_cast<std::size_t>(laws.first) + i];
+      const double d = x[static_cast<std::size_t>(b.a)] - x[static_cast<std::size_t>(b.b)];
+      const double d0 = initial_displacement(network, b);
+      state.p.push_back(laws.batch->start(i, std::isnan(d0) ? d : d0));
+      state.offset.push_back(d - state.p.back());
     }
   }
+  return result;
 }
 
 }  // namespace rheonet

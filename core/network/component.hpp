@@ -17,6 +17,7 @@ namespace rheonet {
 enum class Role {
   deflection,  ///< force from an own deflection p: f = force(p), p' = w - creep(f). Springs and all laws with a memory
   rate,        ///< force from the relative velocity: f = force(w), or w = rate(f). Dashpots
+  slip,        ///< sticks under any force up to a bound, else slips at a constant one. Ideal sliders
   mass,        ///< inertia of a node
   motion,      ///< prescribes a node's motion
   force,       ///< applies a given force
@@ -72,6 +73,13 @@ class DeflectionBatch {
   /// While it is held: the rates p' that motion to either side would begin with; the true one lies between them.
   virtual void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const = 0;
 
+  /// Slope df/dp with which a motion in `direction` (-1 or 1) begins at deflection p.
+  virtual double slope(std::size_t i, double p, int direction) const = 0;
+  /// Force after the deflection has gone from p to p + step along the law, and its slope there. The memory stays.
+  virtual double force_along(std::size_t i, double p, double step, double& slope) const = 0;
+  /// The force does not depend on the deflection until an event: friction that has come to its bound.
+  virtual bool constant(std::size_t i) const = 0;
+
   virtual double stored_energy(std::size_t i, double p) const = 0;
   /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
   virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;
@@ -100,6 +108,12 @@ class RateBatch {
   virtual double velocity_at(std::size_t i, double f) const = 0;
 };
 
+/// A law of the role `slip`: w = 0 with abs(f) <= breakaway, or f = coulomb sgn w.
+struct Slip {
+  double coulomb;    ///< N
+  double breakaway;  ///< N, not less than coulomb
+};
+
 /// A law at a limit of its parameters is another law.
 struct Limit {
   std::string when = {};     ///< "damping = inf", for the reference
@@ -117,6 +131,7 @@ struct Component {
   std::vector<Limit> limits = {};  ///< tried in order; the first that applies replaces the element
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
+  std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
   /// What is wrong with a set of values that are each within their bounds; "" if nothing.
   std::function<std::string(std::span<const double>)> check = {};
   std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)

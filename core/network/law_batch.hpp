@@ -35,6 +35,7 @@ struct MemorylessLaw {
   bool holds() const { return false; }
   int direction() const { return 0; }
   void hold_rates(const Dual&, Dual&, Dual&) const {}
+  bool constant() const { return false; }
 };
 
 /// A batch of one deflection law.
@@ -87,6 +88,18 @@ class DeflectionBatchOf final : public DeflectionBatch {
   void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const override {
     laws_[i].hold_rates(p, forward, backward);
   }
+  double slope(std::size_t i, double p, int direction) const override {
+    if constexpr (requires { laws_[i].slope_along(p, direction); }) return laws_[i].slope_along(p, direction);
+    return laws_[i].force(Dual(p, 1)).derivative;
+  }
+  double force_along(std::size_t i, double p, double step, double& slope) const override {
+    Law law = laws_[i];
+    if (step != 0) law.set_direction(p, step, step < 0 ? -1 : 1);
+    const Dual f = law.force(Dual(p + step, 1));
+    slope = f.derivative;
+    return f.value;
+  }
+  bool constant(std::size_t i) const override { return laws_[i].constant(); }
   double stored_energy(std::size_t i, double p) const override { return laws_[i].stored_energy(p); }
   double dissipated_power(std::size_t i, double p, double dp, double w) const override {
     return laws_[i].dissipated_power(p, dp, w);

@@ -97,6 +97,10 @@ Network build_network(const Scene& scene) {
       case Role::rate:
         rates[law.component->declaration.type].push_back({{index, element.a, element.b}, std::move(law.values)});
         break;
+      case Role::slip:
+        place = {role, static_cast<int>(network.sliders.size())};
+        network.sliders.push_back({{index, element.a, element.b}, law.component->slip(law.values)});
+        break;
       case Role::mass:
         place = {role, static_cast<int>(network.masses.size())};
         network.masses.push_back({index, element.a, law.values[0]});

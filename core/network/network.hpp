@@ -29,8 +29,10 @@ struct Laws {
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Motion { int element; NodeId node; Signal signal; bool position; };
+  struct Slider { Branch branch; Slip law; };
   struct Force { int element; NodeId a, b; Signal signal; };  ///< b = -1 for a force at one node
-  /// Where an element went: a branch of `deflections` or `rates`, or an index into masses, motions, forces.
+  /// Where an element went: a branch of `deflections` or `rates`, or an index into sliders, masses, motions,
+  /// forces.
   struct Place { Role role; int index; };
 
   const Scene* scene = nullptr;
@@ -38,6 +40,7 @@ struct Network {
   std::vector<Laws<DeflectionBatch>> deflection_laws;
   std::vector<Branch> rates;
   std::vector<Laws<RateBatch>> rate_laws;
+  std::vector<Slider> sliders;
   std::vector<Mass> masses;
   std::vector<Motion> motions;
   std::vector<Force> forces;

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/connected_components.hpp>
 #include <map>
+#include <numeric>
 #include <queue>
 
 namespace rheonet {
@@ -14,6 +16,36 @@ namespace {
 
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Sticking sliders join their ends. A known node stands for what it is joined to, else a massive one.
+void join(const Network& network, const Modes& modes, Structure& s) {
+  const std::size_t n = s.kind.size();
+  Graph bonds(n);
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const Branch& b = network.sliders[k].branch;
+    if (modes.slider[k] == Modes::stuck) boost::add_edge(at(b.a), at(b.b), bonds);
+  }
+  std::vector<int> part(n);
+  const int parts = boost::connected_components(bonds, part.data());
+  std::vector<NodeId> head(at(parts), -1);
+  for (const Kind kind : {Kind::known, Kind::massive, Kind::floating}) {
+    for (NodeId node : network.node_order) {
+      if (s.kind[at(node)] == kind && head[at(part[at(node)])] < 0) head[at(part[at(node)])] = node;
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const NodeId leader = head[at(part[i])];
+    if (s.kind[i] == Kind::known || leader == static_cast<NodeId>(i)) continue;
+    s.rigid[i] = leader;
+    s.kind[i] = Kind::joined;
+    if (s.kind[at(leader)] != Kind::known) s.mass[at(leader)] += s.mass[i];
+    s.mass[i] = 0;
+  }
+  const auto end = [&](NodeId node) { return s.rigid[at(node)]; };
+  for (Branch& b : s.deflections) b = {b.element, end(b.a), end(b.b)};
+  for (Branch& b : s.rates) b = {b.element, end(b.a), end(b.b)};
+  for (Branch& b : s.sliders) b = {b.element, end(b.a), end(b.b)};
+}
 
 void assign_known_and_massive(const Network& network, Structure& s) {
   s.kind[ground] = Kind::known;
@@ -45,7 +77,7 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
   const auto massless = [&](NodeId node) { return s.kind[at(node)] == Kind::floating; };
   Graph dashpots(n);
   std::vector<char> anchored(n, 0);
-  for (const Branch& b : network.rates) {
+  for (const Branch& b : s.rates) {
     if (massless(b.a) && massless(b.b)) boost::add_edge(at(b.a), at(b.b), dashpots);
     if (massless(b.a) && !massless(b.b)) anchored[at(b.a)] = 1;
     if (massless(b.b) && !massless(b.a)) anchored[at(b.b)] = 1;
@@ -74,12 +106,11 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
   }
 }
 
-[[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<char>& reached) {
+[[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<int>& lost) {
   std::string names;
   int count = 0;
-  for (std::size_t g = 0; g < s.groups.size(); ++g) {
-    if (reached[g]) continue;
-    for (NodeId node : s.groups[g].nodes) {
+  for (int g : lost) {
+    for (NodeId node : s.groups[at(g)].nodes) {
       if (++count <= 5) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", network.node_name(node));
     }
   }
@@ -90,68 +121,195 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
       count > 1 ? "s" : "", names));
 }
 
-/// Breadth first, so that loops stay short. Groups are renumbered by depth.
-void grow_tree(const Network& network, Structure& s) {
-  const std::size_t n = s.groups.size();
-  std::vector<std::vector<int>> branches_of(n);
-  std::queue<int> queue;
-  std::vector<char> reached(n, 0);
-  const auto attach = [&](int branch, NodeId node, NodeId parent, int depth) {
-    const int g = s.group[at(node)];
-    if (reached[at(g)]) return;
-    reached[at(g)] = 1;
-    Structure::Group& group = s.groups[at(g)];
+/// An element whose force is constant at present: it leads somewhere, but holds nothing.
+struct Weak { int element; NodeId a, b; };
+
+/// Spanning trees of the deflection branches, breadth first, so that loops stay short.
+class Forest {
+ public:
+  Forest(const Network& network, Structure& s) : network_(network), s_(s), branches_of_(s.groups.size()) {
+    reached_.assign(s.groups.size(), 0);
+    for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const int j = laws.first + static_cast<int>(i);
+        const Branch& b = s.deflections[at(j)];
+        if (b.a == b.b) continue;
+        if (laws.batch->constant(i)) {
+          weak_.push_back({b.element, b.a, b.b});
+          continue;
+        }
+        const int ga = s.group[at(b.a)], gb = s.group[at(b.b)];
+        if (ga >= 0) branches_of_[at(ga)].push_back(j);
+        if (gb >= 0 && gb != ga) branches_of_[at(gb)].push_back(j);
+      }
+    }
+    for (std::size_t k = 0; k < s.sliders.size(); ++k) {
+      if (!s.stuck[k] && s.sliders[k].a != s.sliders[k].b) {
+        weak_.push_back({s.sliders[k].element, s.sliders[k].a, s.sliders[k].b});
+      }
+    }
+  }
+
+  /// Grows from the nodes that are in no group; then ties what no tree reaches, and grows from there.
+  void grow() {
+    for (std::size_t g = 0; g < branches_of_.size(); ++g) {
+      for (int j : branches_of_[g]) attach_from_outside(j);
+    }
+    spread();
+    while (order_.size() < s_.groups.size()) {
+      tie();
+      spread();
+    }
+    renumber();
+    if (!s_.ties.empty()) solve_ties();
+  }
+
+ private:
+  bool in_group(NodeId node) const { return s_.group[at(node)] >= 0; }
+
+  void attach_from_outside(int j) {
+    const Branch& b = s_.deflections[at(j)];
+    if (in_group(b.a) && !in_group(b.b)) attach(j, b.a, b.b, 1);
+    if (in_group(b.b) && !in_group(b.a)) attach(j, b.b, b.a, 1);
+  }
+
+  void attach(int branch, NodeId node, NodeId parent, int depth) {
+    const int g = s_.group[at(node)];
+    if (reached_[at(g)]) return;
+    reached_[at(g)] = 1;
+    Structure::Group& group = s_.groups[at(g)];
     group.tree_branch = branch;
     group.node = node;
     group.parent = parent;
-    group.sign = network.deflections[at(branch)].a == node ? 1 : -1;
+    group.sign = s_.deflections[at(branch)].a == node ? 1 : -1;
     group.depth = depth;
-    queue.push(g);
-  };
-  for (std::size_t j = 0; j < network.deflections.size(); ++j) {
-    const Branch& b = network.deflections[j];
-    const int ga = s.group[at(b.a)], gb = s.group[at(b.b)];
-    if (ga >= 0) branches_of[at(ga)].push_back(static_cast<int>(j));
-    if (gb >= 0 && gb != ga) branches_of[at(gb)].push_back(static_cast<int>(j));
-    if (ga >= 0 && gb < 0) attach(static_cast<int>(j), b.a, b.b, 1);
-    if (gb >= 0 && ga < 0) attach(static_cast<int>(j), b.b, b.a, 1);
+    queue_.push(g);
   }
-  std::vector<int> order;
-  while (!queue.empty()) {
-    const int g = queue.front();
-    queue.pop();
-    order.push_back(g);
-    for (int j : branches_of[at(g)]) {
-      const Branch& b = network.deflections[at(j)];
-      if (s.group[at(b.a)] == g && s.group[at(b.b)] >= 0) attach(j, b.b, b.a, s.groups[at(g)].depth + 1);
-      if (s.group[at(b.b)] == g && s.group[at(b.a)] >= 0) attach(j, b.a, b.b, s.groups[at(g)].depth + 1);
+
+  void spread() {
+    while (!queue_.empty()) {
+      const int g = queue_.front();
+      queue_.pop();
+      order_.push_back(g);
+      for (int j : branches_of_[at(g)]) {
+        const Branch& b = s_.deflections[at(j)];
+        if (s_.group[at(b.a)] == g && in_group(b.b)) attach(j, b.b, b.a, s_.groups[at(g)].depth + 1);
+        if (s_.group[at(b.b)] == g && in_group(b.a)) attach(j, b.a, b.b, s_.groups[at(g)].depth + 1);
+      }
     }
   }
-  if (order.size() < n) report_undefined(network, s, reached);
-  std::vector<Structure::Group> sorted;
-  sorted.reserve(n);
-  for (int g : order) {
-    for (NodeId node : s.groups[at(g)].nodes) s.group[at(node)] = static_cast<int>(sorted.size());
-    sorted.push_back(std::move(s.groups[at(g)]));
-  }
-  s.groups = std::move(sorted);
-}
 
-/// -(v_a - v_b), expressed along the tree from both nodes up to where their paths meet, plus the flow of `branch` if any.
-Structure::Loop express(const Structure& s, NodeId a, NodeId b, int branch) {
-  std::map<int, double> flows, velocities;
-  if (branch >= 0) flows[branch] = 1;
+  /// All groups that hang together with `first` through deflection branches.
+  std::vector<int> piece(int first) const {
+    std::vector<char> seen(s_.groups.size(), 0);
+    std::vector<int> members{first};
+    seen[at(first)] = 1;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      for (int j : branches_of_[at(members[k])]) {
+        for (NodeId node : {s_.deflections[at(j)].a, s_.deflections[at(j)].b}) {
+          const int g = s_.group[at(node)];
+          if (g < 0 || seen[at(g)]) continue;
+          seen[at(g)] = 1;
+          members.push_back(g);
+        }
+      }
+    }
+    return members;
+  }
+
+  void tie() {
+    const auto lost = std::find(reached_.begin(), reached_.end(), 0);
+    const int root = static_cast<int>(lost - reached_.begin());
+    const std::vector<int> members = piece(root);
+    Structure::Tie tie;
+    for (int g : members) {
+      for (NodeId node : s_.groups[at(g)].nodes) tie.nodes.push_back(node);
+    }
+    std::vector<char> inside(s_.kind.size(), 0);
+    for (NodeId node : tie.nodes) inside[at(node)] = 1;
+    for (const Weak& w : weak_) {
+      if (inside[at(w.a)] != inside[at(w.b)]) tie.elements.push_back(w.element);
+    }
+    for (std::size_t n = 0; n < inside.size(); ++n) {
+      if (s_.kind[n] == Kind::joined && inside[at(s_.rigid[n])]) tie.nodes.push_back(static_cast<NodeId>(n));
+    }
+    if (tie.elements.empty()) report_undefined(network_, s_, members);
+    reached_[at(root)] = 1;
+    s_.groups[at(root)].tie = static_cast<int>(s_.ties.size());
+    s_.groups[at(root)].depth = 1;
+    s_.ties.push_back(std::move(tie));
+    queue_.push(root);
+  }
+
+  /// Groups are numbered by depth.
+  void renumber() {
+    std::vector<Structure::Group> sorted;
+    sorted.reserve(order_.size());
+    for (int g : order_) {
+      for (NodeId node : s_.groups[at(g)].nodes) s_.group[at(node)] = static_cast<int>(sorted.size());
+      sorted.push_back(std::move(s_.groups[at(g)]));
+    }
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Structure::Group& x, const Structure::Group& y) { return x.depth < y.depth; });
+    for (std::size_t g = 0; g < sorted.size(); ++g) {
+      for (NodeId node : sorted[g].nodes) s_.group[at(node)] = static_cast<int>(g);
+    }
+    s_.groups = std::move(sorted);
+  }
+
+  void solve_ties();
+
+  const Network& network_;
+  Structure& s_;
+  std::vector<std::vector<int>> branches_of_;
+  std::vector<Weak> weak_;
+  std::vector<char> reached_;
+  std::vector<int> order_;
+  std::queue<int> queue_;
+};
+
+/// Terms by deflection branch, by node and by tie.
+struct Sum {
+  std::map<int, double> flows, velocities, ties;
+
+  void add(const Structure::Loop& loop, double factor) {
+    for (const Structure::Term& x : loop.flows) flows[x.index] += factor * x.sign;
+    for (const Structure::Term& x : loop.velocities) velocities[x.index] += factor * x.sign;
+  }
+
+  Structure::Loop loop(const Structure& s, int branch) const {
+    constexpr double rounding = 1e-12;  // coefficients are shares of the nodes around a tie
+    Structure::Loop result{.branch = branch, .flows = {}, .velocities = {}};
+    for (auto [j, sign] : flows) {
+      if (std::abs(sign) > rounding) result.flows.push_back({j, sign});
+    }
+    for (auto [node, sign] : velocities) {
+      if (std::abs(sign) > rounding && node != ground) result.velocities.push_back({node, sign});
+    }
+    std::sort(result.velocities.begin(), result.velocities.end(), [&](const Structure::Term& x, const Structure::Term& y) {
+      return s.rank[at(x.index)] < s.rank[at(y.index)];
+    });
+    return result;
+  }
+};
+
+/// -(v_a - v_b), expressed along the trees from both nodes up to where their paths meet.
+Sum difference(const Structure& s, NodeId a, NodeId b) {
+  Sum sum;
   // velocity(node) = v_node + base(group), base(group) = base(parent's group) + v_parent - v_node' + sign (p' + creep)
-  const auto add_velocity = [&](NodeId node, double sign) { velocities[node] -= sign; };
   const auto climb = [&](int group, double sign) {
     const Structure::Group& g = s.groups[at(group)];
-    add_velocity(g.parent, sign);
-    add_velocity(g.node, -sign);
-    flows[g.tree_branch] -= sign * g.sign;
+    if (g.tie >= 0) {
+      sum.ties[g.tie] -= sign;
+      return -1;
+    }
+    sum.velocities[g.parent] -= sign;
+    sum.velocities[g.node] += sign;
+    sum.flows[g.tree_branch] -= sign * g.sign;
     return s.group[at(g.parent)];
   };
-  add_velocity(a, 1);
-  add_velocity(b, -1);
+  sum.velocities[a] -= 1;
+  sum.velocities[b] += 1;
   int ga = s.group[at(a)], gb = s.group[at(b)];
   while (ga != gb) {
     const int da = ga < 0 ? 0 : s.groups[at(ga)].depth, db = gb < 0 ? 0 : s.groups[at(gb)].depth;
@@ -161,26 +319,57 @@ Structure::Loop express(const Structure& s, NodeId a, NodeId b, int branch) {
       gb = climb(gb, -1);
     }
   }
-  Structure::Loop loop{.branch = branch, .flows = {}, .velocities = {}};
-  for (auto [j, sign] : flows) {
-    if (sign != 0) loop.flows.push_back({j, sign});
-  }
-  for (auto [node, sign] : velocities) {
-    if (sign != 0 && node != ground) loop.velocities.push_back({node, sign});
-  }
-  std::sort(loop.velocities.begin(), loop.velocities.end(), [&](const Structure::Term& x, const Structure::Term& y) {
-    return s.rank[at(x.index)] < s.rank[at(y.index)];
-  });
-  return loop;
+  return sum;
 }
 
-}  // namespace
-
-Structure::Loop minus_velocity(const Structure& structure, NodeId node) {
-  return express(structure, node, ground, -1);
+/// The same without ties, plus the flow of `branch` if any.
+Structure::Loop express(const Structure& s, NodeId a, NodeId b, int branch) {
+  Sum sum = difference(s, a, b);
+  if (branch >= 0) sum.flows[branch] += 1;
+  for (auto [tie, sign] : sum.ties) sum.add(s.ties[at(tie)].velocity, -sign);
+  return sum.loop(s, branch);
 }
 
-Structure analyse(const Network& network) {
+/// The sum of the relative velocities of all that leads away from a tie is 0: the condition of least squares.
+void Forest::solve_ties() {
+  const auto count = static_cast<Eigen::Index>(s_.ties.size());
+  std::vector<int> tie_of(s_.kind.size(), -1);
+  for (std::size_t k = 0; k < s_.ties.size(); ++k) {
+    for (NodeId node : s_.ties[k].nodes) tie_of[at(node)] = static_cast<int>(k);
+  }
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  std::vector<Sum> rest(s_.ties.size());
+  for (const Weak& w : weak_) {
+    const int ta = tie_of[at(w.a)], tb = tie_of[at(w.b)];
+    if (ta == tb) continue;
+    const Sum term = difference(s_, w.a, w.b);
+    for (const auto& [tie, sign] : {std::pair{ta, 1.0}, std::pair{tb, -1.0}}) {
+      if (tie < 0) continue;
+      for (auto [j, x] : term.flows) rest[at(tie)].flows[j] += sign * x;
+      for (auto [node, x] : term.velocities) rest[at(tie)].velocities[node] += sign * x;
+      for (auto [other, x] : term.ties) matrix(tie, other) += sign * x;
+    }
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
+  if (!lu.isInvertible()) {
+    std::vector<int> lost;
+    for (std::size_t g = 0; g < s_.groups.size(); ++g) {
+      if (s_.groups[g].tie >= 0) lost.push_back(static_cast<int>(g));
+    }
+    report_undefined(network_, s_, lost);
+  }
+  const Eigen::MatrixXd inverse = lu.inverse();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Sum sum;
+    for (Eigen::Index l = 0; l < count; ++l) {
+      for (auto [j, x] : rest[static_cast<std::size_t>(l)].flows) sum.flows[j] += inverse(k, l) * x;
+      for (auto [node, x] : rest[static_cast<std::size_t>(l)].velocities) sum.velocities[node] += inverse(k, l) * x;
+    }
+    s_.ties[static_cast<std::size_t>(k)].velocity = sum.loop(s_, -1);
+  }
+}
+
+Structure blank(const Network& network) {
   const std::size_t n = network.scene->nodes.size();
   Structure s;
   s.kind.assign(n, Kind::floating);
@@ -188,19 +377,48 @@ Structure analyse(const Network& network) {
   s.group.assign(n, -1);
   s.mass.assign(n, 0);
   s.rank.resize(n);
+  s.rigid.resize(n);
+  std::iota(s.rigid.begin(), s.rigid.end(), 0);
+  s.deflections = network.deflections;
+  s.rates = network.rates;
+  for (const Network::Slider& slider : network.sliders) s.sliders.push_back(slider.branch);
+  s.stuck.assign(network.sliders.size(), 0);
   for (std::size_t k = 0; k < n; ++k) s.rank[at(network.node_order[k])] = static_cast<int>(k);
   assign_known_and_massive(network, s);
+  s.own_mass = s.mass;
+  return s;
+}
+
+}  // namespace
+
+Structure::Loop minus_velocity(const Structure& structure, NodeId node) {
+  return express(structure, structure.rigid[at(node)], ground, -1);
+}
+
+Structure classify(const Network& network) {
+  Structure s = blank(network);
   assign_viscous_and_floating(network, s);
-  grow_tree(network, s);
+  return s;
+}
+
+Structure analyse(const Network& network, const Modes& modes) {
+  Structure s = blank(network);
+  for (std::size_t k = 0; k < s.stuck.size(); ++k) s.stuck[k] = modes.slider[k] == Modes::stuck;
+  join(network, modes, s);
+  assign_viscous_and_floating(network, s);
+  Forest(network, s).grow();
 
   s.driven.assign(network.deflections.size(), 0);
   std::vector<char> in_tree(network.deflections.size(), 0);
-  for (const Structure::Group& g : s.groups) in_tree[at(g.tree_branch)] = 1;
+  for (const Structure::Group& g : s.groups) {
+    if (g.tree_branch >= 0) in_tree[at(g.tree_branch)] = 1;
+  }
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int j = laws.first + static_cast<int>(i);
-      const Branch& b = network.deflections[at(j)];
-      s.driven[at(j)] = s.kind[at(b.a)] == Kind::known && s.kind[at(b.b)] == Kind::known && !laws.batch->creeps(i);
+      const Branch& b = s.deflections[at(j)];
+      const bool given = b.a == b.b || (s.kind[at(b.a)] == Kind::known && s.kind[at(b.b)] == Kind::known);
+      s.driven[at(j)] = given && !laws.batch->creeps(i);
       if (!s.driven[at(j)] && !in_tree[at(j)]) s.loops.push_back(express(s, b.a, b.b, j));
     }
   }

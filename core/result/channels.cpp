@@ -47,11 +47,20 @@ std::vector<char> needed_positions(const Network& network) {
     const Ends ends = ends_of(*network.scene, record);
     needed[at(ends.a)] = needed[at(ends.b)] = 1;
   }
+  // Positions go over sliders that stick, so both ends must be known when they begin to.
+  if (std::find(needed.begin(), needed.end(), 1) == needed.end()) return needed;
+  for (const Network::Slider& slider : network.sliders) needed[at(slider.branch.a)] = needed[at(slider.branch.b)] = 1;
   return needed;
 }
 
-Channels::Channels(Dae& dae) : dae_(dae), scene_(*dae.network().scene), consistency_(dae), row_(scene_.records.size()) {
-  const auto floating = [&](NodeId node) { return dae.structure().kind[at(node)] == Kind::floating; };
+Channels::Channels(const Network& network) : network_(network), scene_(*network.scene), row_(scene_.records.size()) {}
+
+void Channels::attach(Dae& dae, Consistency& consistency) {
+  dae_ = &dae;
+  consistency_ = &consistency;
+  const Structure& structure = dae.structure();
+  const auto floating = [&](NodeId node) { return structure.group[at(structure.rigid[at(node)])] >= 0; };
+  rates_needed_ = false;
   for (const Record& record : scene_.records) {
     if (record.channel != Record::Channel::velocity) continue;
     const Ends ends = ends_of(scene_, record);
@@ -60,25 +69,26 @@ Channels::Channels(Dae& dae) : dae_(dae), scene_(*dae.network().scene), consiste
 }
 
 double Channels::element_force(int element, const Dae::View& view) const {
-  const Network& network = dae_.network();
-  const Structure& structure = dae_.structure();
+  const Network& network = network_;
   const Network::Place& place = network.places[at(element)];
   switch (place.role) {
     case Role::deflection:
       return view.f[at(place.index)];
     case Role::rate:
       return view.rate_force[at(place.index)];
+    case Role::slip: {
+      // While it sticks its force may be beyond the bound by a rounding, just before it breaks away.
+      const double limit = network.sliders[at(place.index)].law.breakaway;
+      return std::clamp(view.slider_force[at(place.index)], -limit, limit);
+    }
     case Role::mass: {
       const Network::Mass& m = network.masses[at(place.index)];
-      if (m.node == ground) return 0;
-      if (structure.kind[at(m.node)] == Kind::known) return m.mass * dae_.known_acceleration(m.node);
-      // Each mass at a node takes its share of what is left of the forces there.
-      return (view.applied[at(m.node)] - view.nodal[at(m.node)]) * (m.mass / structure.mass[at(m.node)]);
+      return m.mass * view.acceleration[at(m.node)];
     }
     case Role::motion:
-      return dae_.reaction(network.motions[at(place.index)].node);
+      return dae_->reaction(network.motions[at(place.index)].node);
     case Role::force:
-      return dae_.applied_force(place.index);
+      return dae_->applied_force(place.index);
     case Role::nothing:
       break;
   }
@@ -86,16 +96,17 @@ double Channels::element_force(int element, const Dae::View& view) const {
 }
 
 double Channels::displacement(const Record& record, const Dae::View& view) const {
-  if (own_displacement(dae_.network(), record)) return dae_.displacement(dae_.network().places[at(record.index)].index);
+  if (own_displacement(network_, record)) return dae_->displacement(network_.places[at(record.index)].index);
   const Ends ends = ends_of(scene_, record);
   return view.position[at(ends.a)] - view.position[at(ends.b)];
 }
 
 double Channels::velocity(const Record& record, const Dae::View& view) const {
   if (record.subject == Record::Subject::element) {
-    const Network::Place& place = dae_.network().places[at(record.index)];
+    const Network::Place& place = network_.places[at(record.index)];
     if (place.role == Role::deflection) return view.flow[at(place.index)];
     if (place.role == Role::rate) return view.rate_velocity[at(place.index)];
+    if (place.role == Role::slip) return view.slider_velocity[at(place.index)];
   }
   const Ends ends = ends_of(scene_, record);
   return view.velocity[at(ends.a)] - view.velocity[at(ends.b)];
@@ -103,9 +114,9 @@ double Channels::velocity(const Record& record, const Dae::View& view) const {
 
 const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                           bool exact) {
-  if (dae_.rough() && !exact) {
+  if (dae_->rough() && !exact) {
     y_ = y;
-    consistency_.project(t, y_);
+    consistency_->project(t, y_);
     return read_state(t, y_, yp, exact);
   }
   return read_state(t, y, yp, exact);
@@ -115,10 +126,10 @@ const std::vector<double>& Channels::read_state(double t, const std::vector<doub
                                                 bool exact) {
   const std::vector<double>* rates = &yp;
   if (rates_needed_ && !exact) {
-    consistency_.derivative(t, y, yp_);
+    consistency_->derivative(t, y, yp_);
     rates = &yp_;
   }
-  const Dae::View& view = dae_.view(t, y.data(), rates->data());
+  const Dae::View& view = dae_->view(t, y.data(), rates->data());
   for (std::size_t k = 0; k < row_.size(); ++k) {
     const Record& record = scene_.records[k];
     switch (record.channel) {

@@ -14,7 +14,9 @@ std::vector<char> needed_positions(const Network& network);
 /// Takes the records of a scene from states of its DAE.
 class Channels {
  public:
-  explicit Channels(Dae& dae);
+  explicit Channels(const Network& network);
+  /// Goes over to these equations.
+  void attach(Dae& dae, Consistency& consistency);
 
   /// One value a record, SI. `exact` says that yp is the derivative of a consistent state; else it comes from the
   /// integrator's polynomial, and velocities of massless nodes that follow from it are computed anew.
@@ -26,9 +28,10 @@ class Channels {
   double displacement(const Record& record, const Dae::View& view) const;
   double velocity(const Record& record, const Dae::View& view) const;
 
-  Dae& dae_;
+  const Network& network_;
   const Scene& scene_;
-  Consistency consistency_;
+  Dae* dae_ = nullptr;
+  Consistency* consistency_ = nullptr;
   bool rates_needed_ = false;  ///< a record needs y' of a floating node
   std::vector<double> y_, yp_, row_;
 };

@@ -5,24 +5,29 @@
 
 namespace rheonet {
 
-EnergyAccount::EnergyAccount(Dae& dae, double tolerance) : dae_(dae), tolerance_(tolerance) {
+EnergyAccount::EnergyAccount(double tolerance) : tolerance_(tolerance) {}
+
+void EnergyAccount::attach(Dae& dae) {
+  dae_ = &dae;
   const Network& network = dae.network();
-  const std::vector<char>& driven = dae.structure().driven;
+  const Structure& structure = dae.structure();
+  const std::vector<char>& driven = structure.driven;
   const auto given = [&](NodeId node) {
-    return node < 0 || dae.structure().kind[static_cast<std::size_t>(node)] == Kind::known;
+    return node < 0 || structure.kind[static_cast<std::size_t>(structure.rigid[static_cast<std::size_t>(node)])] == Kind::known;
   };
   const auto between_given = [&](const auto& branch) { return given(branch.a) && given(branch.b); };
   adaptive_ = std::any_of(driven.begin(), driven.end(), [](char d) { return d != 0; }) ||
               std::any_of(network.rates.begin(), network.rates.end(), between_given) ||
               std::any_of(network.forces.begin(), network.forces.end(), between_given) ||
               std::any_of(network.masses.begin(), network.masses.end(),
-                          [&](const Network::Mass& m) { return given(m.node); });
+                          [&](const Network::Mass& m) { return given(m.node); }) ||
+              std::any_of(structure.sliders.begin(), structure.sliders.end(), between_given);
 }
 
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {
-  dae_.view(t, y.data(), yp.data());
-  last_ = {dae_.supplied_power(), dae_.dissipated_power()};
-  const double stored = dae_.stored_energy();
+  dae_->view(t, y.data(), yp.data());
+  last_ = {dae_->supplied_power(), dae_->dissipated_power()};
+  const double stored = dae_->stored_energy();
   if (!begun_) {
     stored_at_start_ = stored;
     begun_ = true;
@@ -37,8 +42,8 @@ void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vec
 EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t) {
   integrator.interpolate(t, 0, y_);
   integrator.interpolate(t, 1, yp_);
-  dae_.view(t, y_.data(), yp_.data());
-  return {dae_.supplied_power(), dae_.dissipated_power()};
+  dae_->view(t, y_.data(), yp_.data());
+  return {dae_->supplied_power(), dae_->dissipated_power()};
 }
 
 EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double a, double b, const Power& pa,
@@ -72,9 +77,9 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
 void EnergyAccount::step(const Integrator& integrator) {
   const double a = integrator.previous_time(), b = integrator.time();
   if (!(b > a)) return;
-  dae_.view(b, integrator.y().data(), integrator.yp().data());
-  const Power pa = last_, pb{dae_.supplied_power(), dae_.dissipated_power()};
-  stored_ = dae_.stored_energy();
+  dae_->view(b, integrator.y().data(), integrator.yp().data());
+  const Power pa = last_, pb{dae_->supplied_power(), dae_->dissipated_power()};
+  stored_ = dae_->stored_energy();
   last_ = pb;
   const Power added = lobatto(integrator, a, b, pa, pb, 0);
   sum_.supplied += added.supplied;

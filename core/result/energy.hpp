@@ -13,7 +13,9 @@ namespace rheonet {
 class EnergyAccount {
  public:
   /// `tolerance` is relative to the largest energy so far.
-  EnergyAccount(Dae& dae, double tolerance);
+  explicit EnergyAccount(double tolerance);
+  /// Goes over to these equations.
+  void attach(Dae& dae);
 
   /// Just after the start or an event. What is stored more than before was supplied in that instant, with the heat.
   void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat);
@@ -30,9 +32,9 @@ class EnergyAccount {
   Power power(const Integrator& integrator, double t);
   Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
 
-  Dae& dae_;
+  Dae* dae_ = nullptr;
   double tolerance_;
-  bool adaptive_;
+  bool adaptive_ = false;
   bool begun_ = false;
   Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;

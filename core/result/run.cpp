@@ -7,7 +7,6 @@
 #include <ctime>
 
 #include "core/network/network.hpp"
-#include "core/network/structure.hpp"
 #include "core/result/channels.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
@@ -20,14 +19,18 @@ namespace {
 /// Writes the rows: at output times by interpolation; where an event falls on one, the state just after it.
 class Recorder final : public Observer {
  public:
-  Recorder(Dae& dae, std::FILE* csv)
-      : scene_(*dae.network().scene), channels_(dae), csv_(csv), energy_(dae, scene_.accuracy * 0.01) {
+  Recorder(const Network& network, std::FILE* csv)
+      : scene_(*network.scene), channels_(network), csv_(csv), energy_(scene_.accuracy * 0.01) {
     std::vector<std::string> names;
     for (const Record& record : scene_.records) names.push_back(record.path);
     csv_.header(names);
   }
 
-  void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) override {
+  void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp,
+             double heat) override {
+    unknowns_ = std::max(unknowns_, dae.unknowns());
+    energy_.attach(dae);
+    channels_.attach(dae, consistency);
     energy_.begin(t, y, yp, heat);
     if (pending_event_) write(t, channels_.read(t, y, yp, true));
     pending_event_ = false;
@@ -64,6 +67,7 @@ class Recorder final : public Observer {
 
   void flush() { csv_.flush(); }
   const EnergyAccount& energy() const { return energy_; }
+  int unknowns() const { return unknowns_; }
 
  private:
   double row_time(std::int64_t k) const {
@@ -89,6 +93,7 @@ class Recorder final : public Observer {
   EnergyAccount energy_;
   std::int64_t next_ = 0;
   bool pending_event_ = false;
+  int unknowns_ = 0;
   const Integrator* last_ = nullptr;
   std::vector<double> y_, yp_, before_;
 };
@@ -101,12 +106,11 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);
-  const Structure structure = analyse(network);
-  Dae dae(network, structure, needed_positions(network));
-  Recorder recorder(dae, settings.csv);
+  const std::vector<char> needed = needed_positions(network);
+  Recorder recorder(network, settings.csv);
   SimulationStatistics statistics;
   try {
-    statistics = simulate(dae,
+    statistics = simulate(network, needed,
                           {.start = scene.start,
                            .stop = scene.stop,
                            .accuracy = scene.accuracy,
@@ -120,7 +124,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   recorder.flush();
 
   Summary summary;
-  summary.unknowns = dae.unknowns();
+  summary.unknowns = recorder.unknowns();
   summary.sparse = statistics.integrator.sparse;
   summary.steps = statistics.integrator.steps;
   summary.rejected_steps = statistics.integrator.rejected;
@@ -140,18 +144,26 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   return summary;
 }
 
+namespace {
+
+/// Looks at nothing.
+class Blind final : public Observer {
+  void begin(Dae&, Consistency&, double, const std::vector<double>&, const std::vector<double>&, double) override {}
+  void step(const Integrator&) override {}
+  void event(double, int, const char*) override {}
+  void end(double) override {}
+};
+
+}  // namespace
+
 std::vector<std::string> check(const Scene& scene) {
   const Network network = build_network(scene);
-  const Structure structure = analyse(network);
-  Dae dae(network, structure, needed_positions(network));
-  std::vector<double> y, yp;
-  dae.initial(scene.start, y);
-  Consistency consistency(dae);
-  dae.drive().enter(scene.start);
-  const Consistency::Jump jump = consistency.jump(scene.start, y);
-  consistency.derivative(scene.start, y, yp);
+  Blind blind;
+  const SimulationSettings settings{
+      .start = scene.start, .stop = scene.stop, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}};
+  const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, blind);
   std::vector<std::string> notes = network.notes;
-  notes.insert(notes.end(), jump.notes.begin(), jump.notes.end());
+  notes.insert(notes.end(), statistics.notes.begin(), statistics.notes.end());
   return notes;
 }
 

@@ -187,6 +187,16 @@ Integrator::Outcome Integrator::step() {
   }
 }
 
+Integrator::Statistics& Integrator::Statistics::operator+=(const Statistics& other) {
+  steps += other.steps;
+  rejected += other.rejected;
+  residuals += other.residuals;
+  jacobians += other.jacobians;
+  restarts += other.restarts;
+  sparse = sparse || other.sparse;
+  return *this;
+}
+
 double Integrator::time() const { return impl_->time; }
 double Integrator::previous_time() const { return impl_->previous; }
 const std::vector<double>& Integrator::y() const { return impl_->y; }
@@ -216,10 +226,7 @@ Integrator::Statistics Integrator::statistics() const {
   Statistics total = impl_->past;
   if (!impl_->started) return total;
   const Statistics now = impl_->present();
-  total.steps += now.steps;
-  total.rejected += now.rejected;
-  total.residuals += now.residuals;
-  total.jacobians += now.jacobians;
+  total += now;
   return total;
 }
 

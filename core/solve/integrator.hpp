@@ -54,6 +54,7 @@ class Integrator {
   struct Statistics {
     long steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;
     bool sparse = false;
+    Statistics& operator+=(const Statistics& other);
   };
   Statistics statistics() const;
 

@@ -5,6 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
+
+#include "core/dae/instant.hpp"
+#include "core/dae/start.hpp"
+#include "core/solve/events.hpp"
+#include "core/solve/tolerances.hpp"
 
 namespace rheonet {
 
@@ -25,180 +32,262 @@ constexpr double lookahead_of_cycle = 0.01;
 // Restarts that bring the time on by less than this share of the run, one after the other, are chattering.
 constexpr double chatter_share = 1e-10;
 constexpr int chatter_restarts = 500;
+// Equations of so many sets of modes are kept, for when the modes come back.
+constexpr std::size_t remembered_systems = 64;
+// Constant forces balance but for this share of their magnitudes.
+constexpr double tie_rounding = 1e-9;
 
-/// Event functions of all laws that have any.
-class LawEvents final : public EventFunctions {
- public:
-  struct Which {
-    int branch;
-    int which;
-  };
+/// The equations of one set of modes, and what solves them.
+struct System {
+  Structure structure;
+  Dae dae;
+  Consistency consistency;
+  NetworkEvents events;
+  Integrator integrator;
 
-  LawEvents(Dae& dae, const Tolerances& tolerances) : dae_(dae), tolerances_(tolerances), consistency_(dae) {
-    const auto floating = [&](NodeId node) { return dae.structure().kind[at(node)] == Kind::floating; };
-    for (const Laws<DeflectionBatch>& laws : dae.network().deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        const int branch = laws.first + static_cast<int>(i);
-        if (laws.batch->events(i) == 0) continue;
-        watched_.push_back({laws.batch.get(), i, branch});
-        const Branch& b = dae.network().deflections[at(branch)];
-        rates_needed_ = rates_needed_ || floating(b.a) || floating(b.b);
-        const auto known = [&](NodeId node) { return dae.structure().kind[at(node)] == Kind::known; };
-        // Bundles share their ends: each pair of ends once.
-        const auto same = [&](const Branch& o) { return o.a == b.a && o.b == b.b; };
-        if (known(b.a) && known(b.b) && std::none_of(known_.begin(), known_.end(), same)) known_.push_back(b);
-        for (int k = 0; k < laws.batch->events(i); ++k) events_.push_back({branch, k});
-      }
-    }
-  }
-
-  int count() const override { return static_cast<int>(events_.size()); }
-
-  void evaluate(double t, const double* y, const double* yp, double* g) override {
-    // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of
-    // the run, and an event that it finds might be none by the equations: chattering. So it is taken from the
-    // equations.
-    if (rates_needed_) {
-      y_.assign(y, y + dae_.size());
-      try {
-        consistency_.derivative(t, y_, yp_);
-        yp = yp_.data();
-      } catch (const SimulationError&) {  // the step itself will tell
-      }
-    }
-    const Dae::View& view = dae_.view(t, y, yp);
-    for (const Watched& w : watched_) {
-      const std::size_t j = at(w.branch);
-      w.batch->event_functions(w.i, view.p[j], view.dp[j], view.flow[j], tolerances_.noise(w.branch), g);
-      g += w.batch->events(w.i);
-    }
-  }
-
-  const std::vector<Branch>& branches_between_known() const { return known_; }
-
-  const Which& operator[](std::size_t k) const { return events_[k]; }
-
- private:
-  struct Watched {
-    DeflectionBatch* batch;
-    std::size_t i;
-    int branch;
-  };
-  Dae& dae_;
-  const Tolerances& tolerances_;
-  Consistency consistency_;
-  bool rates_needed_ = false;
-  std::vector<double> y_, yp_;
-  std::vector<Watched> watched_;
-  std::vector<Branch> known_;
-  std::vector<Which> events_;
+  System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
+         Tolerances& tolerances)
+      : structure(std::move(s)),
+        dae(network, structure, drive, needed),
+        consistency(dae),
+        events(dae, consistency, tolerances, modes),
+        integrator(dae, events, tolerances.values()) {}
 };
 
 class Run {
  public:
-  Run(Dae& dae, const SimulationSettings& settings, Observer& observer)
-      : dae_(dae),
+  Run(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings, Observer& observer)
+      : network_(network),
+        needed_(needed),
         settings_(settings),
         observer_(observer),
-        consistency_(dae),
-        tolerances_(dae, local_share * settings.accuracy),
-        events_(dae, tolerances_),
-        integrator_(dae, events_, tolerances_.values()) {}
+        classified_(classify(network)),
+        begin_(start(network, settings.start)),
+        drive_(begin_.drive),
+        state_(begin_.state),
+        instant_(network, classified_, drive_),
+        tolerances_(network, local_share * settings.accuracy) {
+    modes_.slider.assign(network.sliders.size(), Modes::stuck);
+    slider_force_.assign(network.sliders.size(), 0);
+    find_what_may_tie();
+    find_known_pairs();
+  }
 
   SimulationStatistics go() {
     double t = settings_.start;
-    dae_.initial(t, y_);
-    cross(t);
+    cross(t, true, {});
     while (t < settings_.stop) {
       t = stretch(t);
-      const bool discontinuity = t >= dae_.drive().next_break();
+      const bool discontinuity = t >= drive_.next_break();
       if (discontinuity) {
         ++statistics_.events;
         observer_.event(t, -1, "discontinuity");
       } else if (t >= settings_.stop) {
         break;
       }
-      cross(t);
+      leave(t);
+      cross(t, true, {});
     }
     observer_.end(settings_.stop);
-    statistics_.integrator = integrator_.statistics();
+    statistics_.integrator = statistics();
+    return std::move(statistics_);
+  }
+
+  /// The start alone.
+  SimulationStatistics check() {
+    cross(settings_.start, true, {});
+    statistics_.integrator = statistics();
     return std::move(statistics_);
   }
 
  private:
-  const std::string& element_name(int branch) const {
-    return dae_.network().name_of(dae_.network().deflections[at(branch)]);
+  const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
+  const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
+
+  /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
+  void find_what_may_tie() {
+    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const Branch& b = network_.deflections[at(laws.first) + i];
+        const bool floating = classified_.group[at(b.a)] >= 0 || classified_.group[at(b.b)] >= 0;
+        if (floating && laws.batch->events(i) > 0) may_tie_.push_back({laws.batch.get(), i});
+      }
+    }
   }
 
-  /// Over an instant at which the drive may jump.
-  void cross(double t) {
-    dae_.drive().enter(t);
-    Consistency::Jump jump = consistency_.jump(t, y_);
-    statistics_.notes.insert(statistics_.notes.end(), jump.notes.begin(), jump.notes.end());
-    resume(t, jump.heat);
+  /// Laws with a memory, and sliders, between nodes of which both are given: each pair of ends once.
+  void find_known_pairs() {
+    const auto known = [&](NodeId node) { return classified_.kind[at(node)] == Kind::known; };
+    const auto add = [&](const Branch& b) {
+      const auto same = [&](const Branch& o) { return o.a == b.a && o.b == b.b; };
+      if (known(b.a) && known(b.b) && std::none_of(known_.begin(), known_.end(), same)) known_.push_back(b);
+    };
+    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        if (laws.batch->events(i) > 0) add(network_.deflections[at(laws.first) + i]);
+      }
+    }
+    for (const Network::Slider& slider : network_.sliders) add(slider.branch);
+  }
+
+  Integrator::Statistics statistics() const {
+    Integrator::Statistics sum = past_;
+    for (const auto& [key, system] : systems_) sum += system->integrator.statistics();
+    return sum;
+  }
+
+  /// The equations of the present modes.
+  System& system_of_modes() {
+    std::vector<char> key;
+    for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
+    for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
+    auto found = systems_.find(key);
+    if (found == systems_.end()) {
+      if (systems_.size() >= remembered_systems) {
+        past_ = statistics();
+        systems_.clear();
+      }
+      found = systems_.emplace(key, std::make_unique<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
+                                                             tolerances_)).first;
+    }
+    return *found->second;
+  }
+
+  /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
+  void cross(double t, bool stepped, const std::vector<int>& fired) {
+    if (stepped) drive_.enter(t);
+    const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
+    system_ = &system_of_modes();
+    tolerances_.attach(system_->dae);
+    Dae& dae = system_->dae;
+    dae.enter(t, state_, modes_, y_);
+    yp_.assign(y_.size(), 0);
+    stand(t, change.standing);
+    system_->consistency.project(t, y_);
+    system_->consistency.derivative(t, y_, yp_);
+    dae.view(t, y_.data(), yp_.data());
+    check_ties(t);
+    if (t > settings_.start) {
+      for (int branch : change.turned) note_event(t, network_.deflections[at(branch)].element, "reversal");
+      for (int k : change.switched) {
+        note_event(t, network_.sliders[at(k)].branch.element, modes_.slider[at(k)] == Modes::stuck ? "stick" : "slip");
+      }
+    }
+    observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
+  }
+
+  /// Branches that both directions hold at rest: between massless nodes their force follows from their neighbours.
+  void stand(double t, const std::vector<int>& standing) {
+    Dae& dae = system_->dae;
+    const Structure& structure = system_->structure;
+    const auto massless = [&](NodeId node) {
+      return structure.kind[at(node)] == Kind::viscous || structure.kind[at(node)] == Kind::floating;
+    };
+    for (int j : standing) {
+      dae.view(t, y_.data(), yp_.data());
+      const Branch& b = structure.deflections[at(j)];
+      std::size_t i = 0;
+      DeflectionBatch& batch = dae.batch_of(j, i);
+      if (b.a != b.b && (massless(b.a) || massless(b.b))) {
+        dae.hold_bundle(j);
+      } else if (!batch.fits(i, 0)) {
+        batch.set_direction(i, state_.p[at(j)], 0, 0);
+      }
+    }
+    if (!standing.empty()) dae.update_holds();
+  }
+
+  /// What only constant forces hold on to must be in balance, and stay so.
+  void check_ties(double t) {
+    for (const Structure::Tie& tie : system_->structure.ties) {
+      const Dae::Balance balance = system_->dae.balance(tie);
+      if (std::abs(balance.sum) > tie_rounding * balance.magnitude || system_->dae.load_changes(tie)) {
+        std::string elements, nodes;
+        for (int e : tie.elements) elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", element_name(e));
+        for (NodeId n : tie.nodes) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network_.node_name(n));
+        throw SimulationError(fmt::format(
+            "at t = {:.9g} s nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the "
+            "node a mass or a dashpot, or apply less force",
+            t, tie.nodes.size() > 1 ? "s" : "", nodes, elements, tie.elements.size() > 1 ? "are" : "is",
+            tie.elements.size() > 1 ? "they" : "it"));
+      }
+      std::string names;
+      for (int e : tie.elements) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", element_name(e));
+      note_once(fmt::format("{} slip under equal forces with nothing else between them: how they share the motion is left "
+                            "open, and the velocities of least norm are taken",
+                            names));
+    }
+  }
+
+  void note_once(const std::string& note) {
+    if (std::find(statistics_.notes.begin(), statistics_.notes.end(), note) == statistics_.notes.end()) {
+      statistics_.notes.push_back(note);
+    }
+  }
+
+  /// The state at the end of a stretch, every balance met to rounding.
+  void leave(double t) {
+    system_->consistency.project(t, y_);
+    yp_ = system_->integrator.yp();
+    const Dae::View& view = system_->dae.view(t, y_.data(), yp_.data());
+    slider_force_ = view.slider_force;
+    system_->dae.leave(state_);
   }
 
   /// Time until something is known to happen: the next break of the drive, the end, a cycle.
   double horizon(double t) const {
-    double h = std::min(dae_.drive().next_break(), settings_.stop) - t;
-    if (const double omega = dae_.drive().fastest(); omega > 0) h = std::min(h, 1 / omega);
+    double h = std::min(drive_.next_break(), settings_.stop) - t;
+    if (const double omega = drive_.fastest(); omega > 0) h = std::min(h, 1 / omega);
     return h > 0 ? h : settings_.stop - settings_.start;
   }
 
-  /// A consistent y' and memories that fit, from a consistent y.
-  void resume(double t, double heat) {
-    for (int branch : consistency_.settle(t, glimpse * horizon(t), y_, yp_)) {
-      if (t > settings_.start) note_event(t, branch, "reversal");
-    }
-    observer_.begin(t, y_, yp_, heat);
-  }
-
-  void note_event(double t, int branch, const char* what) {
+  void note_event(double t, int element, const char* what) {
     ++statistics_.events;
-    observer_.event(t, dae_.network().deflections[at(branch)].element, what);
+    observer_.event(t, element, what);
+    last_switched_ = element_name(element);
   }
 
   /// Reversals of laws between prescribed nodes are known beforehand, so that no step can miss them.
   double next_given_reversal(double t) const {
     double next = std::numeric_limits<double>::infinity();
-    const Structure& structure = dae_.structure();
-    for (const Branch& b : events_.branches_between_known()) {
-      next = std::min(next, dae_.drive().next_reversal(structure.motion[at(b.a)], structure.motion[at(b.b)], t,
-                                                       std::min(dae_.drive().next_break(), settings_.stop)));
+    for (const Branch& b : known_) {
+      next = std::min(next, drive_.next_reversal(classified_.motion[at(b.a)], classified_.motion[at(b.b)], t,
+                                                 std::min(drive_.next_break(), settings_.stop)));
     }
     return next;
   }
 
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
-    const double until = std::min({dae_.drive().next_break(), settings_.stop, next_given_reversal(t)});
+    const double until = std::min({drive_.next_break(), settings_.stop, next_given_reversal(t)});
     double shrink = 1;
     restart(t, until, shrink);
     int chatter = 0;
     double last = t;
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
-        throw SimulationError(fmt::format("interrupted at t = {:.6g} s", integrator_.time()));
+        throw SimulationError(fmt::format("interrupted at t = {:.6g} s", system_->integrator.time()));
       }
-      const Integrator::Outcome outcome = integrator_.step();
+      const Integrator::Outcome outcome = system_->integrator.step();
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
         // A fresh start with a shorter first step helps where the history is to blame.
         if ((shrink *= 1e-2) < 1e-7) fail(outcome);
-        y_ = integrator_.y();
-        t = integrator_.time();
-        consistency_.jump(t, y_);
-        consistency_.settle(t, glimpse * horizon(t), y_, yp_);
+        y_ = system_->integrator.y();
+        t = system_->integrator.time();
+        system_->consistency.project(t, y_);
+        system_->consistency.derivative(t, y_, yp_);
         restart(t, until, shrink);
         continue;
       }
-      t = integrator_.time();
-      observer_.step(integrator_);
-      tolerances_.follow(t, integrator_.y(), integrator_.yp(),
-                         dae_.view(t, integrator_.y().data(), integrator_.yp().data()));
+      t = system_->integrator.time();
+      observer_.step(system_->integrator);
+      tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(),
+                         system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data()));
       soften_laws();
       if (settings_.progress) settings_.progress((t - settings_.start) / (settings_.stop - settings_.start));
       if (outcome == Integrator::Outcome::stop) {
-        y_ = integrator_.y();
+        y_ = system_->integrator.y();
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
@@ -221,34 +310,38 @@ class Run {
   }
 
   void switch_memories(double t) {
-    y_ = integrator_.y();
-    yp_ = integrator_.yp();
-    const Dae::View view = dae_.view(t, y_.data(), yp_.data());
-    const std::vector<int> fired = integrator_.events();
-    std::vector<int> switched;
+    y_ = system_->integrator.y();
+    leave(t);
+    Dae& dae = system_->dae;
+    const Dae::View view = dae.view(t, y_.data(), yp_.data());
+    const std::vector<int> fired = system_->integrator.events();
+    std::vector<int> switched, sliders;
     for (std::size_t k = 0; k < fired.size(); ++k) {
       if (fired[k] == 0) continue;
-      const auto [branch, which] = events_[k];
+      const auto [branch, which] = system_->events[k];
+      if (which < 0) {
+        sliders.push_back(branch);
+        continue;
+      }
       // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
       if (std::find(switched.begin(), switched.end(), branch) != switched.end()) continue;
       std::size_t i = 0;
-      DeflectionBatch& batch = dae_.batch_of(branch, i);
+      DeflectionBatch& batch = dae.batch_of(branch, i);
       const bool held = batch.holds(i);
       switched.push_back(branch);
-      note_event(t, branch, batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]));
+      note_event(t, network_.deflections[at(branch)].element,
+                 batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]));
       if (held) {
-        const std::vector<int> released = dae_.release_bundle(branch, view.flow[at(branch)]);
+        const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
         switched.insert(switched.end(), released.begin(), released.end());
       }
-      last_switched_ = element_name(branch);
     }
-    dae_.update_holds();
-    resume(t, 0);
+    cross(t, false, sliders);
   }
 
   void soften_laws() {
-    if (!dae_.rough()) return;
-    for (const Laws<RateBatch>& laws : dae_.network().rate_laws) {
+    if (!system_->dae.rough()) return;
+    for (const Laws<RateBatch>& laws : network_.rate_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->soften(i, tolerances_.unresolved_velocity());
     }
   }
@@ -258,11 +351,11 @@ class Run {
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * horizon(t);
     if (tolerances_.blind()) {
-      const double rate = consistency_.fastest_rate(t, y_, yp_);
+      const double rate = system_->consistency.fastest_rate(t, y_, yp_);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
     }
     std::vector<double> ypp;
-    consistency_.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
+    system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
     soften_laws();
     double sum = 0;
@@ -275,26 +368,36 @@ class Run {
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
     // Below a few units in the last place of t there is no time to step over.
     const double grain = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
-    integrator_.restart(t, y_, yp_, std::min(std::max(shrink * h, grain), until - t), until);
+    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain), until - t), until);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
-    const double t = integrator_.time();
-    const int worst = integrator_.worst_unknown();
+    const double t = system_->integrator.time();
+    const int worst = system_->integrator.worst_unknown();
     throw SimulationError(fmt::format(
         "at t = {:.6g} s {} {}; check the values of the elements there, or ask for a looser accuracy", t,
-        worst < 0 ? "a quantity" : dae_.describe(worst),
+        worst < 0 ? "a quantity" : system_->dae.describe(worst),
         outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"
                                                  : "changes faster than double precision can follow at this accuracy"));
   }
 
-  Dae& dae_;
+  const Network& network_;
+  const std::vector<char>& needed_;
   const SimulationSettings& settings_;
   Observer& observer_;
-  Consistency consistency_;
+  const Structure classified_;
+  Start begin_;
+  Drive& drive_;
+  State& state_;
+  Instant instant_;
   Tolerances tolerances_;
-  LawEvents events_;
-  Integrator integrator_;
+  Modes modes_;
+  std::vector<double> slider_force_;
+  std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
+  std::vector<Branch> known_;
+  std::map<std::vector<char>, std::unique_ptr<System>> systems_;
+  System* system_ = nullptr;
+  Integrator::Statistics past_;  ///< of systems that are remembered no more
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   std::string last_switched_;
@@ -302,8 +405,14 @@ class Run {
 
 }  // namespace
 
-SimulationStatistics simulate(Dae& dae, const SimulationSettings& settings, Observer& observer) {
-  return Run(dae, settings, observer).go();
+SimulationStatistics simulate(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings,
+                              Observer& observer) {
+  return Run(network, needed, settings, observer).go();
+}
+
+SimulationStatistics check_start(const Network& network, const std::vector<char>& needed,
+                                 const SimulationSettings& settings, Observer& observer) {
+  return Run(network, needed, settings, observer).check();
 }
 
 }  // namespace rheonet

@@ -8,7 +8,6 @@
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/solve/integrator.hpp"
-#include "core/solve/tolerances.hpp"
 
 namespace rheonet {
 
@@ -17,7 +16,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
   /// A consistent state just after the start or an event; y' belongs to it. `heat` was released at that instant [J].
-  virtual void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) = 0;
+  /// The equations and their solver hold until the next `begin`.
+  virtual void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) = 0;
   /// A step from integrator.previous_time() to integrator.time(). It may be interpolated. Memories of the laws are still
   /// those of the step, also where it ends in an event.
   virtual void step(const Integrator& integrator) = 0;
@@ -41,7 +41,13 @@ struct SimulationStatistics {
   std::vector<std::string> notes;
 };
 
-/// Integrates from start to stop. Throws SimulationError, with the time and the elements concerned.
-SimulationStatistics simulate(Dae& dae, const SimulationSettings& settings, Observer& observer);
+/// Integrates from start to stop. `needed` marks the nodes whose positions are asked for. Throws SimulationError, with the
+/// time and the elements concerned.
+SimulationStatistics simulate(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings,
+                              Observer& observer);
+
+/// The same up to the start itself: a state that the equations allow, and which modes begin.
+SimulationStatistics check_start(const Network& network, const std::vector<char>& needed,
+                                 const SimulationSettings& settings, Observer& observer);
 
 }  // namespace rheonet

@@ -22,52 +22,65 @@ constexpr double given_noise = 1e-13;
 
 }  // namespace
 
-Tolerances::Tolerances(Dae& dae, double relative) : dae_(dae), relative_(relative) {
-  const std::size_t n = at(dae.size());
-  const Network& network = dae.network();
+Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative) {
+  const std::size_t nodes = network.scene->nodes.size(), deflections = network.deflections.size();
+  seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0),
+           std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0)};
+  force_seen_.assign(deflections, 0);
+  flow_seen_ = noise_ = force_seen_;
+  slide_seen_.assign(network.sliders.size(), 0);
+  slider_noise_ = slide_seen_;
+}
+
+void Tolerances::attach(Dae& dae) {
+  dae_ = &dae;
   const Structure& structure = dae.structure();
-  sort_.assign(n, Sort::velocity);
-  branch_.assign(n, -1);
-  for (std::size_t j = 0; j < network.deflections.size(); ++j) {
-    const Branch& b = network.deflections[j];
-    given_.push_back(structure.kind[at(b.a)] == Kind::known && structure.kind[at(b.b)] == Kind::known);
-    const int unknown = dae.deflection_unknown(static_cast<int>(j));
-    if (unknown < 0) continue;
-    sort_[at(unknown)] = Sort::deflection;
-    branch_[at(unknown)] = static_cast<int>(j);
+  const std::size_t n = at(dae.size());
+  quantity_.assign(n, {Sort::velocity, 0});
+  const auto known = [&](const Branch& b) {
+    return b.a == b.b || (structure.kind[at(b.a)] == Kind::known && structure.kind[at(b.b)] == Kind::known);
+  };
+  const auto stands_for = [&](int unknown, Sort sort, std::size_t index) {
+    if (unknown >= 0) quantity_[at(unknown)] = {sort, index};
+  };
+  given_.clear();
+  slider_given_.clear();
+  for (std::size_t j = 0; j < network_.deflections.size(); ++j) {
+    given_.push_back(known(structure.deflections[j]));
+    stands_for(dae.deflection_unknown(static_cast<int>(j)), Sort::deflection, j);
   }
-  for (std::size_t r = 0; r < network.rates.size(); ++r) {
-    const int unknown = dae.force_unknown(static_cast<int>(r));
-    if (unknown >= 0) sort_[at(unknown)] = Sort::force;
+  for (const Branch& b : structure.sliders) slider_given_.push_back(known(b));
+  for (std::size_t r = 0; r < network_.rates.size(); ++r) {
+    stands_for(dae.force_unknown(static_cast<int>(r)), Sort::force, r);
   }
   for (std::size_t k = 0; k < structure.kind.size(); ++k) {
-    const int unknown = dae.position_unknown(static_cast<NodeId>(k));
-    if (unknown >= 0) sort_[at(unknown)] = Sort::position;
+    stands_for(dae.velocity_unknown(static_cast<NodeId>(k)), Sort::velocity, k);
+    stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
-  seen_.assign(n, 0);
   foreseen_.assign(n, 0);
-  tolerance_.assign(n, relative);
-  force_seen_.assign(network.deflections.size(), 0);
-  flow_seen_ = noise_ = force_seen_;
+  tolerance_.assign(n, relative_);
 }
 
 void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
-  for (std::size_t i = 0; i < y.size(); ++i) seen_[i] = std::max(seen_[i], std::abs(y[i]));
+  for (std::size_t i = 0; i < y.size(); ++i) seen(quantity_[i]) = std::max(seen(quantity_[i]), std::abs(y[i]));
   for (std::size_t j = 0; j < force_seen_.size(); ++j) {
     force_seen_[j] = std::max(force_seen_[j], std::abs(view.f[j]));
     flow_seen_[j] = std::max(flow_seen_[j], std::abs(view.flow[j]));
   }
-  for (const Network::Motion& m : dae_.network().motions) {
+  for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
+    slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
+  }
+  for (const Network::Motion& m : network_.motions) {
     known_velocity_ = std::max(known_velocity_, std::abs(view.velocity[at(m.node)]));
   }
   for (double f : view.applied) applied_force_ = std::max(applied_force_, std::abs(f));
 }
 
 bool Tolerances::blind() const {
-  std::array<bool, 4> there{}, known{};
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    there[static_cast<std::size_t>(sort_[i])] = true;
-    if (seen_[i] > 0) known[static_cast<std::size_t>(sort_[i])] = true;
+  std::array<bool, sorts> there{}, known{};
+  for (const Quantity& q : quantity_) {
+    there[static_cast<std::size_t>(q.sort)] = true;
+    if (seen(q) > 0) known[static_cast<std::size_t>(q.sort)] = true;
   }
   return there != known;
 }
@@ -78,7 +91,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   for (std::size_t i = 0; i < y.size(); ++i) {
     foreseen_[i] = std::abs(y[i]) + ahead * (std::abs(yp[i]) + ahead / 2 * std::abs(ypp[i]));
   }
-  see(y, dae_.view(t, y.data(), yp.data()));
+  see(y, dae_->view(t, y.data(), yp.data()));
   update(t, yp);
 }
 
@@ -91,24 +104,26 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
 void Tolerances::update(double t, const std::vector<double>& yp) {
   // Time itself is known to half a unit in the last place; what changes meanwhile cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
-  const std::vector<double>& slope = dae_.slopes();
-  std::array<double, 4> largest{};
+  const std::vector<double>& slope = dae_->slopes();
+  std::array<double, sorts> largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
   double force = applied_force_;
   for (double f : force_seen_) force = std::max(force, f);
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    double& l = largest[static_cast<std::size_t>(sort_[i])];
-    l = std::max({l, seen_[i], foreseen_[i]});
-    if (sort_[i] == Sort::force) force = std::max(force, seen_[i]);
-    if (sort_[i] == Sort::deflection) force = std::max(force, std::abs(slope[at(branch_[i])]) * foreseen_[i]);
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    const Quantity& q = quantity_[i];
+    double& l = largest[static_cast<std::size_t>(q.sort)];
+    l = std::max({l, seen(q), foreseen_[i]});
+    if (q.sort == Sort::force) force = std::max(force, seen(q));
+    if (q.sort == Sort::deflection) force = std::max(force, std::abs(slope[q.index]) * foreseen_[i]);
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
 
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    double scale = std::max({seen_[i], foreseen_[i], floor_of_kind * largest[static_cast<std::size_t>(sort_[i])]});
-    if (sort_[i] == Sort::deflection) {
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    const Quantity& q = quantity_[i];
+    double scale = std::max({seen(q), foreseen_[i], floor_of_kind * largest[static_cast<std::size_t>(q.sort)]});
+    if (q.sort == Sort::deflection) {
       // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
-      const std::size_t j = at(branch_[i]);
+      const std::size_t j = q.index;
       const double stiffness = std::abs(slope[j]);
       const double own = std::max(force_seen_[j], stiffness * foreseen_[i]);
       const double by_force = std::max(own, floor_of_kind * force);
@@ -117,12 +132,13 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     tolerance_[i] = std::max(relative_ * (scale > 0 ? scale : 1), grain * std::abs(yp[i]));
   }
   unresolved_velocity_ = relative_ * largest[static_cast<std::size_t>(Sort::velocity)];
-  for (std::size_t j = 0; j < noise_.size(); ++j) {
-    // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
-    const double velocity = unresolved_velocity_ / relative_;
-    noise_[j] = given_[j] ? given_noise * flow_seen_[j]
-                          : noise_share * relative_ * std::max(flow_seen_[j], floor_of_kind * velocity);
-  }
+  // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
+  const double velocity = unresolved_velocity_ / relative_;
+  const auto noise = [&](bool given, double flow) {
+    return given ? given_noise * flow : noise_share * relative_ * std::max(flow, floor_of_kind * velocity);
+  };
+  for (std::size_t j = 0; j < noise_.size(); ++j) noise_[j] = noise(given_[j] != 0, flow_seen_[j]);
+  for (std::size_t k = 0; k < slider_noise_.size(); ++k) slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k]);
 }
 
 }  // namespace rheonet

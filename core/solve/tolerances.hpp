@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/dae/dae.hpp"
@@ -12,8 +13,10 @@ namespace rheonet {
 /// scale is below `floor` times the largest of its kind, so that what is yet to come need not be resolved in every digit.
 class Tolerances {
  public:
-  Tolerances(Dae& dae, double relative);
+  Tolerances(const Network& network, double relative);
 
+  /// Goes over to these equations; what has been seen is kept.
+  void attach(Dae& dae);
   /// True if nothing of some kind (velocity, force, ...) has been seen yet: its scale must be foreseen.
   bool blind() const;
   /// Before a restart at t. Where nothing has been seen, scales come from y, y' and y'' over the time `ahead` (0: do not
@@ -28,23 +31,31 @@ class Tolerances {
   double unresolved_velocity() const { return unresolved_velocity_; }
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
+  double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
 
  private:
   enum class Sort : char { velocity, deflection, force, position };
+  static constexpr std::size_t sorts = 4;
+  /// What an unknown stands for: the velocity or position of a node, the deflection or force of a branch.
+  struct Quantity { Sort sort; std::size_t index; };
+  double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
+  double seen(const Quantity& q) const { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   void see(const std::vector<double>& y, const Dae::View& view);
   void update(double t, const std::vector<double>& yp);
 
-  Dae& dae_;
+  const Network& network_;
+  Dae* dae_ = nullptr;
   double relative_;
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
-  std::vector<Sort> sort_;   ///< of each unknown
-  std::vector<int> branch_;  ///< of each deflection unknown: its branch
-  std::vector<char> given_;  ///< of each branch: its velocity is a function of time alone
-  std::vector<double> seen_, foreseen_;         ///< of each unknown: largest magnitude
-  std::vector<double> force_seen_, flow_seen_;  ///< of each branch
+  std::vector<Quantity> quantity_;                    ///< of each unknown
+  std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
+  std::array<std::vector<double>, sorts> seen_;       ///< largest magnitude of everything that can be an unknown
+  std::vector<double> foreseen_;                      ///< of each unknown
+  std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
+  std::vector<double> slide_seen_;                    ///< of each slider
   double unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
-  std::vector<double> noise_, tolerance_;
+  std::vector<double> noise_, slider_noise_, tolerance_;
 };
 
 }  // namespace rheonet

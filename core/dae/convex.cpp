@@ -1,0 +1,408 @@
+#include "core/dae/convex.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <cmath>
+#include <limits>
+
+namespace rheonet {
+
+namespace {
+
+// A balance of forces is met when it is off by this much of their magnitudes.
+constexpr double balance_rounding = 1e-13;
+constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
+// Forces within a bound by this much of it are within.
+constexpr double bound_rounding = 1e-12;
+// What decides among equals, relative to the smallest of the slopes that count.
+constexpr double weak_share = 1e-9;
+// It may carry this share of a force: more means that nothing else does.
+constexpr double weak_limit = 1e-4;
+// Slopes this much smaller than the largest are left out of that comparison.
+constexpr double negligible = 1e-14;
+
+/// Disjoint sets over 0 .. n-1.
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : rank_(n), parent_(n), sets_(rank_.data(), parent_.data()) {
+    for (std::size_t i = 0; i < n; ++i) sets_.make_set(static_cast<int>(i));
+  }
+  int find(int i) { return sets_.find_set(i); }
+  void join(int i, int j) { sets_.union_set(i, j); }
+
+ private:
+  std::vector<int> rank_, parent_;
+  boost::disjoint_sets<int*, int*> sets_;
+};
+
+}  // namespace
+
+ConvexNetwork::ConvexNetwork(int nodes)
+    : x_(at(nodes), 0), inertia_(x_), rest_(x_), applied_(x_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
+
+void ConvexNetwork::fix(int node, double value) {
+  fixed_[at(node)] = 1;
+  x_[at(node)] = value;
+}
+
+void ConvexNetwork::set_inertia(int node, double inertia, double rest) {
+  inertia_[at(node)] = inertia;
+  rest_[at(node)] = x_[at(node)] = rest;
+}
+
+int ConvexNetwork::add(int a, int b, Law law) {
+  const bool jumps = law.low < law.high;
+  branches_.push_back({a, b, std::move(law), jumps});
+  return static_cast<int>(branches_.size()) - 1;
+}
+
+int ConvexNetwork::direction(int branch) const {
+  const Branch& b = branches_[at(branch)];
+  if (b.stuck) return 0;
+  const double w = difference(b);
+  return w > 0 ? 1 : w < 0 ? -1 : b.jumps ? b.side : 0;
+}
+
+double ConvexNetwork::force(int branch) const {
+  const Branch& b = branches_[at(branch)];
+  return b.stuck ? bond_force_[at(branch)] : force(b, difference(b), b.side);
+}
+
+double ConvexNetwork::force(const Branch& b, double w, int side) const {
+  if (w > 0 || (w == 0 && side > 0)) {
+    double slope;
+    return w > 0 && b.law.beyond ? b.law.beyond(w, slope) + weak_ * w : b.law.high + (b.law.forward + weak_) * w;
+  }
+  double slope;
+  return w < 0 && b.law.beyond ? b.law.beyond(w, slope) + weak_ * w : b.law.low + (b.law.backward + weak_) * w;
+}
+
+double ConvexNetwork::slope(const Branch& b, double w) const {
+  if (w != 0 && b.law.beyond) {
+    double slope = 0;
+    b.law.beyond(w, slope);
+    return slope + weak_;
+  }
+  if (w == 0 && !b.jumps) return std::max(b.law.forward, b.law.backward) + weak_;
+  return (w > 0 || (w == 0 && b.side > 0) ? b.law.forward : b.law.backward) + weak_;
+}
+
+void ConvexNetwork::choose_weak() {
+  double largest = 0, smallest = std::numeric_limits<double>::infinity();
+  const auto each = [&](auto look) {
+    for (const Branch& b : branches_) {
+      look(b.law.forward);
+      look(b.law.backward);
+    }
+    for (double m : inertia_) look(m);
+  };
+  each([&](double slope) { largest = std::max(largest, slope); });
+  each([&](double slope) {
+    if (slope > negligible * largest) smallest = std::min(smallest, slope);
+  });
+  weak_ = largest > 0 ? weak_share * smallest : 1;
+}
+
+/// Everything that moves alike at first sticks; massless nodes go with what they can stick to.
+void ConvexNetwork::stick_at_first() {
+  const std::size_t n = x_.size();
+  Sets sets(n);
+  std::vector<char> heavy(n, 0);  // of each set: its value is given
+  for (std::size_t k = 0; k < n; ++k) heavy[k] = fixed_[k] || inertia_[k] > 0;
+  std::vector<double> value(x_);
+  for (Branch& b : branches_) {
+    if (!b.jumps) continue;
+    const int sa = sets.find(b.a), sb = sets.find(b.b);
+    if (heavy[at(sa)] && heavy[at(sb)] && value[at(sa)] != value[at(sb)]) {
+      b.side = value[at(sa)] > value[at(sb)] ? 1 : -1;
+      continue;
+    }
+    b.stuck = true;
+    if (sa == sb) continue;
+    const bool given = heavy[at(sa)] || heavy[at(sb)];
+    const double common = value[at(heavy[at(sa)] ? sa : sb)];
+    sets.join(sa, sb);
+    heavy[at(sets.find(sa))] = given;
+    value[at(sets.find(sa))] = common;
+  }
+  for (std::size_t k = 0; k < n; ++k) x_[k] = value[at(sets.find(static_cast<int>(k)))];
+}
+
+/// Clusters of the nodes that sticking branches join, all at one value.
+void ConvexNetwork::merge() {
+  Sets sets(x_.size());
+  for (const Branch& b : branches_) {
+    if (b.stuck) sets.join(b.a, b.b);
+  }
+  std::vector<double> weight(x_.size(), -1), value(x_.size(), 0);
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    const int set = cluster_[k] = sets.find(static_cast<int>(k));
+    const double own = fixed_[k] ? std::numeric_limits<double>::infinity() : inertia_[k];
+    if (own > weight[at(set)]) {
+      weight[at(set)] = own;
+      value[at(set)] = x_[k];
+    }
+  }
+  column_.assign(x_.size(), -1);
+  columns_ = 0;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    x_[k] = value[at(cluster_[k])];
+    int& column = column_[at(cluster_[k])];
+    if (std::isfinite(weight[at(cluster_[k])]) && column < 0) column = columns_++;
+  }
+}
+
+/// The sums of forces of all free clusters; true if they are rounding.
+bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
+  gradient.assign(at(columns_), 0);
+  std::vector<double> rounding(gradient);
+  const auto add = [&](int node, double f) {
+    const int column = column_[at(cluster_[at(node)])];
+    if (column < 0) return;
+    gradient[at(column)] += f;
+    rounding[at(column)] += balance_rounding * std::abs(f);
+  };
+  // Values are known to their last digit only.
+  const auto blur = [&](int node, double slope, double x) {
+    const int column = column_[at(cluster_[at(node)])];
+    if (column >= 0) rounding[at(column)] += value_rounding * slope * std::abs(x);
+  };
+  for (const Branch& b : branches_) {
+    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
+    const double f = force(b, difference(b), b.side);
+    add(b.a, f);
+    add(b.b, -f);
+    for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
+  }
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    const int node = static_cast<int>(k);
+    add(node, -applied_[k]);
+    if (inertia_[k] == 0) continue;
+    add(node, inertia_[k] * (x_[k] - rest_[k]));
+    blur(node, inertia_[k], x_[k]);
+  }
+  bool met = true;
+  for (std::size_t c = 0; c < gradient.size(); ++c) met = met && std::abs(gradient[c]) <= rounding[c];
+  return met;
+}
+
+bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Branch& b : branches_) {
+    const int a = column_[at(cluster_[at(b.a)])], c = column_[at(cluster_[at(b.b)])];
+    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
+    const double s = slope(b, difference(b));
+    if (a >= 0) entries.emplace_back(a, a, s);
+    if (c >= 0) entries.emplace_back(c, c, s);
+    if (a >= 0 && c >= 0) {
+      entries.emplace_back(a, c, -s);
+      entries.emplace_back(c, a, -s);
+    }
+  }
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    const int column = column_[at(cluster_[k])];
+    if (column >= 0 && inertia_[k] > 0) entries.emplace_back(column, column, inertia_[k]);
+  }
+  Eigen::SparseMatrix<double> matrix(columns_, columns_);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), columns_);
+  const Eigen::VectorXd step = factor.solve(-g);
+  d.assign(x_.size(), 0);
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    const int column = column_[at(cluster_[k])];
+    if (column >= 0) d[k] = step[column];
+    if (!std::isfinite(d[k])) return false;
+  }
+  return true;
+}
+
+/// Derivative of the convex function along d, at x + step d and to the far side of jumps there.
+double ConvexNetwork::slope_along(const std::vector<double>& d, double step) const {
+  double sum = 0;
+  for (const Branch& b : branches_) {
+    const double dw = d[at(b.a)] - d[at(b.b)];
+    if (dw == 0) continue;
+    double w = difference(b) + step * dw;
+    // The breakpoint of this branch itself, but for rounding.
+    if (std::abs(w) <= 4e-16 * std::abs(step * dw)) w = 0;
+    sum += force(b, w, dw > 0 ? 1 : -1) * dw;
+  }
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    if (d[k] != 0) sum += (inertia_[k] * (x_[k] + step * d[k] - rest_[k]) - applied_[k]) * d[k];
+  }
+  return sum;
+}
+
+/// Goes along d to the minimum; a branch whose jump is that minimum sticks from there on.
+ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
+  struct Break { double step; int branch; };
+  std::vector<Break> breaks;
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const Branch& b = branches_[k];
+    const double w = difference(b), dw = d[at(b.a)] - d[at(b.b)];
+    if (b.jumps && w * dw < 0) breaks.push_back({-w / dw, static_cast<int>(k)});
+  }
+  std::sort(breaks.begin(), breaks.end(), [](const Break& p, const Break& q) { return p.step < q.step; });
+  const auto first = std::partition_point(breaks.begin(), breaks.end(),
+                                          [&](const Break& p) { return slope_along(d, p.step) < 0; });
+  double low = first == breaks.begin() ? 0 : (first - 1)->step, high;
+  const auto move = [&](double step) {
+    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += step * d[k];
+  };
+  if (first != breaks.end()) {
+    high = first->step;
+    const double before = slope_along(d, high * (1 - 1e-14));
+    if (before < 0 || high == low) {
+      move(high);
+      branches_[at(first->branch)].stuck = true;
+      return Outcome::solved;
+    }
+  } else {
+    for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
+      // The last digits of the whole step may be rounding.
+      if (high == 1 && slope_along(d, 1) > -1e-12 * std::abs(slope_along(d, low))) break;
+      if (high > 1e200) return Outcome::unbounded;
+    }
+  }
+  // Within one stretch: exact at once where all is linear.
+  double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
+  for (int k = 0; k < 100 && slope_high > 0; ++k) {
+    const double secant = low + (high - low) * slope_low / (slope_low - slope_high);
+    step = k % 3 == 2 ? (low + high) / 2 : std::min(std::max(secant, low), high);
+    const double slope = slope_along(d, step);
+    if (std::abs(slope) <= 1e-10 * std::max(-slope_low, slope_high) || step == low || step == high) break;
+    (slope < 0 ? low : high) = step;
+    (slope < 0 ? slope_low : slope_high) = slope;
+  }
+  move(step);
+  for (Branch& b : branches_) {
+    if (const double w = difference(b); w != 0) b.side = w > 0 ? 1 : -1;
+  }
+  return Outcome::solved;
+}
+
+/// Forces of least norm in the branches that stick: see bonds.cpp.
+void ConvexNetwork::find_bond_forces() {
+  std::vector<double> left(x_.size(), 0);
+  bond_force_.assign(branches_.size(), 0);
+  for (const Branch& b : branches_) {
+    if (b.stuck) continue;
+    const double f = force(b, difference(b), b.side);
+    left[at(b.a)] += f;
+    left[at(b.b)] -= f;
+  }
+  std::vector<int> row(x_.size(), -1);
+  int rows = 0;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    left[k] += inertia_[k] * (x_[k] - rest_[k]) - applied_[k];
+    // Phi is 0 at fixed nodes, and at one node of each other cluster.
+    const bool reference = column_[at(cluster_[k])] >= 0 && cluster_[k] == static_cast<int>(k);
+    if (!fixed_[k] && !reference) row[k] = rows++;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd phi = Eigen::VectorXd::Zero(rows);
+  std::vector<char> touched(at(rows), 0);
+  for (const Branch& b : branches_) {
+    if (!b.stuck) continue;
+    const int i = row[at(b.a)], j = row[at(b.b)];
+    for (int r : {i, j}) {
+      if (r < 0) continue;
+      entries.emplace_back(r, r, 1);
+      touched[at(r)] = 1;
+    }
+    if (i >= 0 && j >= 0) {
+      entries.emplace_back(i, j, -1);
+      entries.emplace_back(j, i, -1);
+    }
+  }
+  for (int r = 0; r < rows; ++r) {
+    if (!touched[at(r)]) entries.emplace_back(r, r, 1);
+  }
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
+  }
+  if (rows > 0) {
+    Eigen::SparseMatrix<double> matrix(rows, rows);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    phi = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(phi);
+  }
+  const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    if (branches_[k].stuck) bond_force_[k] = potential(branches_[k].a) - potential(branches_[k].b);
+  }
+}
+
+/// Lets go of the branches whose force is beyond its jump; false if there are none.
+bool ConvexNetwork::release() {
+  find_bond_forces();
+  const std::vector<double>& f = bond_force_;
+  std::vector<std::pair<double, int>> beyond;
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const Branch& b = branches_[k];
+    if (!b.stuck) continue;
+    const double over = std::max(f[k] - b.law.high, b.law.low - f[k]);
+    if (over > bound_rounding * (std::abs(b.law.low) + std::abs(b.law.high))) beyond.push_back({over, static_cast<int>(k)});
+  }
+  std::sort(beyond.begin(), beyond.end(), std::greater<>());
+  released_.clear();
+  for (const auto& [over, k] : beyond) {
+    Branch& b = branches_[at(k)];
+    b.stuck = false;
+    b.side = f[at(k)] > b.law.high ? 1 : -1;
+    released_.push_back(k);
+  }
+  return !beyond.empty();
+}
+
+/// True if only what decides among equals has held something back.
+bool ConvexNetwork::run_away() {
+  double scale = 0;
+  for (const Branch& b : branches_) {
+    scale = std::max({scale, std::abs(b.law.low), std::abs(b.law.high), std::abs(force(b, difference(b), b.side))});
+  }
+  for (const Branch& b : branches_) {
+    if (b.stuck || std::abs(weak_ * difference(b)) <= weak_limit * scale) continue;
+    for (int node : {b.a, b.b}) {
+      if (column_[at(cluster_[at(node)])] >= 0) runaways_.push_back(node);
+    }
+  }
+  return !runaways_.empty();
+}
+
+ConvexNetwork::Outcome ConvexNetwork::solve() {
+  choose_weak();
+  stick_at_first();
+  released_.clear();
+  std::vector<double> gradient, d;
+  const std::size_t rounds = 200 + 20 * branches_.size();
+  for (std::size_t round = 0; round < rounds; ++round) {
+    merge();
+    if (balanced(gradient)) {
+      if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
+      continue;
+    }
+    if (!direction_of_descent(gradient, d)) return Outcome::undecided;
+    if (!(slope_along(d, 0) < 0)) {
+      // What was let go together holds itself back: then one at a time. If one alone does, it is rounding.
+      if (released_.empty()) return Outcome::solved;
+      const bool alone = released_.size() == 1;
+      for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
+      if (alone) return Outcome::solved;
+      released_.resize(1);
+      continue;
+    }
+    const Outcome outcome = search(d);
+    if (outcome == Outcome::unbounded) {
+      for (std::size_t k = 0; k < x_.size(); ++k) {
+        if (d[k] != 0) runaways_.push_back(static_cast<int>(k));
+      }
+      return outcome;
+    }
+  }
+  return Outcome::undecided;
+}
+
+}  // namespace rheonet

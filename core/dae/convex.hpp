@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <functional>
+#include <vector>
+
+namespace rheonet {
+
+/// A network of set-valued monotone laws, and the values x of its nodes at which everything balances:
+///
+///     inertia_n (x_n - rest_n) + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
+///
+/// the minimum of a convex function, found by Newton's method on an active set with exact line search. A branch whose law
+/// jumps at 0 joins its ends while its force stays within the jump. x stands for velocities, or for displacements: see
+/// onset.cpp and jump.cpp.
+class ConvexNetwork {
+ public:
+  struct Law {
+    double low = 0, high = 0;          ///< force at w = 0 lies between them
+    double backward = 0, forward = 0;  ///< slopes for w < 0 and w > 0
+    /// If given: force and slope for w != 0, in place of low + backward w and high + forward w.
+    std::function<double(double w, double& slope)> beyond = {};
+  };
+
+  explicit ConvexNetwork(int nodes);
+  void fix(int node, double value);
+  void guess(int node, double value) { x_[at(node)] = value; }
+  void load(int node, double applied) { applied_[at(node)] += applied; }
+  void set_inertia(int node, double inertia, double rest);
+  /// Returns the index of the branch.
+  int add(int a, int b, Law law);
+
+  enum class Outcome {
+    solved,
+    unbounded,  ///< nothing balances what is applied, however large x
+    undecided,  ///< rounding stands in the way
+  };
+  Outcome solve();
+
+  double value(int node) const { return x_[at(node)]; }
+  /// Of a branch, after `solve`.
+  double force(int branch) const;
+  /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound where others keep its ends together.
+  int direction(int branch) const;
+  /// Nodes that ran away, if the outcome is `unbounded`.
+  const std::vector<int>& runaways() const { return runaways_; }
+
+ private:
+  struct Branch {
+    int a, b;
+    Law law;
+    bool jumps, stuck = false;
+    int side = 1;  ///< where it is free and w is 0
+  };
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  double difference(const Branch& b) const { return x_[at(b.a)] - x_[at(b.b)]; }
+  double force(const Branch& b, double w, int side) const;
+  double slope(const Branch& b, double w) const;
+  double slope_along(const std::vector<double>& d, double step) const;
+  void choose_weak();
+  void stick_at_first();
+  void merge();
+  bool balanced(std::vector<double>& gradient) const;
+  bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d);
+  Outcome search(const std::vector<double>& d);
+  bool release();
+  bool run_away();
+  void find_bond_forces();
+
+  std::vector<double> x_, inertia_, rest_, applied_;
+  std::vector<char> fixed_;
+  std::vector<Branch> branches_;
+  double weak_ = 0;           ///< slope that decides among equals
+  std::vector<int> cluster_;  ///< of each node: the cluster that sticking branches make
+  std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
+  int columns_ = 0;
+  std::vector<int> released_;  ///< at the last release, the worst first
+  std::vector<int> runaways_;
+  std::vector<double> bond_force_;  ///< of each branch that sticks
+};
+
+}  // namespace rheonet

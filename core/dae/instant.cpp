@@ -1,0 +1,331 @@
+#include "core/dae/instant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dae/convex.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// How far ahead it is looked: a share of the time until something is known to happen, and of the network's own times.
+constexpr double share_of_horizon = 1e-7;
+constexpr double share_of_network = 1e-3;
+// Roundings of the time: less is no time at all.
+constexpr double time_grains = 64;
+// Forces that balance but for this share of their magnitudes balance.
+constexpr double balance_rounding = 1e-12;
+// Velocities that differ by this share of their magnitudes are equal.
+constexpr double velocity_rounding = 1e-14;
+// A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
+constexpr double difference_limit = 1e-6;
+
+}  // namespace
+
+Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
+    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0) {}
+
+double Instant::bound(std::size_t k) const {
+  const Slip& law = network_.sliders[k].law;
+  return broken_[k] ? law.coulomb : law.breakaway;
+}
+
+Instant::Change Instant::cross(double t, double horizon, bool stepped, const std::vector<int>& fired, State& state,
+                               Modes& modes, std::vector<double>& force) {
+  Change change;
+  const Modes before = modes;
+  drive_.evaluate(t);
+  std::vector<double> dx(structure_.kind.size(), 0);
+  if (stepped) position_steps(t, dx, change.notes);
+  halt(fired, modes, state);
+  for (std::size_t k = 0; k < broken_.size(); ++k) {
+    const bool event = std::find(fired.begin(), fired.end(), static_cast<int>(k)) != fired.end();
+    broken_[k] = modes.slider[k] != Modes::stuck && !event;
+  }
+  // What breaks away under more than its force of sliding lets go of the difference: others may follow.
+  for (bool again = true; again;) {
+    jump(t, stepped, dx, state, modes, force, change);
+    std::fill(dx.begin(), dx.end(), 0.0);
+    const std::vector<int> broken = onset(t, time_ahead(t, horizon, state), stepped ? std::vector<int>{} : fired, state,
+                                          modes, force, change);
+    for (int k : broken) broken_[at(k)] = 1;
+    again = !broken.empty();
+    stepped = false;
+  }
+  for (std::size_t k = 0; k < modes.slider.size(); ++k) {
+    if (modes.slider[k] != before.slider[k]) change.switched.push_back(static_cast<int>(k));
+  }
+  return change;
+}
+
+/// A time in which neither the drive nor the network itself changes its course [s].
+double Instant::time_ahead(double t, double horizon, const State& state) const {
+  const std::size_t nodes = structure_.kind.size();
+  std::vector<double> stiffness(nodes, 0), damping(nodes, 0);
+  double fastest = 0;
+  const auto add = [](std::vector<double>& sum, const Branch& b, double x) {
+    sum[at(b.a)] += x;
+    sum[at(b.b)] += x;
+  };
+  std::vector<double> f(state.p.size()), df(f), c(f), dc(f);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&state.p[k], &f[k], &df[k], &c[k], &dc[k]);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const double slope = std::max(laws.batch->slope(i, state.p[k + i], 1), laws.batch->slope(i, state.p[k + i], -1));
+      add(stiffness, network_.deflections[k + i], slope);
+      if (laws.batch->creeps(i) && df[k + i] != 0) fastest = std::max(fastest, slope * std::abs(dc[k + i] / df[k + i]));
+    }
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      const double impulse = laws.batch->impulse(i);
+      if (impulse > 0 && std::isfinite(impulse)) {
+        add(damping, b, impulse);
+      } else if (w != 0) {
+        add(damping, b, laws.batch->force_at(i, w) / w);
+      }
+    }
+  }
+  for (std::size_t n = 1; n < nodes; ++n) {
+    const double m = structure_.mass[n];
+    if (structure_.kind[n] == Kind::known) continue;
+    if (m > 0) fastest = std::max({fastest, damping[n] / m, std::sqrt(stiffness[n] / m)});
+    if (m == 0 && damping[n] > 0) fastest = std::max(fastest, stiffness[n] / damping[n]);
+  }
+  double ahead = share_of_horizon * horizon;
+  if (fastest > 0) ahead = std::min(ahead, share_of_network / fastest);
+  return std::max(ahead, time_grains * std::numeric_limits<double>::epsilon() * std::abs(t));
+}
+
+/// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
+/// velocity is the rounding of the event.
+void Instant::halt(const std::vector<int>& fired, const Modes& modes, State& state) const {
+  if (fired.empty()) return;
+  Modes held = modes;
+  for (int k : fired) held.slider[at(k)] = Modes::stuck;
+  std::vector<std::vector<NodeId>> around(structure_.kind.size());
+  for (std::size_t k = 0; k < held.slider.size(); ++k) {
+    if (held.slider[k] != Modes::stuck) continue;
+    const Branch& b = network_.sliders[k].branch;
+    around[at(b.a)].push_back(b.b);
+    around[at(b.b)].push_back(b.a);
+  }
+  std::vector<char> seen(structure_.kind.size(), 0);
+  for (int k : fired) {
+    std::vector<NodeId> cluster{network_.sliders[at(k)].branch.a};
+    if (seen[at(cluster[0])]) continue;
+    seen[at(cluster[0])] = 1;
+    double momentum = 0, mass = 0, known = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t c = 0; c < cluster.size(); ++c) {
+      const NodeId node = cluster[c];
+      if (structure_.kind[at(node)] == Kind::known) {
+        known = structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
+      }
+      momentum += structure_.mass[at(node)] * state.velocity[at(node)];
+      mass += structure_.mass[at(node)];
+      for (NodeId other : around[at(node)]) {
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        cluster.push_back(other);
+      }
+    }
+    if (std::isnan(known) && mass == 0) continue;
+    for (NodeId node : cluster) state.velocity[at(node)] = std::isnan(known) ? momentum / mass : known;
+  }
+}
+
+Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& slider_force, bool rates) const {
+  Nodal result{std::vector<double>(structure_.kind.size(), 0), std::vector<double>(structure_.kind.size(), 0)};
+  const auto add = [&](NodeId node, double f) {
+    if (node < 0) return;
+    result.sum[at(node)] += f;
+    result.magnitude[at(node)] += std::abs(f);
+  };
+  const auto add_branch = [&](const Branch& b, double f) {
+    add(b.a, f);
+    add(b.b, -f);
+  };
+  std::vector<double> f(state.p.size()), c(f);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    laws.batch->evaluate(&state.p[at(laws.first)], &f[at(laws.first)], &c[at(laws.first)]);
+  }
+  for (std::size_t j = 0; j < f.size(); ++j) add_branch(network_.deflections[j], f[j]);
+  for (std::size_t k = 0; k < slider_force.size(); ++k) add_branch(network_.sliders[k].branch, slider_force[k]);
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; rates && i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      add_branch(b, laws.batch->force_at(i, state.velocity[at(b.a)] - state.velocity[at(b.b)]));
+    }
+  }
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    add(network_.forces[k].a, -drive_.force[k]);
+    add(network_.forces[k].b, drive_.force[k]);
+  }
+  return result;
+}
+
+// Over a short time h the network is, with velocities v at its end, forces counted from those at its beginning, and E, c the
+// slope and creep of a law in the direction of w,
+//
+//     (m/h) (v - v0) + sum of +-[ B w,  h E (w - c),  a slider's within its bounds ] = dF - what is unbalanced now
+//
+// Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level at which the velocity of
+// each slider lives.
+std::vector<int> Instant::onset(double t, double h, const std::vector<int>& fired, State& state, Modes& modes,
+                                std::vector<double>& force, Change& change) {
+  const std::size_t nodes = structure_.kind.size();
+  ConvexNetwork problem(static_cast<int>(nodes));
+  const Nodal now = nodal(state, force, false);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const int node = static_cast<int>(n);
+    problem.guess(node, state.velocity[n]);
+    if (structure_.kind[n] == Kind::massive) problem.set_inertia(node, structure_.mass[n] / h, state.velocity[n]);
+    if (std::abs(now.sum[n]) > balance_rounding * now.magnitude[n]) problem.load(node, -now.sum[n]);
+  }
+  problem.fix(ground, 0);
+  drive_.evaluate(t);
+  const std::vector<double> velocity = drive_.velocity, acceleration = drive_.acceleration, load = drive_.force,
+                            load_rate = drive_.force_rate;
+  drive_.evaluate(t + h);
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
+    // A difference of two near values says nothing; where the rate is 0 it is all there is.
+    problem.fix(network_.motions[m].node,
+                acceleration[m] != 0 ? velocity[m] + h * acceleration[m] : drive_.velocity[m]);
+  }
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
+                                      ? load_rate[k] * h
+                                      : drive_.force[k] - load[k];
+    problem.load(network_.forces[k].a, change_of_load);
+    if (network_.forces[k].b >= 0) problem.load(network_.forces[k].b, -change_of_load);
+  }
+  drive_.evaluate(t);
+
+  std::vector<double> f(state.p.size()), c(f);
+  std::vector<int> deflection_branch(state.p.size()), slider_branch(network_.sliders.size());
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.deflections[k + i];
+      const double forward = h * laws.batch->slope(i, state.p[k + i], 1);
+      const double backward = h * laws.batch->slope(i, state.p[k + i], -1);
+      const double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
+      deflection_branch[k + i] = problem.add(b.a, b.b, {.low = low, .high = high, .backward = backward, .forward = forward});
+    }
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      problem.add(b.a, b.b, law_of(*laws.batch, i, now));
+    }
+  }
+  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const double limit = bound(k);
+    ConvexNetwork::Law law{.low = -limit - force[k], .high = limit - force[k]};
+    // At its bound the rate alone decides, not the rounding of the event.
+    if (std::find(fired.begin(), fired.end(), static_cast<int>(k)) != fired.end() && modes.slider[k] == Modes::stuck) {
+      (force[k] > 0 ? law.high : law.low) = 0;
+    }
+    slider_branch[k] = problem.add(b.a, b.b, law);
+  }
+
+  if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
+    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
+    throw SimulationError(fmt::format(
+        "at t = {:.6g} s it cannot be decided which sliders begin to slip: the forces on them differ by rounding only", t));
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(static_cast<int>(n));
+  }
+  take_directions(problem, deflection_branch, state, change);
+  std::vector<int> broken;
+  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
+    const int direction = problem.direction(slider_branch[k]);
+    modes.slider[k] = static_cast<signed char>(direction);
+    const Slip& law = network_.sliders[k].law;
+    if (direction != 0 && !broken_[k] && law.breakaway > law.coulomb) broken.push_back(static_cast<int>(k));
+  }
+  return broken;
+}
+
+/// A law of velocity alone, and where it has no finite slope at rest one that leads away from there.
+ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, const Nodal& now) {
+  const double impulse = batch.impulse(i);
+  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse};
+  double scale = 0;
+  for (double f : now.magnitude) scale = std::max(scale, f);
+  if (scale == 0) scale = 1;
+  const double secant = scale / batch.velocity_at(i, scale);
+  return {.backward = secant, .forward = secant, .beyond = [&batch, i](double w, double& slope) {
+            const double f = batch.force_at(i, w);
+            // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
+            slope = f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
+            return f;
+          }};
+}
+
+void Instant::take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const State& state,
+                              Change& change) {
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->events(i) == 0) continue;
+      const int j = laws.first + static_cast<int>(i);
+      const Branch& b = network_.deflections[at(j)];
+      const double va = problem.value(b.a), vb = problem.value(b.b), w = va - vb;
+      const int direction =
+          std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
+      if (direction == 0) {
+        const auto massless = [&](NodeId node) {
+          return structure_.kind[at(node)] == Kind::viscous || structure_.kind[at(node)] == Kind::floating;
+        };
+        if (laws.batch->can_hold(i) && (massless(b.a) || massless(b.b))) {
+          change.standing.push_back(j);
+        } else if (!laws.batch->fits(i, 0)) {
+          laws.batch->set_direction(i, state.p[at(j)], 0, 0);
+        }
+      } else if (!laws.batch->fits(i, w)) {
+        laws.batch->set_direction(i, state.p[at(j)], w, direction);
+        change.turned.push_back(j);
+      }
+    }
+  }
+}
+
+void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
+  std::vector<int> nodes = runaways;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<char> in(structure_.kind.size(), 0);
+  std::string names, elements;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    in[at(nodes[k])] = 1;
+    if (k < 5) names += fmt::format("{}`{}`", k ? ", " : "", network_.node_name(nodes[k]));
+  }
+  if (nodes.size() > 5) names += fmt::format(" and {} more", nodes.size() - 5);
+  int count = 0;
+  const auto mention = [&](const Branch& b) {
+    if ((in[at(b.a)] || in[at(b.b)]) && ++count <= 5) {
+      elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", network_.name_of(b));
+    }
+  };
+  for (const Network::Slider& s : network_.sliders) mention(s.branch);
+  for (const Branch& b : network_.deflections) mention(b);
+  throw SimulationError(fmt::format(
+      "at t = {:.9g} s nothing resists the force at node{} {}: {} there {} at the largest force that {} can take; give the node "
+      "a mass or a dashpot, or apply less force",
+      t, nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements, count == 1 ? "is" : "are",
+      count == 1 ? "it" : "they"));
+}
+
+}  // namespace rheonet

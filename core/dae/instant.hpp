@@ -1,0 +1,56 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/dae/convex.hpp"
+#include "core/dae/drive.hpp"
+#include "core/dae/state.hpp"
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// What happens within one instant: steps of the drive, jumps of what has no inertia, and what begins to move, in which
+/// direction. Both questions are convex problems over all elements at once (see convex.hpp): no mode is guessed.
+class Instant {
+ public:
+  /// `classified` is the network's structure with every slider slipping. All must outlive this.
+  Instant(const Network& network, const Structure& classified, Drive& drive);
+
+  struct Change {
+    double heat = 0;                 ///< turned into heat within the instant [J]
+    std::vector<std::string> notes;  ///< impulses
+    std::vector<int> turned;         ///< deflection branches whose memory changed its direction
+    std::vector<int> switched;       ///< sliders whose mode changed
+    std::vector<int> standing;       ///< deflection branches that both directions hold at rest
+  };
+  /// Takes the state over the instant t, just after Drive::enter if `stepped`, and finds the modes that hold from there on.
+  /// `force` are the forces of the sliders before, `fired` those whose event it is; `horizon` is a time until something is
+  /// known to happen. Throws SimulationError where nothing balances the forces.
+  Change cross(double t, double horizon, bool stepped, const std::vector<int>& fired, State& state, Modes& modes,
+               std::vector<double>& force);
+
+ private:
+  struct Nodal { std::vector<double> sum, magnitude; };
+  double time_ahead(double t, double horizon, const State& state) const;
+  void position_steps(double t, std::vector<double>& dx, std::vector<std::string>& notes) const;
+  /// Displacements within the instant; true if anything moved.
+  bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, const Modes& modes,
+            std::vector<double>& force, Change& change);
+  void halt(const std::vector<int>& fired, const Modes& modes, State& state) const;
+  /// The modes; returns the sliders that break away under a force above their own of sliding.
+  std::vector<int> onset(double t, double ahead, const std::vector<int>& fired, State& state, Modes& modes,
+                         std::vector<double>& force, Change& change);
+  static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, const Nodal& now);
+  void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const State& state, Change& change);
+  Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
+  double bound(std::size_t slider) const;
+  [[noreturn]] void report_runaway(double t, const std::vector<int>& nodes) const;
+
+  const Network& network_;
+  const Structure& structure_;
+  Drive& drive_;
+  std::vector<char> broken_;  ///< of each slider: its bound is that of sliding
+};
+
+}  // namespace rheonet

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+namespace rheonet {
+
+/// Where a network is, whatever its modes: what goes from the equations of one mode to those of the next.
+struct State {
+  std::vector<double> velocity;  ///< of each node [m/s]; of massless nodes a guess
+  std::vector<double> p;         ///< deflection of each deflection branch [m]
+  std::vector<double> position;  ///< of each node [m]; kept up for those that are asked for
+  std::vector<double> offset;    ///< displacement less deflection of each deflection branch that does not creep [m]: constant
+};
+
+}  // namespace rheonet

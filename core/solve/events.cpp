@@ -1,0 +1,67 @@
+#include "core/solve/events.hpp"
+
+#include <cmath>
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Rounding of a force that is compared with its bound.
+constexpr double force_rounding = 1e-12;
+
+}  // namespace
+
+NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes)
+    : dae_(dae), consistency_(consistency), tolerances_(tolerances), modes_(modes) {
+  const Structure& structure = dae.structure();
+  const auto floating = [&](const Branch& b) {
+    return b.a != b.b && (structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0);
+  };
+  for (const Laws<DeflectionBatch>& laws : dae.network().deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const int branch = laws.first + static_cast<int>(i);
+      if (laws.batch->events(i) == 0) continue;
+      watched_.push_back({laws.batch.get(), i, branch});
+      rates_needed_ = rates_needed_ || floating(structure.deflections[at(branch)]);
+      for (int k = 0; k < laws.batch->events(i); ++k) events_.push_back({branch, k});
+    }
+  }
+  for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
+    // What slips within a cluster is held at its bound by the others: it has no event of its own.
+    const Branch& b = structure.sliders[k];
+    if (!structure.stuck[k] && b.a == b.b) continue;
+    rates_needed_ = rates_needed_ || floating(b);
+    sliders_.push_back(static_cast<int>(k));
+    events_.push_back({static_cast<int>(k), -1});
+  }
+}
+
+double NetworkEvents::slider_function(int k, const Dae::View& view) const {
+  const Slip& law = dae_.network().sliders[at(k)].law;
+  if (dae_.structure().stuck[at(k)]) return law.breakaway * (1 + force_rounding) - std::abs(view.slider_force[at(k)]);
+  return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k);
+}
+
+void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {
+  // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of the
+  // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
+  if (rates_needed_) {
+    y_.assign(y, y + dae_.size());
+    try {
+      consistency_.derivative(t, y_, yp_);
+      yp = yp_.data();
+    } catch (const SimulationError&) {  // the step itself will tell
+    }
+  }
+  const Dae::View& view = dae_.view(t, y, yp);
+  for (const Watched& w : watched_) {
+    const std::size_t j = at(w.branch);
+    w.batch->event_functions(w.i, view.p[j], view.dp[j], view.flow[j], tolerances_.noise(w.branch), g);
+    g += w.batch->events(w.i);
+  }
+  for (int k : sliders_) *g++ = slider_function(k, view);
+}
+
+}  // namespace rheonet

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dae/consistency.hpp"
+#include "core/dae/dae.hpp"
+#include "core/solve/integrator.hpp"
+#include "core/solve/tolerances.hpp"
+
+namespace rheonet {
+
+/// Event functions of all laws and sliders that have any, along the equations of one mode.
+class NetworkEvents final : public EventFunctions {
+ public:
+  struct Which {
+    int branch;  ///< deflection branch, or slider
+    int which;   ///< event of a deflection law; -1 for a slider's
+  };
+
+  /// `modes` are the present ones; all must outlive this.
+  NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
+
+  int count() const override { return static_cast<int>(events_.size()); }
+  void evaluate(double t, const double* y, const double* yp, double* g) override;
+  const Which& operator[](std::size_t k) const { return events_[k]; }
+
+ private:
+  struct Watched {
+    DeflectionBatch* batch;
+    std::size_t i;
+    int branch;
+  };
+  double slider_function(int slider, const Dae::View& view) const;
+
+  Dae& dae_;
+  Consistency& consistency_;
+  const Tolerances& tolerances_;
+  const Modes& modes_;
+  bool rates_needed_ = false;
+  std::vector<double> y_, yp_;
+  std::vector<Watched> watched_;
+  std::vector<int> sliders_;
+  std::vector<Which> events_;
+};
+
+}  // namespace rheonet
