@@ -8,14 +8,16 @@ namespace rheonet {
 void Dae::find_bundles() {
   std::map<std::pair<NodeId, NodeId>, std::vector<int>> by_ends;
   for (std::size_t j = 0; j < ip_.size(); ++j) {
-    const Branch& b = network_->deflections[j];
+    const Branch& b = structure_->deflections[j];
     std::size_t i = 0;
-    if (ip_[j] >= 0 && batch_of(static_cast<int>(j), i).can_hold(i)) {
+    if (ip_[j] >= 0 && b.a != b.b && batch_of(static_cast<int>(j), i).can_hold(i)) {
       by_ends[std::minmax(b.a, b.b)].push_back(static_cast<int>(j));
     }
   }
   std::vector<char> in_tree(ip_.size(), 0);
-  for (const Structure::Group& g : structure_->groups) in_tree[at(g.tree_branch)] = 1;
+  for (const Structure::Group& g : structure_->groups) {
+    if (g.tree_branch >= 0) in_tree[at(g.tree_branch)] = 1;
+  }
   for (auto& [ends, branches] : by_ends) {
     if (branches.size() < 2) continue;
     // A branch of the tree has no loop of its own whose equation could be given up: it leads.
@@ -45,11 +47,11 @@ std::vector<int> Dae::release_bundle(int branch, double w) {
   std::vector<int> released_branches;
   std::size_t i = 0;
   const int direction = batch_of(branch, i).direction(i);
-  const Branch& released = network_->deflections[at(branch)];
+  const Branch& released = structure_->deflections[at(branch)];
   for (const Bundle& bundle : bundles_) {
     if (std::find(bundle.branches.begin(), bundle.branches.end(), branch) == bundle.branches.end()) continue;
     for (int j : bundle.branches) {
-      const double side = network_->deflections[at(j)].a == released.a ? 1 : -1;
+      const double side = structure_->deflections[at(j)].a == released.a ? 1 : -1;
       DeflectionBatch& batch = batch_of(j, i);
       if (!batch.holds(i)) continue;
       batch.set_direction(i, view_.p[at(j)], side * w, static_cast<int>(side) * direction);
@@ -64,7 +66,7 @@ Dae::Shared Dae::share(const Follower& follower, double leader_rate) const {
   const DeflectionBatch& own = batch_of(follower.branch, i);
   const DeflectionBatch& lead = batch_of(follower.leader, l);
   // With opposite ends the same motion is forward for one and backward for the other.
-  const bool same = network_->deflections[at(follower.branch)].a == network_->deflections[at(follower.leader)].a;
+  const bool same = structure_->deflections[at(follower.branch)].a == structure_->deflections[at(follower.leader)].a;
   const auto rate = [&](const Dual& p_own, const Dual& p_lead, const Dual& rate_lead) {
     Dual forward, backward, lead_forward, lead_backward;
     own.hold_rates(i, p_own, forward, backward);

@@ -42,7 +42,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const std
   const Modes before = modes;
   drive_.evaluate(t);
   std::vector<double> dx(structure_.kind.size(), 0);
-  if (stepped) position_steps(t, dx, change.notes);
+  if (stepped) position_steps(t, dx, state, change.notes);
   halt(fired, modes, state);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = std::find(fired.begin(), fired.end(), static_cast<int>(k)) != fired.end();

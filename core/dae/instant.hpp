@@ -33,7 +33,8 @@ class Instant {
  private:
   struct Nodal { std::vector<double> sum, magnitude; };
   double time_ahead(double t, double horizon, const State& state) const;
-  void position_steps(double t, std::vector<double>& dx, std::vector<std::string>& notes) const;
+  /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
+  void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const;
   /// Displacements within the instant; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, const Modes& modes,
             std::vector<double>& force, Change& change);

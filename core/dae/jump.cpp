@@ -21,7 +21,7 @@ constexpr double balance_rounding = 1e-12;
 
 /// Within an instant a linear dashpot turns a step into the impulse B dx; masses stay where they are; massless nodes
 /// between dashpots go where the impulses balance, sum B (dx_a - dx_b) = 0. Laws that know no impulse do not resist.
-void Instant::position_steps(double t, std::vector<double>& dx, std::vector<std::string>& notes) const {
+void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const {
   const Network& network = network_;
   const Structure& structure = structure_;
   bool any = false;
@@ -78,6 +78,8 @@ void Instant::position_steps(double t, std::vector<double>& dx, std::vector<std:
     const Branch& b = network.rates[r];
     const double step = dx[at(b.a)] - dx[at(b.b)];
     if (std::abs(step) <= 1e-12 * (std::abs(dx[at(b.a)]) + std::abs(dx[at(b.b)]))) continue;
+    if (structure.kind[at(b.a)] == Kind::massive) state.velocity[at(b.a)] -= damping[r] * step / structure.mass[at(b.a)];
+    if (structure.kind[at(b.b)] == Kind::massive) state.velocity[at(b.b)] += damping[r] * step / structure.mass[at(b.b)];
     notes.push_back(fmt::format(
         "at t = {:.6g} s a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which "
         "no row shows and the energy account leaves out",

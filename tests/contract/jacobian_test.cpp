@@ -78,7 +78,6 @@ void compare(Dae& dae, double t, const std::vector<double>& y, const std::vector
 TEST_CASE("contract: Jacobian of the assembled equations") {
   for_each(cases(), [](const Case& c, const Situation& situation) {
     Probe probe(situation.scene);
-    const std::vector<double> scale = scales(probe, c.place.domain);
     Random random(c.seed);
     Result result;
     probe.along(29, 1, [&](double t, std::vector<double> y, std::vector<double> yp) {
@@ -87,6 +86,7 @@ TEST_CASE("contract: Jacobian of the assembled equations") {
         y[k] += 0.02 * random.uniform(-1, 1) * scale[k];
         yp[k] += random.uniform(-1, 1) * scale[k] / typical.time;
       }
+      const std::vector<double> scale = scales(probe, c.place.domain);
       compare(probe.dae(), t, y, yp, random.around(1, 100) / typical.time, scale, result);
     });
     CHECK_MESSAGE(result.worst <= 1, "off by " << result.worst << " times what is allowed");

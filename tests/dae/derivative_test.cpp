@@ -49,6 +49,7 @@ TEST_CASE("y' of a consistent state satisfies the equations and their derivative
   std::vector<double> r(n), largest(n, 0), worst(n, 0), moved(n);
   probe.along(7, 1, [&](double t, const std::vector<double>& y, const std::vector<double>& yp) {
     ++visits;
+    Dae& dae = probe.dae();
     dae.residual(t, y.data(), yp.data(), r.data());
     for (std::size_t i = 0; i < n; ++i) {
       if (dae.differential(static_cast<int>(i))) worst[i] = std::max(worst[i], std::abs(r[i]));

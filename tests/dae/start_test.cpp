@@ -23,13 +23,8 @@ Signal step(double height) { return Signal(Signal::Step{height, 0, 0}); }
 class Started {
  public:
   explicit Started(const SceneBuilder& builder)
-      : scene_(builder.finish(1, 10, 1e-6)), probe_(scene_), consistency_(probe_.dae()) {
-    Dae& dae = probe_.dae();
-    dae.initial(0, y_);
-    dae.drive().enter(0);
-    jump = consistency_.jump(0, y_);
-    consistency_.derivative(0, y_, yp_);
-    view_ = dae.view(0, y_.data(), yp_.data());
+      : scene_(builder.finish(1, 10, 1e-6)), probe_(scene_), jump(probe_.change()) {
+    view_ = probe_.dae().view(0, probe_.y().data(), probe_.yp().data());
   }
 
   double velocity(const std::string& node) const { return view_.velocity[at(id(node))]; }
@@ -41,10 +36,8 @@ class Started {
   }
   double deflection(const std::string& element) const { return view_.p[at(place_of(element).index)]; }
   double deflection_rate(const std::string& element) const { return view_.dp[at(place_of(element).index)]; }
-  double acceleration(const std::string& node) const { return yp_[at(probe_.dae().velocity_unknown(id(node)))]; }
+  double acceleration(const std::string& node) const { return probe_.yp()[at(probe_.dae().velocity_unknown(id(node)))]; }
   const Dae::View& view() const { return view_; }
-
-  Consistency::Jump jump;
 
  private:
   NodeId id(const std::string& node) const {
@@ -64,9 +57,10 @@ class Started {
 
   Scene scene_;
   mutable Probe probe_;
-  Consistency consistency_;
-  std::vector<double> y_, yp_;
   Dae::View view_;
+
+ public:
+  const Instant::Change& jump;
 };
 
 doctest::Approx exactly(double value) { return doctest::Approx(value).epsilon(digits); }

@@ -17,6 +17,10 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+Modes all_slip(const Network& network) {
+  return {std::vector<signed char>(network.sliders.size(), Modes::forward)};
+}
+
 /// A scene, its network and its structure, and how to ask for parts of them by name.
 struct Analysed {
   Scene scene;
@@ -24,7 +28,7 @@ struct Analysed {
   Structure structure;
 
   explicit Analysed(const SceneBuilder& builder)
-      : scene(builder.finish(1, 10, 1e-6)), network(build_network(scene)), structure(analyse(network)) {}
+      : scene(builder.finish(1, 10, 1e-6)), network(build_network(scene)), structure(analyse(network, all_slip(network))) {}
   Analysed(const Analysed&) = delete;  // the network points to the scene
 
   NodeId node(const std::string& name) const {

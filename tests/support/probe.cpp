@@ -12,10 +12,14 @@ constexpr long most_steps = 1000000;
 
 class Visitor final : public Observer {
  public:
-  Visitor(Dae& dae, int every, int samples, const Visit& visit)
-      : consistency_(dae), every_(every), samples_(samples), visit_(visit) {}
+  Visitor(Dae*& dae, int every, int samples, const Visit& visit)
+      : dae_(dae), every_(every), samples_(samples), visit_(visit) {}
 
-  void begin(double, const std::vector<double>&, const std::vector<double>&, double) override {}
+  void begin(Dae& dae, Consistency& consistency, double, const std::vector<double>&, const std::vector<double>&,
+             double) override {
+    dae_ = &dae;
+    consistency_ = &consistency;
+  }
   void step(const Integrator& integrator) override {
     if (steps_ > most_steps) throw SimulationError("the run gets nowhere");
     if (steps_++ % every_ != 0) return;
@@ -24,7 +28,7 @@ class Visitor final : public Observer {
       // Not the ends of a step: there a law may be at an event, on a kink.
       const double t = a + (b - a) * (k + 0.5) / samples_;
       integrator.interpolate(t, 0, y_);
-      consistency_.derivative(t, y_, yp_);
+      consistency_->derivative(t, y_, yp_);
       visit_(t, y_, yp_);
     }
   }
@@ -32,7 +36,8 @@ class Visitor final : public Observer {
   void end(double) override {}
 
  private:
-  Consistency consistency_;
+  Dae*& dae_;
+  Consistency* consistency_ = nullptr;
   int every_, samples_;
   const Visit& visit_;
   long steps_ = 0;
@@ -41,16 +46,32 @@ class Visitor final : public Observer {
 
 }  // namespace
 
-Probe::Probe(const Scene& scene) : scene_(scene), network_(build_network(scene_)), structure_(analyse(network_)) {
-  dae_ = std::make_unique<Dae>(network_, structure_, needed_positions(network_));
+Probe::Probe(const Scene& scene)
+    : scene_(scene),
+      network_(build_network(scene_)),
+      classified_(classify(network_)),
+      start_(rheonet::start(network_, scene_.start)) {
+  Instant instant(network_, classified_, start_.drive);
+  std::vector<double> force(network_.sliders.size(), 0);
+  modes_.slider.assign(network_.sliders.size(), Modes::stuck);
+  start_.drive.enter(scene_.start);
+  change_ = instant.cross(scene_.start, scene_.stop - scene_.start, true, {}, start_.state, modes_, force);
+  structure_ = analyse(network_, modes_);
+  dae_ = std::make_unique<Dae>(network_, structure_, start_.drive, needed_positions(network_));
+  current_ = dae_.get();
+  dae_->enter(scene_.start, start_.state, modes_, y_);
+  Consistency consistency(*dae_);
+  consistency.project(scene_.start, y_);
+  consistency.derivative(scene_.start, y_, yp_);
 }
 
 void Probe::along(int every, int samples, const Visit& visit) {
-  Visitor visitor(*dae_, every, samples, visit);
+  Visitor visitor(current_, every, samples, visit);
   simulate(
-      *dae_,
+      network_, needed_positions(network_),
       {.start = scene_.start, .stop = scene_.stop, .accuracy = scene_.accuracy, .interrupt = nullptr, .progress = {}},
       visitor);
+  current_ = dae_.get();
 }
 
 }  // namespace rheonet::test

@@ -8,6 +8,8 @@
 
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
+#include "core/dae/instant.hpp"
+#include "core/dae/start.hpp"
 
 namespace rheonet::test {
 
@@ -16,11 +18,17 @@ using Visit = std::function<void(double t, const std::vector<double>& y, const s
 /// A scene taken as far as its equations, as `run` does it.
 class Probe {
  public:
+  /// Just after the first instant.
   explicit Probe(const Scene& scene);
 
-  Dae& dae() { return *dae_; }
+  /// The equations at the start; while `along` visits, those that hold then.
+  Dae& dae() { return *current_; }
   const Network& network() const { return network_; }
-  const Structure& structure() const { return structure_; }
+  const Structure& structure() const { return current_->structure(); }
+  /// The state at the start, its derivative, and what its instant did.
+  const std::vector<double>& y() const { return y_; }
+  const std::vector<double>& yp() const { return yp_; }
+  const Instant::Change& change() const { return change_; }
 
   /// Integrates the scene and visits `samples` instants within every `every`th step. y' belongs to y by the equations
   /// themselves, not by the integrator's polynomial; the laws have the memories of that instant.
@@ -29,8 +37,14 @@ class Probe {
  private:
   Scene scene_;  // its own: a network keeps a pointer to it
   Network network_;
+  Structure classified_;
+  Start start_;
+  Modes modes_;
+  Instant::Change change_;
   Structure structure_;
   std::unique_ptr<Dae> dae_;
+  Dae* current_;
+  std::vector<double> y_, yp_;
 };
 
 /// A derivative by central differences at h and h/2 (Richardson extrapolation). `doubt` is how far they are apart, or

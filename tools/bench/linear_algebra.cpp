@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/dae/consistency.hpp"
+#include "core/dae/start.hpp"
 #include "core/solve/integrator.hpp"
 
 namespace {
@@ -56,14 +57,16 @@ double time_per_step(int masses, int dense) {
   std::vector<double> times;
   for (int repeat = 0; repeat < 15; ++repeat) {
     const Network network = build_network(scene);
-    const Structure structure = analyse(network);
-    Dae dae(network, structure, std::vector<char>(scene.nodes.size(), 0));
+    const Modes modes;  // no slider
+    const Structure structure = analyse(network, modes);
+    Start begin_state = start(network, 0);
+    Dae dae(network, structure, begin_state.drive, std::vector<char>(scene.nodes.size(), 0));
     NoEvents events;
     const std::vector<double> tolerance(static_cast<std::size_t>(dae.size()), 1e-7);
     Integrator integrator(dae, events, tolerance, dense);
     std::vector<double> y, yp;
-    dae.initial(0, y);
-    dae.drive().enter(0);
+    begin_state.drive.enter(0);
+    dae.enter(0, begin_state.state, modes, y);
     Consistency(dae).derivative(0, y, yp);
     const auto begin = std::chrono::steady_clock::now();
     integrator.restart(0, y, yp, 1e-9, 0.1);
