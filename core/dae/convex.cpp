@@ -53,7 +53,7 @@ void ConvexNetwork::set_inertia(int node, double inertia, double rest) {
 
 int ConvexNetwork::add(int a, int b, Law law) {
   const bool jumps = law.low < law.high;
-  branches_.push_back({a, b, std::move(law), jumps});
+  branches_.push_back({.a = a, .b = b, .law = std::move(law), .jumps = jumps});
   return static_cast<int>(branches_.size()) - 1;
 }
 
@@ -72,20 +72,20 @@ double ConvexNetwork::force(int branch) const {
 double ConvexNetwork::force(const Branch& b, double w, int side) const {
   if (w > 0 || (w == 0 && side > 0)) {
     double slope;
-    return w > 0 && b.law.beyond ? b.law.beyond(w, slope) + weak_ * w : b.law.high + (b.law.forward + weak_) * w;
+    return w > 0 && b.law.beyond ? b.law.beyond(w, slope) + b.weak * w : b.law.high + (b.law.forward + b.weak) * w;
   }
   double slope;
-  return w < 0 && b.law.beyond ? b.law.beyond(w, slope) + weak_ * w : b.law.low + (b.law.backward + weak_) * w;
+  return w < 0 && b.law.beyond ? b.law.beyond(w, slope) + b.weak * w : b.law.low + (b.law.backward + b.weak) * w;
 }
 
 double ConvexNetwork::slope(const Branch& b, double w) const {
   if (w != 0 && b.law.beyond) {
     double slope = 0;
     b.law.beyond(w, slope);
-    return slope + weak_;
+    return slope + b.weak;
   }
-  if (w == 0 && !b.jumps) return std::max(b.law.forward, b.law.backward) + weak_;
-  return (w > 0 || (w == 0 && b.side > 0) ? b.law.forward : b.law.backward) + weak_;
+  if (w == 0 && !b.jumps) return std::max(b.law.forward, b.law.backward) + b.weak;
+  return (w > 0 || (w == 0 && b.side > 0) ? b.law.forward : b.law.backward) + b.weak;
 }
 
 void ConvexNetwork::choose_weak() {
@@ -101,7 +101,10 @@ void ConvexNetwork::choose_weak() {
   each([&](double slope) {
     if (slope > negligible * largest) smallest = std::min(smallest, slope);
   });
-  weak_ = largest > 0 ? weak_share * smallest : 1;
+  for (Branch& b : branches_) {
+    const bool flat = b.jumps || b.law.forward <= negligible * largest || b.law.backward <= negligible * largest;
+    if (flat) b.weak = largest > 0 ? weak_share * smallest : 1;
+  }
 }
 
 /// Everything that moves alike at first sticks; massless nodes go with what they can stick to.
@@ -173,6 +176,8 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     const double f = force(b, difference(b), b.side);
     add(b.a, f);
     add(b.b, -f);
+    blur(b.a, b.law.rounding, 1);
+    blur(b.b, b.law.rounding, 1);
     for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
   }
   for (std::size_t k = 0; k < x_.size(); ++k) {
@@ -360,11 +365,14 @@ bool ConvexNetwork::release() {
 /// True if only what decides among equals has held something back.
 bool ConvexNetwork::run_away() {
   double scale = 0;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * (x_[k] - rest_[k]))});
+  }
   for (const Branch& b : branches_) {
     scale = std::max({scale, std::abs(b.law.low), std::abs(b.law.high), std::abs(force(b, difference(b), b.side))});
   }
   for (const Branch& b : branches_) {
-    if (b.stuck || std::abs(weak_ * difference(b)) <= weak_limit * scale) continue;
+    if (b.stuck || std::abs(b.weak * difference(b)) <= weak_limit * scale) continue;
     for (int node : {b.a, b.b}) {
       if (column_[at(cluster_[at(node)])] >= 0) runaways_.push_back(node);
     }

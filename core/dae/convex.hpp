@@ -18,6 +18,7 @@ class ConvexNetwork {
   struct Law {
     double low = 0, high = 0;          ///< force at w = 0 lies between them
     double backward = 0, forward = 0;  ///< slopes for w < 0 and w > 0
+    double rounding = 0;               ///< what the force is known to
     /// If given: force and slope for w != 0, in place of low + backward w and high + forward w.
     std::function<double(double w, double& slope)> beyond = {};
   };
@@ -49,7 +50,9 @@ class ConvexNetwork {
   struct Branch {
     int a, b;
     Law law;
-    bool jumps, stuck = false;
+    bool jumps;           ///< low < high
+    double weak = 0;      ///< slope that decides among equals, where there is no other
+    bool stuck = false;
     int side = 1;  ///< where it is free and w is 0
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -70,7 +73,6 @@ class ConvexNetwork {
   std::vector<double> x_, inertia_, rest_, applied_;
   std::vector<char> fixed_;
   std::vector<Branch> branches_;
-  double weak_ = 0;           ///< slope that decides among equals
   std::vector<int> cluster_;  ///< of each node: the cluster that sticking branches make
   std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
   int columns_ = 0;

@@ -132,7 +132,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
       if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
       const DeflectionBatch& batch = *laws.batch;
       const double p = state.p[j], f0 = f[j];
-      problem.add(a, b, {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1),
+      problem.add(a, b, {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1), .rounding = std::abs(f0),
                          .beyond = [&batch, i, p, f0](double step, double& slope) {
                            return batch.force_along(i, p, step, slope) - f0;
                          }});

@@ -21,13 +21,13 @@ class Recorder final : public Observer {
  public:
   Recorder(const Network& network, std::FILE* csv)
       : scene_(*network.scene), channels_(network), csv_(csv), energy_(scene_.accuracy * 0.01) {
-    std::vector<std::string> names;
-    for (const Record& record : scene_.records) names.push_back(record.path);
-    csv_.header(names);
+    for (const Record& record : scene_.records) names_.push_back(record.path);
   }
 
   void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp,
              double heat) override {
+    // Only now is it known that the scene can be simulated at all.
+    if (unknowns_ < 0) csv_.header(names_);
     unknowns_ = std::max(unknowns_, dae.unknowns());
     energy_.attach(dae);
     channels_.attach(dae, consistency);
@@ -88,12 +88,13 @@ class Recorder final : public Observer {
   }
 
   const Scene& scene_;
+  std::vector<std::string> names_;
   Channels channels_;
   CsvWriter csv_;
   EnergyAccount energy_;
   std::int64_t next_ = 0;
   bool pending_event_ = false;
-  int unknowns_ = 0;
+  int unknowns_ = -1;  ///< the most in any mode
   const Integrator* last_ = nullptr;
   std::vector<double> y_, yp_, before_;
 };

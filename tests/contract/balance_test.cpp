@@ -15,6 +15,7 @@ double direction(const Component& component) {
   switch (component.role) {
     case Role::deflection:
     case Role::rate:
+    case Role::slip:
     case Role::mass:
     case Role::nothing:
       return 1;

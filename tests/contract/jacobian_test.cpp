@@ -81,12 +81,12 @@ TEST_CASE("contract: Jacobian of the assembled equations") {
     Random random(c.seed);
     Result result;
     probe.along(29, 1, [&](double t, std::vector<double> y, std::vector<double> yp) {
+      const std::vector<double> scale = scales(probe, c.place.domain);
       // Beside the trajectory, as the iterates of a solver are.
       for (std::size_t k = 0; k < y.size(); ++k) {
         y[k] += 0.02 * random.uniform(-1, 1) * scale[k];
         yp[k] += random.uniform(-1, 1) * scale[k] / typical.time;
       }
-      const std::vector<double> scale = scales(probe, c.place.domain);
       compare(probe.dae(), t, y, yp, random.around(1, 100) / typical.time, scale, result);
     });
     CHECK_MESSAGE(result.worst <= 1, "off by " << result.worst << " times what is allowed");
