@@ -12,6 +12,8 @@ namespace rheonet {
 
 namespace {
 
+// Terms of an equation that cancel leave this share of their magnitudes.
+constexpr double balance_rounding = 1e-14;
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -171,11 +173,16 @@ void Consistency::project(double t, std::vector<double>& y) {
   const std::size_t n = y.size();
   std::vector<double> change(n), trial(n), next(n), scale(n, 0), defect(n);
   const auto defects = [&](const std::vector<double>& at_y) {
-    for (std::size_t i = 0; i < n; ++i) work_[i] = at_y[i] - before[i];
-    dae_.residual(t, at_y.data(), work_.data(), r1_.data());
-    dae_.residual(t, at_y.data(), zero_.data(), r0_.data());
+    dae_.residual(t, at_y.data(), zero_.data(), defect.data());
     for (std::size_t i = 0; i < n; ++i) {
-      defect[i] = dae_.differential(static_cast<int>(i)) ? r1_[i] - r0_[i] : r0_[i];
+      if (dae_.differential(static_cast<int>(i))) defect[i] = 0;
+    }
+    const Pattern& pattern = dae_.pattern();
+    for (std::size_t c = 0; c < n; ++c) {
+      for (int e = pattern.column_start[c]; e < pattern.column_start[c + 1]; ++e) {
+        const int row = pattern.row[at(e)];
+        if (dae_.differential(row)) defect[at(row)] += values_[at(e)] * (at_y[c] - before[c]);
+      }
     }
   };
   const auto norm = [&](const std::vector<double>& x) {
@@ -185,6 +192,15 @@ void Consistency::project(double t, std::vector<double>& y) {
       if (scale[i] > 0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
     }
     return largest;
+  };
+  // What rounding leaves of the equations, in terms of the unknowns.
+  const auto within_rounding = [&] {
+    defects(y);
+    dae_.magnitudes(r1_.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!dae_.differential(static_cast<int>(i)) && std::abs(defect[i]) > balance_rounding * r1_[i]) return false;
+    }
+    return true;
   };
   double damping = 1;
   for (int iteration = 0; iteration < 500; ++iteration) {
@@ -203,7 +219,7 @@ void Consistency::project(double t, std::vector<double>& y) {
       solve(next);
       if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
       if (damping < 1e-6) {
-        if (size <= 1e-9) return;  // rounding stands in the way of the last digits
+        if (size <= 1e-9 || within_rounding()) return;
         report_singular(t);
       }
     }

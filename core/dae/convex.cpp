@@ -13,6 +13,8 @@ namespace {
 // A balance of forces is met when it is off by this much of their magnitudes.
 constexpr double balance_rounding = 1e-13;
 constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
+// So many whole steps of Newton's method where all is linear: what is left is rounding.
+constexpr int enough_full_steps = 3;
 // Forces within a bound by this much of it are within.
 constexpr double bound_rounding = 1e-12;
 // What decides among equals, relative to the smallest of the slopes that count.
@@ -245,9 +247,11 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
 ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   struct Break { double step; int branch; };
   std::vector<Break> breaks;
+  bool linear = true;  // and no kink on the way
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const Branch& b = branches_[k];
     const double w = difference(b), dw = d[at(b.a)] - d[at(b.b)];
+    linear = linear && !b.law.beyond && (b.law.forward == b.law.backward || w * (w + dw) > 0);
     if (b.jumps && w * dw < 0) breaks.push_back({-w / dw, static_cast<int>(k)});
   }
   std::sort(breaks.begin(), breaks.end(), [](const Break& p, const Break& q) { return p.step < q.step; });
@@ -257,6 +261,12 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   const auto move = [&](double step) {
     for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += step * d[k];
   };
+  if (linear && breaks.empty()) {
+    move(1);
+    ++full_steps_;
+    return Outcome::solved;
+  }
+  full_steps_ = 0;
   if (first != breaks.end()) {
     high = first->step;
     const double before = slope_along(d, high * (1 - 1e-14));
@@ -388,7 +398,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
-    if (balanced(gradient)) {
+    if (balanced(gradient) || full_steps_ >= enough_full_steps) {
+      full_steps_ = 0;
       if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
       continue;
     }

@@ -77,6 +77,7 @@ class ConvexNetwork {
   std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
   int columns_ = 0;
   std::vector<int> released_;  ///< at the last release, the worst first
+  int full_steps_ = 0;  ///< in a row
   std::vector<int> runaways_;
   std::vector<double> bond_force_;  ///< of each branch that sticks
 };

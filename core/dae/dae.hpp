@@ -57,6 +57,9 @@ class Dae {
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
   /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that y' and jumps are solved with.
   void consistency_matrix(double t, const double* y, double* values);
+  /// Sums of the magnitudes of the terms of each algebraic equation at the last `residual`, as far as they are forces and
+  /// velocities: what is lost by rounding is a share of them.
+  void magnitudes(double* r) const;
   /// dF/dt at constant y for algebraic equations, 0 for differential ones. Call after `consistency_matrix`.
   void time_derivative(double* r) const;
 

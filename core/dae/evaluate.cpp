@@ -121,6 +121,35 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   }
 }
 
+void Dae::magnitudes(double* r) const {
+  std::fill(r, r + size_, 0.0);
+  const auto add = [&](NodeId node, double x) {
+    if (iv_[at(node)] >= 0) r[iv_[at(node)]] += std::abs(x);
+    if (const int g = structure_->group[at(node)]; g >= 0 && group_row_[at(g)] >= 0) r[group_row_[at(g)]] += std::abs(x);
+  };
+  const auto add_branch = [&](const Branch& b, double f) {
+    add(b.a, f);
+    add(b.b, f);
+  };
+  for (std::size_t j = 0; j < ip_.size(); ++j) add_branch(structure_->deflections[j], view_.f[j]);
+  for (std::size_t k = 0; k < if_.size(); ++k) {
+    const Branch& b = structure_->rates[k];
+    add_branch(b, if_[k] >= 0 ? rate_in_[k] : rate_out_[k]);
+    if (if_[k] >= 0) r[if_[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
+  }
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) add_branch(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    add(structure_->rigid[at(f.a)], drive_->force[k]);
+    if (f.b >= 0) add(structure_->rigid[at(f.b)], drive_->force[k]);
+  }
+  for (const Row& row : rows_) {
+    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+      r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);
+    }
+  }
+}
+
 void Dae::jacobian(double t, double cj, const double* y, const double* yp, double* values) {
   gather(t, y);
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {

@@ -21,6 +21,8 @@ constexpr double share_of_network = 1e-3;
 constexpr double time_grains = 64;
 // Forces that balance but for this share of their magnitudes balance.
 constexpr double balance_rounding = 1e-12;
+// Jumps in a row that refine each other.
+constexpr int most_jumps = 3;
 // Velocities that differ by this share of their magnitudes are equal.
 constexpr double velocity_rounding = 1e-14;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
@@ -50,8 +52,10 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const std
   }
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
   for (bool again = true; again;) {
-    jump(t, stepped, dx, state, modes, force, change);
-    std::fill(dx.begin(), dx.end(), 0.0);
+    // A long way leaves a rounding of its own: a second jump takes the rest.
+    for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
+      std::fill(dx.begin(), dx.end(), 0.0);
+    }
     const std::vector<int> broken = onset(t, time_ahead(t, horizon, state), stepped ? std::vector<int>{} : fired, state,
                                           modes, force, change);
     for (int k : broken) broken_[at(k)] = 1;

@@ -36,8 +36,8 @@ class Instant {
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
   void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const;
   /// Displacements within the instant; true if anything moved.
-  bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, const Modes& modes,
-            std::vector<double>& force, Change& change);
+  bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
+            Change& change);
   void halt(const std::vector<int>& fired, const Modes& modes, State& state) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const std::vector<int>& fired, State& state, Modes& modes,

@@ -89,8 +89,8 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
 
 // Within an instant forces stay finite: masses keep their places, dashpots with them, and what has neither goes where the
 // forces balance, along the laws' own curves and against the friction of the sliders.
-bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, const Modes&,
-                   std::vector<double>& force, Change& change) {
+bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
+                   Change& change) {
   const std::size_t nodes = structure_.kind.size();
   drive_.evaluate(t);
   // The nodes of a group move as one: its dashpots take no impulse.

@@ -135,7 +135,9 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
   const double velocity = unresolved_velocity_ / relative_;
   const auto noise = [&](bool given, double flow) {
-    return given ? given_noise * flow : noise_share * relative_ * std::max(flow, floor_of_kind * velocity);
+    const double unresolved = given ? given_noise * flow : noise_share * relative_ * std::max(flow, floor_of_kind * velocity);
+    // More than nothing: an event function that begins at 0 would never be seen to fall through it.
+    return std::max(unresolved, std::numeric_limits<double>::min());
   };
   for (std::size_t j = 0; j < noise_.size(); ++j) noise_[j] = noise(given_[j] != 0, flow_seen_[j]);
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k]);

@@ -137,7 +137,7 @@ std::vector<double> values_at_limit(const Component& component, std::size_t limi
   std::vector<std::vector<double>> tried = {generic};
   for (std::size_t begin = 0, end = 1; begin < end; begin = end, end = tried.size()) {
     for (std::size_t t = begin; t < end; ++t) {
-      if (first(tried[t]) == limit) return tried[t];
+      if (first(tried[t]) == limit && (!component.check || component.check(tried[t]).empty())) return tried[t];
     }
     if (tried.size() > 5000) break;
     for (std::size_t t = begin; t < end; ++t) {
