@@ -6,12 +6,15 @@
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rheonet {
 
 namespace {
 
+// The least share of the largest of its kind that counts.
+constexpr double share_of_kind = 1e-6;
 // Terms of an equation that cancel leave this share of their magnitudes.
 constexpr double balance_rounding = 1e-14;
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
@@ -34,10 +37,16 @@ Consistency::Consistency(Dae& dae) : dae_(dae), factor_(std::make_unique<Factor>
   values_.resize(at(dae.pattern().entries()));
   r0_.resize(n);
   r1_.resize(n);
-  work_.resize(n);
   zero_.assign(n, 0);
   factor_->dense = dae.size() <= dense_limit;
   factor_->row_scale.resize(dae.size());
+  kind_.assign(n, 0);
+  const auto set = [&](int unknown, std::size_t kind) {
+    if (unknown >= 0) kind_[at(unknown)] = kind;
+  };
+  for (std::size_t j = 0; j < dae.network().deflections.size(); ++j) set(dae.deflection_unknown(static_cast<int>(j)), 1);
+  for (std::size_t r = 0; r < dae.network().rates.size(); ++r) set(dae.force_unknown(static_cast<int>(r)), 2);
+  for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.position_unknown(static_cast<NodeId>(k)), 3);
 }
 
 Consistency::~Consistency() = default;
@@ -208,7 +217,11 @@ void Consistency::project(double t, std::vector<double>& y) {
     defects(y);
     for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
     solve(change);
-    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
+    // What is small beside others of its kind is not small by itself: it may be their rounding.
+    std::array<double, kinds> largest{};
+    for (const double v : dae_.drive().velocity) largest[0] = std::max(largest[0], std::abs(v));
+    for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max({largest[kind_[i]], std::abs(y[i]), scale[i]});
+    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max({scale[i], std::abs(y[i]), share_of_kind * largest[kind_[i]]});
     const double size = norm(change);
     if (!std::isfinite(size)) report_singular(t);
     if (size <= 1e-14) return;

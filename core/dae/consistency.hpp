@@ -37,7 +37,9 @@ class Consistency {
 
   Dae& dae_;
   std::unique_ptr<Factor> factor_;
-  std::vector<double> values_, r0_, r1_, zero_, work_;
+  std::vector<double> values_, r0_, r1_, zero_;
+  static constexpr std::size_t kinds = 4;  ///< velocity, deflection, force, position
+  std::vector<std::size_t> kind_;          ///< of each unknown
 };
 
 }  // namespace rheonet
