@@ -194,6 +194,13 @@ void Consistency::project(double t, std::vector<double>& y) {
       }
     }
   };
+  // What has no scale of its own was nothing and stays so; what came out as a rounding of its way there is nothing.
+  const auto finish = [&] {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (scale[i] == 0) y[i] = before[i];
+      if (kind_[i] == 0 && std::abs(y[i]) <= balance_rounding * scale[i]) y[i] = 0;
+    }
+  };
   const auto norm = [&](const std::vector<double>& x) {
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -224,7 +231,7 @@ void Consistency::project(double t, std::vector<double>& y) {
     for (std::size_t i = 0; i < n; ++i) scale[i] = std::max({scale[i], std::abs(y[i]), share_of_kind * largest[kind_[i]]});
     const double size = norm(change);
     if (!std::isfinite(size)) report_singular(t);
-    if (size <= 1e-14) return;
+    if (size <= 1e-14) return finish();
     for (;; damping /= 2) {
       for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
       defects(trial);
@@ -232,12 +239,14 @@ void Consistency::project(double t, std::vector<double>& y) {
       solve(next);
       if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
       if (damping < 1e-6) {
-        if (size <= 1e-9 || within_rounding()) return;
+        if (size <= 1e-9 || within_rounding()) return finish();
+        for(size_t i=0;i<n;++i) fprintf(stderr,"%zu diff %d y %g before %g change %g next %g defect %g mag %g scale %g %s\n",i,dae_.differential((int)i),y[i],before[i],change[i],next[i],defect[i],r1_[i],scale[i],dae_.describe((int)i).c_str());
+        for(size_t i=0;i<n;++i) fprintf(stderr,"%zu diff %d y %g before %g change %g next %g defect %g mag %g scale %g %s\n",i,dae_.differential((int)i),y[i],before[i],change[i],next[i],defect[i],r1_[i],scale[i],dae_.describe((int)i).c_str());
         report_singular(t);
       }
     }
     y = trial;
-    if (damping == 1 && norm(next) <= 1e-15) return;
+    if (damping == 1 && norm(next) <= 1e-15) return finish();
     damping = std::min(1.0, 2 * damping);
   }
 }

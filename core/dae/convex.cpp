@@ -12,6 +12,8 @@ namespace {
 
 // A balance of forces is met when it is off by this much of their magnitudes.
 constexpr double balance_rounding = 1e-13;
+// What a step can still gain, of the power: the square of a rounding, as it is of second order.
+constexpr double power_rounding = 1e-24;
 constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
 // So many whole steps of Newton's method where all is linear: what is left is rounding.
 constexpr int enough_full_steps = 3;
@@ -21,7 +23,7 @@ constexpr double bound_rounding = 1e-12;
 constexpr double weak_share = 1e-9;
 // It may carry this share of a force: more means that nothing else does.
 constexpr double weak_limit = 1e-4;
-// Slopes this much smaller than the largest are left out of that comparison.
+// A law with a slope this much smaller than its other one is flat to that side.
 constexpr double negligible = 1e-14;
 
 /// Disjoint sets over 0 .. n-1.
@@ -91,21 +93,14 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
 }
 
 void ConvexNetwork::choose_weak() {
-  double largest = 0, smallest = std::numeric_limits<double>::infinity();
-  const auto each = [&](auto look) {
-    for (const Branch& b : branches_) {
-      look(b.law.forward);
-      look(b.law.backward);
-    }
-    for (double m : inertia_) look(m);
-  };
-  each([&](double slope) { largest = std::max(largest, slope); });
-  each([&](double slope) {
-    if (slope > negligible * largest) smallest = std::min(smallest, slope);
-  });
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Branch& b : branches_) {
+    if (const double slope = std::max(b.law.forward, b.law.backward); slope > 0) smallest = std::min(smallest, slope);
+  }
+  if (!std::isfinite(smallest)) smallest = 1;
   for (Branch& b : branches_) {
-    const bool flat = b.jumps || b.law.forward <= negligible * largest || b.law.backward <= negligible * largest;
-    if (flat) b.weak = largest > 0 ? weak_share * smallest : 1;
+    const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
+    if (b.jumps || flatter <= negligible * steeper) b.weak = weak_share * smallest;
   }
 }
 
@@ -372,6 +367,16 @@ bool ConvexNetwork::release() {
   return !beyond.empty();
 }
 
+/// Sum of the magnitudes of the powers of all branches and loads.
+double ConvexNetwork::power() const {
+  double sum = 0;
+  for (const Branch& b : branches_) sum += std::abs(force(b, difference(b), b.side) * difference(b));
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    sum += std::abs(applied_[k] * x_[k]) + std::abs(inertia_[k] * (x_[k] - rest_[k]) * x_[k]);
+  }
+  return sum;
+}
+
 /// True if only what decides among equals has held something back.
 bool ConvexNetwork::run_away() {
   double scale = 0;
@@ -395,30 +400,36 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   stick_at_first();
   released_.clear();
   std::vector<double> gradient, d;
+  int idle = 0;  // rounds in a row that brought nothing
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
-    if (balanced(gradient) || full_steps_ >= enough_full_steps) {
-      full_steps_ = 0;
+    bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
+    if (!settled) {
+      if (!direction_of_descent(gradient, d)) return Outcome::undecided;
+      const double descent = slope_along(d, 0);
+      if (!(descent < 0) && !released_.empty()) {
+        // What was let go together holds itself back: then one at a time. If one alone does, it was rounding.
+        const bool alone = released_.size() == 1;
+        for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
+        if (alone) return Outcome::solved;
+        released_.resize(1);
+        continue;
+      }
+      settled = !(descent < 0);
+      idle = -descent <= power_rounding * power() ? idle + 1 : 0;
+    }
+    if (settled) {
+      full_steps_ = idle = 0;
       if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
       continue;
     }
-    if (!direction_of_descent(gradient, d)) return Outcome::undecided;
-    if (!(slope_along(d, 0) < 0)) {
-      // What was let go together holds itself back: then one at a time. If one alone does, it is rounding.
-      if (released_.empty()) return Outcome::solved;
-      const bool alone = released_.size() == 1;
-      for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
-      if (alone) return Outcome::solved;
-      released_.resize(1);
-      continue;
-    }
-    const Outcome outcome = search(d);
-    if (outcome == Outcome::unbounded) {
+    released_.clear();
+    if (search(d) == Outcome::unbounded) {
       for (std::size_t k = 0; k < x_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));
       }
-      return outcome;
+      return Outcome::unbounded;
     }
   }
   return Outcome::undecided;

@@ -68,6 +68,7 @@ class ConvexNetwork {
   Outcome search(const std::vector<double>& d);
   bool release();
   bool run_away();
+  double power() const;
   void find_bond_forces();
 
   std::vector<double> x_, inertia_, rest_, applied_;

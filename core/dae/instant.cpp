@@ -28,6 +28,8 @@ constexpr double velocity_rounding = 1e-14;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
 constexpr double difference_limit = 1e-6;
 
+bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
+
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
@@ -38,16 +40,16 @@ double Instant::bound(std::size_t k) const {
   return broken_[k] ? law.coulomb : law.breakaway;
 }
 
-Instant::Change Instant::cross(double t, double horizon, bool stepped, const std::vector<int>& fired, State& state,
+Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
                                Modes& modes, std::vector<double>& force) {
   Change change;
   const Modes before = modes;
   drive_.evaluate(t);
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
-  halt(fired, modes, state);
+  halt(fired.sliders, modes, state);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
-    const bool event = std::find(fired.begin(), fired.end(), static_cast<int>(k)) != fired.end();
+    const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = modes.slider[k] != Modes::stuck && !event;
   }
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
@@ -56,8 +58,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const std
     for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
       std::fill(dx.begin(), dx.end(), 0.0);
     }
-    const std::vector<int> broken = onset(t, time_ahead(t, horizon, state), stepped ? std::vector<int>{} : fired, state,
-                                          modes, force, change);
+    const std::vector<int> broken =
+        onset(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
     for (int k : broken) broken_[at(k)] = 1;
     again = !broken.empty();
     stepped = false;
@@ -184,33 +186,33 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
 //
 // Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level at which the velocity of
 // each slider lives.
-std::vector<int> Instant::onset(double t, double h, const std::vector<int>& fired, State& state, Modes& modes,
+std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& state, Modes& modes,
                                 std::vector<double>& force, Change& change) {
   const std::size_t nodes = structure_.kind.size();
   ConvexNetwork problem(static_cast<int>(nodes));
   const Nodal now = nodal(state, force, false);
   for (std::size_t n = 0; n < nodes; ++n) {
-    const int node = static_cast<int>(n);
+    const int node = slot(static_cast<NodeId>(n));
     problem.guess(node, state.velocity[n]);
     if (structure_.kind[n] == Kind::massive) problem.set_inertia(node, structure_.mass[n] / h, state.velocity[n]);
     if (std::abs(now.sum[n]) > balance_rounding * now.magnitude[n]) problem.load(node, -now.sum[n]);
   }
-  problem.fix(ground, 0);
+  problem.fix(slot(ground), 0);
   drive_.evaluate(t);
   const std::vector<double> velocity = drive_.velocity, acceleration = drive_.acceleration, load = drive_.force,
                             load_rate = drive_.force_rate;
   drive_.evaluate(t + h);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
     // A difference of two near values says nothing; where the rate is 0 it is all there is.
-    problem.fix(network_.motions[m].node,
+    problem.fix(slot(network_.motions[m].node),
                 acceleration[m] != 0 ? velocity[m] + h * acceleration[m] : drive_.velocity[m]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
     const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
                                       ? load_rate[k] * h
                                       : drive_.force[k] - load[k];
-    problem.load(network_.forces[k].a, change_of_load);
-    if (network_.forces[k].b >= 0) problem.load(network_.forces[k].b, -change_of_load);
+    problem.load(slot(network_.forces[k].a), change_of_load);
+    if (network_.forces[k].b >= 0) problem.load(slot(network_.forces[k].b), -change_of_load);
   }
   drive_.evaluate(t);
 
@@ -221,16 +223,20 @@ std::vector<int> Instant::onset(double t, double h, const std::vector<int>& fire
     laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.deflections[k + i];
-      const double forward = h * laws.batch->slope(i, state.p[k + i], 1);
-      const double backward = h * laws.batch->slope(i, state.p[k + i], -1);
+      double forward = h * laws.batch->slope(i, state.p[k + i], 1);
+      double backward = h * laws.batch->slope(i, state.p[k + i], -1);
+      // What stood still does so no longer: the event knows better than this first-order look at both its sides.
+      if (contains(fired.starts, static_cast<int>(k + i))) {
+        (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
+      }
       const double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
-      deflection_branch[k + i] = problem.add(b.a, b.b, {.low = low, .high = high, .backward = backward, .forward = forward});
+      deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), {.low = low, .high = high, .backward = backward, .forward = forward});
     }
   }
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(b.a, b.b, law_of(*laws.batch, i, now));
+      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, now));
     }
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
@@ -238,10 +244,10 @@ std::vector<int> Instant::onset(double t, double h, const std::vector<int>& fire
     const double limit = bound(k);
     ConvexNetwork::Law law{.low = -limit - force[k], .high = limit - force[k]};
     // At its bound the rate alone decides, not the rounding of the event.
-    if (std::find(fired.begin(), fired.end(), static_cast<int>(k)) != fired.end() && modes.slider[k] == Modes::stuck) {
+    if (contains(fired.sliders, static_cast<int>(k)) && modes.slider[k] == Modes::stuck) {
       (force[k] > 0 ? law.high : law.low) = 0;
     }
-    slider_branch[k] = problem.add(b.a, b.b, law);
+    slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);
   }
 
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
@@ -250,7 +256,7 @@ std::vector<int> Instant::onset(double t, double h, const std::vector<int>& fire
         "at t = {:.6g} s it cannot be decided which sliders begin to slip: the forces on them differ by rounding only", t));
   }
   for (std::size_t n = 0; n < nodes; ++n) {
-    if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(static_cast<int>(n));
+    if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
   take_directions(problem, deflection_branch, state, change);
   std::vector<int> broken;
@@ -286,7 +292,7 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       if (laws.batch->events(i) == 0) continue;
       const int j = laws.first + static_cast<int>(i);
       const Branch& b = network_.deflections[at(j)];
-      const double va = problem.value(b.a), vb = problem.value(b.b), w = va - vb;
+      const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = va - vb;
       const int direction =
           std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
@@ -307,7 +313,8 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
 }
 
 void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
-  std::vector<int> nodes = runaways;
+  std::vector<int> nodes;
+  for (int k : runaways) nodes.push_back(network_.node_order[at(k)]);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<char> in(structure_.kind.size(), 0);

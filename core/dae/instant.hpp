@@ -24,10 +24,15 @@ class Instant {
     std::vector<int> switched;       ///< sliders whose mode changed
     std::vector<int> standing;       ///< deflection branches that both directions hold at rest
   };
+  /// What has come to an event.
+  struct Fired {
+    std::vector<int> sliders;
+    std::vector<int> starts;  ///< deflection branches that stood and begin to move in their law's direction
+  };
   /// Takes the state over the instant t, just after Drive::enter if `stepped`, and finds the modes that hold from there on.
   /// `force` are the forces of the sliders before, `fired` those whose event it is; `horizon` is a time until something is
   /// known to happen. Throws SimulationError where nothing balances the forces.
-  Change cross(double t, double horizon, bool stepped, const std::vector<int>& fired, State& state, Modes& modes,
+  Change cross(double t, double horizon, bool stepped, const Fired& fired, State& state, Modes& modes,
                std::vector<double>& force);
 
  private:
@@ -40,12 +45,14 @@ class Instant {
             Change& change);
   void halt(const std::vector<int>& fired, const Modes& modes, State& state) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
-  std::vector<int> onset(double t, double ahead, const std::vector<int>& fired, State& state, Modes& modes,
+  std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, const Nodal& now);
   void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider) const;
+  /// Nodes are numbered as in the equations, so that two ways to write a network give the same numbers.
+  int slot(NodeId node) const { return structure_.rank[static_cast<std::size_t>(node)]; }
   [[noreturn]] void report_runaway(double t, const std::vector<int>& nodes) const;
 
   const Network& network_;

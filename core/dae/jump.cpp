@@ -108,11 +108,11 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   ConvexNetwork problem(static_cast<int>(nodes));
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.group[n] < 0) {
-      problem.fix(static_cast<int>(n), dx[n]);
+      problem.fix(slot(static_cast<NodeId>(n)), dx[n]);
     } else if (node_of(static_cast<NodeId>(n)) != static_cast<NodeId>(n)) {
-      problem.fix(static_cast<int>(n), 0);  // spoken for by its group's first
+      problem.fix(slot(static_cast<NodeId>(n)), 0);  // spoken for by its group's first
     } else if (std::abs(sum[n]) > balance_rounding * magnitude[n]) {
-      problem.load(static_cast<int>(n), -sum[n]);
+      problem.load(slot(static_cast<NodeId>(n)), -sum[n]);
       needed = true;
     }
   }
@@ -132,7 +132,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
       if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
       const DeflectionBatch& batch = *laws.batch;
       const double p = state.p[j], f0 = f[j];
-      problem.add(a, b, {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1), .rounding = std::abs(f0),
+      problem.add(slot(a), slot(b), {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1), .rounding = std::abs(f0),
                          .beyond = [&batch, i, p, f0](double step, double& slope) {
                            return batch.force_along(i, p, step, slope) - f0;
                          }});
@@ -142,14 +142,14 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const NodeId a = node_of(network_.sliders[k].branch.a), b = node_of(network_.sliders[k].branch.b);
     if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
-    slider_branch[k] = problem.add(a, b, {.low = -bound(k) - force[k], .high = bound(k) - force[k]});
+    slider_branch[k] = problem.add(slot(a), slot(b), {.low = -bound(k) - force[k], .high = bound(k) - force[k]});
   }
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
     throw SimulationError(fmt::format("at t = {:.6g} s the forces at the massless nodes cannot be balanced", t));
   }
 
-  const auto moved = [&](NodeId node) { return problem.value(node_of(node)); };
+  const auto moved = [&](NodeId node) { return problem.value(slot(node_of(node))); };
   double stored = 0, work = 0, heat = 0;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {

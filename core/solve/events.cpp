@@ -1,5 +1,6 @@
 #include "core/solve/events.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rheonet {
@@ -28,6 +29,7 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
       for (int k = 0; k < laws.batch->events(i); ++k) events_.push_back({branch, k});
     }
   }
+  margin_.assign(structure.sliders.size(), 0);
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
     // What slips within a cluster is held at its bound by the others: it has no event of its own.
     const Branch& b = structure.sliders[k];
@@ -40,8 +42,18 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
   const Slip& law = dae_.network().sliders[at(k)].law;
-  if (dae_.structure().stuck[at(k)]) return law.breakaway * (1 + force_rounding) - std::abs(view.slider_force[at(k)]);
-  return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k);
+  if (dae_.structure().stuck[at(k)]) {
+    return law.breakaway * (1 + force_rounding) - std::abs(view.slider_force[at(k)]) + margin_[at(k)];
+  }
+  return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
+}
+
+void NetworkEvents::begin(double t, const double* y, const double* yp) {
+  std::fill(margin_.begin(), margin_.end(), 0.0);
+  const Dae::View& view = dae_.view(t, y, yp);
+  for (int k : sliders_) {
+    if (const double g = slider_function(k, view); g <= 0) margin_[at(k)] = -g * (1 + force_rounding);
+  }
 }
 
 void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {

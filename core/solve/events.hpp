@@ -20,6 +20,9 @@ class NetworkEvents final : public EventFunctions {
   /// `modes` are the present ones; all must outlive this.
   NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
 
+  /// At the beginning of a stretch: what is beyond a bound there is so by rounding, and the bound gives way as far.
+  void begin(double t, const double* y, const double* yp);
+
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
   const Which& operator[](std::size_t k) const { return events_[k]; }
@@ -40,6 +43,7 @@ class NetworkEvents final : public EventFunctions {
   std::vector<double> y_, yp_;
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
+  std::vector<double> margin_;  ///< of each slider
   std::vector<Which> events_;
 };
 

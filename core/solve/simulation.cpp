@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include "core/dae/instant.hpp"
 #include "core/dae/start.hpp"
@@ -154,7 +155,7 @@ class Run {
   }
 
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
-  void cross(double t, bool stepped, const std::vector<int>& fired) {
+  void cross(double t, bool stepped, const Instant::Fired& fired) {
     if (stepped) drive_.enter(t);
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
@@ -169,6 +170,7 @@ class Run {
     dae.view(t, y_.data(), yp_.data());
     check_ties(t);
     if (t > settings_.start) {
+      if (getenv("EVDBG")) for (int j : change.standing) fprintf(stderr, "STAND %.12g %s\n", t, branch_name(j).c_str());
       for (int branch : change.turned) note_event(t, network_.deflections[at(branch)].element, "reversal");
       for (int k : change.switched) {
         note_event(t, network_.sliders[at(k)].branch.element, modes_.slider[at(k)] == Modes::stuck ? "stick" : "slip");
@@ -177,25 +179,45 @@ class Run {
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
   }
 
-  /// Branches that both directions hold at rest: between massless nodes their force follows from their neighbours.
+  /// Branches that both directions hold at rest: between massless nodes their force follows from their neighbours. Where
+  /// others hold the ends together already, they rest.
   void stand(double t, const std::vector<int>& standing) {
+    if (standing.empty()) return;
     Dae& dae = system_->dae;
     const Structure& structure = system_->structure;
-    const auto massless = [&](NodeId node) {
-      return structure.kind[at(node)] == Kind::viscous || structure.kind[at(node)] == Kind::floating;
+    std::vector<NodeId> leader(structure.kind.size());
+    std::iota(leader.begin(), leader.end(), 0);
+    const auto find = [&](NodeId node) {
+      while (leader[at(node)] != node) node = leader[at(node)];
+      return node;
+    };
+    const auto heavy = [&](NodeId node) {
+      return structure.kind[at(node)] == Kind::known || structure.kind[at(node)] == Kind::massive;
     };
     for (int j : standing) {
       dae.view(t, y_.data(), yp_.data());
-      const Branch& b = structure.deflections[at(j)];
+      const NodeId a = find(structure.deflections[at(j)].a), b = find(structure.deflections[at(j)].b);
       std::size_t i = 0;
       DeflectionBatch& batch = dae.batch_of(j, i);
-      if (b.a != b.b && (massless(b.a) || massless(b.b))) {
+      const bool together = a == b || (heavy(a) && heavy(b));
+      if (!together && dae.view(t, y_.data(), yp_.data()).f[at(j)] != 0) {
         dae.hold_bundle(j);
-      } else if (!batch.fits(i, 0)) {
-        batch.set_direction(i, state_.p[at(j)], 0, 0);
+        (heavy(a) ? leader[at(b)] : leader[at(a)]) = heavy(a) ? a : b;
+      } else if (!batch.holds(i) || !bundled_with_held(j, standing)) {
+        if (!batch.fits(i, 0)) batch.set_direction(i, state_.p[at(j)], 0, 0);
       }
     }
-    if (!standing.empty()) dae.update_holds();
+    dae.update_holds();
+  }
+
+  /// Another branch between the same ends has been held, and this one with it.
+  bool bundled_with_held(int branch, const std::vector<int>& standing) const {
+    const Branch& b = system_->structure.deflections[at(branch)];
+    return std::any_of(standing.begin(), standing.end(), [&](int j) {
+      const Branch& o = system_->structure.deflections[at(j)];
+      std::size_t i = 0;
+      return j < branch && std::minmax(o.a, o.b) == std::minmax(b.a, b.b) && system_->dae.batch_of(j, i).holds(i);
+    });
   }
 
   /// What only constant forces hold on to must be in balance, and stay so.
@@ -244,6 +266,7 @@ class Run {
 
   void note_event(double t, int element, const char* what) {
     ++statistics_.events;
+    if (getenv("EVDBG")) fprintf(stderr, "EV %.12g %s %s\n", t, element_name(element).c_str(), what);
     observer_.event(t, element, what);
     last_switched_ = element_name(element);
   }
@@ -315,12 +338,13 @@ class Run {
     Dae& dae = system_->dae;
     const Dae::View view = dae.view(t, y_.data(), yp_.data());
     const std::vector<int> fired = system_->integrator.events();
-    std::vector<int> switched, sliders;
+    std::vector<int> switched;
+    Instant::Fired sudden;
     for (std::size_t k = 0; k < fired.size(); ++k) {
       if (fired[k] == 0) continue;
       const auto [branch, which] = system_->events[k];
       if (which < 0) {
-        sliders.push_back(branch);
+        sudden.sliders.push_back(branch);
         continue;
       }
       // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
@@ -334,9 +358,11 @@ class Run {
       if (held) {
         const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
         switched.insert(switched.end(), released.begin(), released.end());
+        sudden.starts.push_back(branch);
+        sudden.starts.insert(sudden.starts.end(), released.begin(), released.end());
       }
     }
-    cross(t, false, sliders);
+    cross(t, false, sudden);
   }
 
   void soften_laws() {
@@ -357,6 +383,7 @@ class Run {
     std::vector<double> ypp;
     system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
+    system_->events.begin(t, y_.data(), yp_.data());
     soften_laws();
     double sum = 0;
     for (std::size_t i = 0; i < ypp.size(); ++i) {
