@@ -227,8 +227,13 @@ void Consistency::project(double t, std::vector<double>& y) {
     // What is small beside others of its kind is not small by itself: it may be their rounding.
     std::array<double, kinds> largest{};
     for (const double v : dae_.drive().velocity) largest[0] = std::max(largest[0], std::abs(v));
-    for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max({largest[kind_[i]], std::abs(y[i]), scale[i]});
-    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max({scale[i], std::abs(y[i]), share_of_kind * largest[kind_[i]]});
+    // Integrals have theirs from before: here they move by roundings only.
+    const auto size_of = [&](std::size_t i) {
+      const bool integral = kind_[i] == 1 || kind_[i] == 3;
+      return integral ? std::abs(before[i]) : std::max(scale[i], std::abs(y[i]));
+    };
+    for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max(largest[kind_[i]], size_of(i));
+    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max(size_of(i), share_of_kind * largest[kind_[i]]);
     const double size = norm(change);
     if (!std::isfinite(size)) report_singular(t);
     if (size <= 1e-14) return finish();
