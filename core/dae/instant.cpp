@@ -258,7 +258,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
-  take_directions(problem, deflection_branch, state, change);
+  take_directions(problem, deflection_branch, fired, state, change);
   std::vector<int> broken;
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const int direction = problem.direction(slider_branch[k]);
@@ -285,11 +285,11 @@ ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, const 
           }};
 }
 
-void Instant::take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const State& state,
-                              Change& change) {
+void Instant::take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
+                              const State& state, Change& change) {
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->events(i) == 0) continue;
+      if (laws.batch->events(i) == 0 || contains(fired.starts, laws.first + static_cast<int>(i))) continue;
       const int j = laws.first + static_cast<int>(i);
       const Branch& b = network_.deflections[at(j)];
       const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = va - vb;

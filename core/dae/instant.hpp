@@ -48,7 +48,8 @@ class Instant {
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, const Nodal& now);
-  void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const State& state, Change& change);
+  void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
+                       const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider) const;
   /// Nodes are numbered as in the equations, so that two ways to write a network give the same numbers.

@@ -52,6 +52,7 @@ void check_trees(const std::string& drive) {
     CAPTURE(seed);
     INFO(tree.composed);
     INFO(tree.wired);
+    INFO(tree.shuffled);
     const Trajectory composed = run_elements(drive + tree.composed);
     const Trajectory wired = run_elements(drive + tree.wired);
     const Trajectory shuffled = run_elements(drive + tree.shuffled);
