@@ -54,10 +54,8 @@ Path straight(const std::string& name, const std::vector<double>& positions) {
 std::vector<Path> paths() {
   const double a = 0.0231, f = 3.07, omega = 2 * std::numbers::pi * f, stop = 1.213;
   std::vector<double> halves, quarters = {0};
-  for (int j = 0; j < 7; ++j) {
-    halves.push_back(j / (2 * f));
-    quarters.push_back((j + 0.5) / (2 * f));
-  }
+  for (int j = 0; j / (2 * f) < stop; ++j) halves.push_back(j / (2 * f));
+  for (int j = 0; (j + 0.5) / (2 * f) < stop; ++j) quarters.push_back((j + 0.5) / (2 * f));
   const auto triangle = [=](double t) { return a * (1 - 4 * std::abs(std::fmod(f * t + 0.25, 1.0) - 0.5)); };
   const auto slope = [=](double t) { return std::fmod(f * t + 0.25, 1.0) < 0.5 ? 4 * a * f : -4 * a * f; };
   const auto signal = [=](const char* what, const char* kind, double amplitude) {

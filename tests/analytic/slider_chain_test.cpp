@@ -15,9 +15,10 @@ using namespace rheonet::test;
 namespace {
 
 constexpr int N = 200;
-constexpr double amplitude = 7.1, frequency = 1.37, stop = 1.13;
+constexpr double amplitude = 7.5, frequency = 3.7, stop = 1.13;
 
-/// Joints and floors differ; a push at the end reaches more or less deep, as it grows and turns.
+/// The joints are the weaker the farther from the push at the end, though not evenly: some ten of them slip at a time,
+/// and the rest of the chain goes in clusters.
 std::string shaken(double sign) {
   return fmt::format(R"toml(
 [models.cell]
@@ -34,8 +35,8 @@ push = {{ type = "force", at = "end", force = {{ sine = {:.17g}, frequency = {:.
 [elements.chain]
 type = "cell"
 between = ["ground", "end"]
-joint = "3.1 + 1.7*sin(2.3*i)"
-floor = "0.031 + 0.017*cos(1.7*i)"
+joint = "0.5 + 0.03*i + 0.03*sin(2.3*i)"
+floor = "0.01 + 0.0055*cos(1.7*i)"
 m = "0.0173 + 0.0071*sin(0.9*i)"
 repeat = {{ count = {}, as = "i" }}
 
@@ -110,7 +111,7 @@ TEST_CASE("A chain of 200 masses joined by sliders, shaken: laws, balance, energ
     }
     const Told told = check_laws(scene, rows, accuracy);
     // It is what it should be: parts stick to each other and move, and that changes often.
-    CHECK_GT(told.changes, N);
+    CHECK_GT(told.changes, N / 2);
     CHECK_GT(told.locked, 10 * N);
     CHECK_GT(told.slipping, 10 * N);
     CHECK_LE(imbalance(scene, rows), 10 * accuracy * amplitude);

@@ -48,8 +48,10 @@ void check_between(const std::string& toml, const Expectations& expected, const 
   }
 }
 
-void check_events(const std::string& toml, const std::vector<double>& instants) {
+void check_events(const std::string& toml, const std::vector<double>& changes, const std::vector<double>& drive) {
   INFO(toml);
+  std::vector<double> instants = changes;
+  instants.insert(instants.end(), drive.begin(), drive.end());
   for (const double accuracy : accuracies) {
     CAPTURE(accuracy);
     try {
@@ -59,7 +61,7 @@ void check_events(const std::string& toml, const std::vector<double>& instants) 
         if (rows.time()[row] == rows.time()[row - 1]) found.push_back(rows.time()[row]);
       }
       const double allowed = accuracy * length(rows);
-      for (const double t : instants) {
+      for (const double t : changes) {
         CHECK_MESSAGE(nearest(found, t) <= allowed,
                       fmt::format("no event at t = {:.12g} s, the nearest is {:.3g} s away", t, nearest(found, t)));
       }
@@ -76,26 +78,28 @@ void check_events(const std::string& toml, const std::vector<double>& instants) 
 
 namespace {
 
-void check_within(const Trajectory& rows, const std::string& column, double value, double since, double rounding) {
+void check_within(const Trajectory& rows, const std::string& column, double value, double since, double until,
+                  double rounding) {
   const std::vector<double>& x = rows[column];
   for (std::size_t row = 0; row < x.size(); ++row) {
-    if (rows.time()[row] < since || std::abs(x[row] - value) <= rounding) continue;
-    FAIL_CHECK(fmt::format("{} at t = {:.9g} s is {:.17g}, not {:.17g}", column, rows.time()[row], x[row], value));
+    const double t = rows.time()[row];
+    if (t < since || t > until || std::abs(x[row] - value) <= rounding) continue;
+    FAIL_CHECK(fmt::format("{} at t = {:.9g} s is {:.17g}, not {:.17g}", column, t, x[row], value));
     return;
   }
 }
 
 }  // namespace
 
-void check_exactly(const Trajectory& rows, const std::string& column, double value, double since) {
-  check_within(rows, column, value, since, 0);
+void check_exactly(const Trajectory& rows, const std::string& column, double value, double since, double until) {
+  check_within(rows, column, value, since, until, 0);
 }
 
 double check_constant(const Trajectory& rows, const std::string& column, double since, double rounding) {
   const auto first = std::lower_bound(rows.time().begin(), rows.time().end(), since) - rows.time().begin();
   REQUIRE_LT(std::size_t(first) + 1, rows.time().size());
   const double value = rows[column][std::size_t(first)];
-  check_within(rows, column, value, since, rounding);
+  check_within(rows, column, value, since, HUGE_VAL, rounding);
   return value;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "core/netlist/scene.hpp"
@@ -12,12 +13,13 @@ namespace rheonet::test {
 /// nodes also when they slip.
 void check_between(const std::string& toml, const Expectations& expected, const std::vector<double>& jumps);
 
-/// Checks that the run has an event at each of `instants` and none elsewhere, to the accuracy times the run's length.
-/// The netlist is to ask for `output.events`.
-void check_events(const std::string& toml, const std::vector<double>& instants);
+/// Checks that the run has an event at each of `changes`, and none but at these and where the drive jumps (`drive`), to
+/// the accuracy times the run's length. The netlist is to ask for `output.events`.
+void check_events(const std::string& toml, const std::vector<double>& changes, const std::vector<double>& drive = {});
 
-/// Checks that a column has this value to the last bit in every row from `since` on.
-void check_exactly(const Trajectory& rows, const std::string& column, double value, double since = 0);
+/// Checks that a column has this value to the last bit in every row from `since` to `until`.
+void check_exactly(const Trajectory& rows, const std::string& column, double value, double since = 0,
+                   double until = HUGE_VAL);
 
 /// Checks that a column does not change from `since` on, by a single bit or by more than `rounding`. Its value there.
 double check_constant(const Trajectory& rows, const std::string& column, double since, double rounding = 0);

@@ -49,7 +49,7 @@ void check_motion(double c, double Fs, double x0, double v0) {
                 {{"slider.force", [&](double t) { return exact.friction(t); }},
                  {"mass.force", [&](double t) { return m * exact.acceleration(t); }}},
                 exact.instants());
-  check_events(scene(c, Fs, x0, v0, "points = 2, events = true"), exact.instants());
+  check_events(scene(c, Fs, x0, v0, "points = 2, events = true"), exact.changes(), exact.instants());
 }
 
 /// Nothing changes any more after t, to the last bit; it lies at x.
@@ -80,11 +80,14 @@ TEST_CASE("A mass on a spring and a slider: turning points, and where it stops")
     check_stopped(scene(0, Fc, sign * x0, 0), turns.back(), -sign * (x0 - 10 * reach), x0);
     const Trajectory rows = simulate(scene(0, Fc, sign * x0, 0, "points = 2, events = true"), 1e-9);
     std::size_t n = 0;
+    double last = 0;
     for (std::size_t row = 1; row < rows.time().size(); ++row) {
-      if (rows.time()[row] != rows.time()[row - 1]) continue;
+      const double t = rows.time()[row];
+      if (t != rows.time()[row - 1] || t == last) continue;
+      last = t;
       ++n;
-      CHECK_EQ(rows["block.position"][row],
-               doctest::Approx((n % 2 ? -sign : sign) * (x0 - 2 * double(n) * reach)).epsilon(1e-8));
+      const double turn = (n % 2 ? -sign : sign) * (x0 - 2 * double(n) * reach);
+      CHECK_LE(std::abs(rows["block.position"][row] - turn), 1e-8 * x0);
     }
     CHECK_EQ(n, 5);
   }

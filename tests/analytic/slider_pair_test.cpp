@@ -87,7 +87,7 @@ void check_pair(const std::string& force, double Fs, double v1, double v2, doubl
                  {"mass2.force", [&](double t) { return apart.friction(t); }},
                  {"mass1.force", [&](double t) { return centre.force(t) - apart.friction(t); }}},
                 apart.instants());
-  check_events(pair(force, Fs, v1, v2, stop, "points = 2, events = true"), apart.instants());
+  check_events(pair(force, Fs, v1, v2, stop, "points = 2, events = true"), apart.changes(), apart.instants());
 }
 
 /// A mass on sliders side by side, some the other way round.
@@ -136,7 +136,7 @@ TEST_CASE("Two masses joined by a slider lock, and keep their momentum") {
     check_exactly(rows, "slider.velocity", 0, since);
     check_constant(rows, "slider.displacement", since, rounding);
     const double common = check_constant(rows, "upper.velocity", since, rounding);
-    CHECK_EQ(check_constant(rows, "lower.velocity", since, rounding), common);
+    CHECK_LE(std::abs(check_constant(rows, "lower.velocity", since, rounding) - common), rounding);
   }
   const double lost = reduced * (v1 - v2) * (v1 - v2) / 2;
   check_account(pair("0", Fc, v1, v2, stop), {0, -lost, lost});

@@ -42,7 +42,7 @@ void check_motion(const std::string& force, const std::vector<SlidingMotion::Sta
                 {{"slider.force", [&](double t) { return exact.friction(t); }},
                  {"mass.force", [&](double t) { return m * exact.acceleration(t); }}},
                 exact.instants());
-  check_events(scene(force, coulomb, breakaway, stop, "points = 2, events = true"), exact.instants());
+  check_events(scene(force, coulomb, breakaway, stop, "points = 2, events = true"), exact.changes(), exact.instants());
 }
 
 /// A force that is constant between steps.

@@ -82,15 +82,15 @@ void check_refused_at_once(const std::string& toml, const std::vector<std::strin
 
 TEST_CASE("A force that outgrows a slider without mass is refused, with its name and the time") {
   for (const double s : {1.0, -1.0}) {
-    const double slope = s * 3.1373;
-    check_refused(scene(fmt::format("{{ ramp = {} }}", slope), slider), Fc / 3.1373, {"block", "end"});
-    check_refused(scene(fmt::format("{{ ramp = {} }}", slope), sticky, 2), 1.43 * Fc / 3.1373, {"block", "end"});
+    const double slope = s * 4.3137;
+    check_refused(scene(fmt::format("{{ ramp = {} }}", slope), slider), Fc / 4.3137, {"block", "end"});
+    check_refused(scene(fmt::format("{{ ramp = {} }}", slope), sticky), 1.43 * Fc / 4.3137, {"block", "end"});
     const double frequency = 0.37, amplitude = s * 1.19 * Fc;
     check_refused(scene(fmt::format("{{ sine = {:.17g}, frequency = {} }}", amplitude, frequency), slider),
                   std::asin(1 / 1.19) / (2 * std::numbers::pi * frequency), {"block", "end"});
     check_refused(scene(fmt::format("{{ step = {:.17g}, time = 0.3137 }}", s * 1.0001 * Fc), slider), 0.3137,
                   {"block", "end"});
-    // A third and a last peak that no other is as high as.
+    // Two peaks just within, then one beyond.
     check_refused(scene(fmt::format("{{ table = [[0, 0], [0.2, {0}], [0.4, 0], [0.5, {1}], [0.7, {2}], [1, 0]] }}",
                                     s * 2.7, s * -2.7, s * 3.7),
                         slider),
@@ -99,8 +99,8 @@ TEST_CASE("A force that outgrows a slider without mass is refused, with its name
 }
 
 TEST_CASE("A force that outgrows a slider behind others is refused") {
-  const std::string ramp = "{ ramp = 3.1373 }";
-  const double t = Fc / 3.1373;
+  const std::string ramp = "{ ramp = 4.3137 }";
+  const double t = Fc / 4.3137;
   const std::string weak = "coulomb = \"Fc\" }\n", strong = "coulomb = \"1.37*Fc\" }\n";
   check_refused(scene(ramp, "s1 = { type = \"slider\", between = [\"mid\", \"end\"], " + strong +
                                 "s2 = { type = \"slider\", between = [\"mid\", \"ground\"], " + weak),
@@ -116,13 +116,13 @@ TEST_CASE("A force that outgrows a slider behind others is refused") {
 
 // A spring before the slider moves a little until then, and does not help.
 TEST_CASE("A force that outgrows a slider behind a spring is refused") {
-  const std::string toml = scene("{ ramp = 3.1373 }",
+  const std::string toml = scene("{ ramp = 4.3137 }",
                                  "spring = { type = \"spring\", between = [\"end\", \"mid\"], stiffness = 137.3 }\n"
                                  "block = { type = \"slider\", between = [\"mid\", \"ground\"], coulomb = \"Fc\" }\n");
   const std::string text = refusal(toml);
   CAPTURE(text);
   CHECK(names_one_of(text, {"block", "mid"}));
-  CHECK_LE(std::abs(time_in(text) - Fc / 3.1373), 1e-6);
+  CHECK_LE(std::abs(time_in(text) - Fc / 4.3137), 1e-6);
 }
 
 TEST_CASE("A force beyond a slider without mass from the start is refused before anything is run") {

@@ -33,12 +33,13 @@ output = { )" +
 TEST_CASE("Siconos: friction oscillator") {
   const auto theirs = reference("siconos-friction-oscillator.csv");
   if (!theirs) return;
-  const Trajectory ours = simulate(oscillator("every = 0.1"), 1e-8);
-  constexpr double error = 2.5e-2;
+  constexpr double every = 0.05, error = 2.5e-2;
+  const Trajectory ours = simulate(oscillator("every = 0.05"), 1e-8);
   for (std::size_t row = 0; row < theirs->time().size(); ++row) {
-    REQUIRE_LT(std::abs(ours.time()[row] - theirs->time()[row]), 1e-9);
-    CHECK_LE(std::abs(ours["block.position"][row] - (*theirs)["x"][row]), error);
-    CHECK_LE(std::abs(ours["block.velocity"][row] - (*theirs)["v"][row]), error);
+    const auto index = std::size_t(std::lround(theirs->time()[row] / every));
+    REQUIRE_LT(std::abs(ours.time()[index] - theirs->time()[row]), 1e-9);
+    CHECK_LE(std::abs(ours["block.position"][index] - (*theirs)["x"][row]), error);
+    CHECK_LE(std::abs(ours["block.velocity"][index] - (*theirs)["v"][row]), error);
   }
 }
 
@@ -47,19 +48,22 @@ TEST_CASE("Siconos: friction oscillator") {
 TEST_CASE("Siconos: friction oscillator, exact") {
   const double first = std::atan2(6, 13), farthest = std::hypot(13, 6) - 1;
   CHECK_EQ(first, doctest::Approx(0.4324).epsilon(1e-4));
-  CHECK_EQ(first + 7 * std::numbers::pi, doctest::Approx(22.4236).epsilon(1e-6));
+  CHECK_EQ(first + 7 * std::numbers::pi, doctest::Approx(22.4236).epsilon(1e-5));
   CHECK_EQ(14 - farthest, doctest::Approx(0.68218).epsilon(1e-5));
   for (const double accuracy : accuracies) {
     CAPTURE(accuracy);
     const double error = accuracy * 100;  // of the run's length
     const Trajectory rows = simulate(oscillator("points = 101, events = true"), accuracy);
     int turns = 0;
+    double last = -1;
     for (std::size_t row = 1; row < rows.time().size(); ++row) {
-      if (rows.time()[row] != rows.time()[row - 1]) continue;
-      CHECK_LE(std::abs(rows.time()[row] - (first + turns * std::numbers::pi)), error);
+      const double t = rows.time()[row];
+      if (t != rows.time()[row - 1] || t == last) continue;
+      CHECK_LE(std::abs(t - (first + turns * std::numbers::pi)), error);
       CHECK_LE(std::abs(rows["block.position"][row] - (turns % 2 ? -1 : 1) * (farthest - 2 * turns)),
                10 * accuracy * farthest);
       ++turns;
+      last = t;
     }
     CHECK_EQ(turns, 8);
     const double stays = rows["block.position"].back();
@@ -86,8 +90,7 @@ k = 10
 push    = { type = "force", at = "floor", force = { sine = 10, frequency = "1/1.2" } }
 release = { type = "force", at = "floor", force = { sine = 10, frequency = "1/1.2", time = 0.6 } }
 inertia = { type = "mass", at = "floor", mass = "m" }
-damper  = { type = "dashpot", between = ["floor", "ground"], damping = "2*0.05*sqrt(k*m)"
-  }
+damper  = { type = "dashpot", between = ["floor", "ground"], damping = "2*0.05*sqrt(k*m)" }
 [elements.frame]
 between = ["floor", "ground"]
 series = [ { type = "spring", stiffness = "k" }, { type = "slider", coulomb = 7.5 } ]
