@@ -354,7 +354,9 @@ bool ConvexNetwork::release() {
     const Branch& b = branches_[k];
     if (!b.stuck) continue;
     const double over = std::max(f[k] - b.law.high, b.law.low - f[k]);
-    if (over > bound_rounding * (std::abs(b.law.low) + std::abs(b.law.high))) beyond.push_back({over, static_cast<int>(k)});
+    double bounds = 0;
+    for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
+    if (over > bound_rounding * bounds) beyond.push_back({over, static_cast<int>(k)});
   }
   std::sort(beyond.begin(), beyond.end(), std::greater<>());
   released_.clear();
@@ -384,7 +386,9 @@ bool ConvexNetwork::run_away() {
     scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * (x_[k] - rest_[k]))});
   }
   for (const Branch& b : branches_) {
-    scale = std::max({scale, std::abs(b.law.low), std::abs(b.law.high), std::abs(force(b, difference(b), b.side))});
+    for (double f : {b.law.low, b.law.high, force(b, difference(b), b.side)}) {
+      if (std::isfinite(f)) scale = std::max(scale, std::abs(f));
+    }
   }
   for (const Branch& b : branches_) {
     if (b.stuck || std::abs(b.weak * difference(b)) <= weak_limit * scale) continue;

@@ -229,7 +229,11 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       if (contains(fired.starts, static_cast<int>(k + i))) {
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
-      const double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
+      double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
+      // What has stopped does not go on as before: again the event knows better.
+      if (contains(fired.turns, static_cast<int>(k + i)) && laws.batch->can_hold(i) && (massless(b.a) || massless(b.b))) {
+        (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
+      }
       deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), {.low = low, .high = high, .backward = backward, .forward = forward});
     }
   }
@@ -296,9 +300,6 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       const int direction =
           std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
-        const auto massless = [&](NodeId node) {
-          return structure_.kind[at(node)] == Kind::viscous || structure_.kind[at(node)] == Kind::floating;
-        };
         if (laws.batch->can_hold(i) && (massless(b.a) || massless(b.b))) {
           change.standing.push_back(j);
         } else if (!laws.batch->fits(i, 0)) {

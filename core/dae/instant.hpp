@@ -28,6 +28,7 @@ class Instant {
   struct Fired {
     std::vector<int> sliders;
     std::vector<int> starts;  ///< deflection branches that stood and begin to move in their law's direction
+    std::vector<int> turns;   ///< deflection branches that have stopped: they stand, or go on in their law's direction
   };
   /// Takes the state over the instant t, just after Drive::enter if `stepped`, and finds the modes that hold from there on.
   /// `force` are the forces of the sliders before, `fired` those whose event it is; `horizon` is a time until something is
@@ -52,6 +53,10 @@ class Instant {
                        const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider) const;
+  bool massless(NodeId node) const {
+    const Kind kind = structure_.kind[static_cast<std::size_t>(node)];
+    return kind == Kind::viscous || kind == Kind::floating;
+  }
   /// Nodes are numbered as in the equations, so that two ways to write a network give the same numbers.
   int slot(NodeId node) const { return structure_.rank[static_cast<std::size_t>(node)]; }
   [[noreturn]] void report_runaway(double t, const std::vector<int>& nodes) const;

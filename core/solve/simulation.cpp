@@ -170,7 +170,6 @@ class Run {
     dae.view(t, y_.data(), yp_.data());
     check_ties(t);
     if (t > settings_.start) {
-      if (getenv("EVDBG")) for (int j : change.standing) fprintf(stderr, "STAND %.12g %s\n", t, branch_name(j).c_str());
       for (int branch : change.turned) note_event(t, network_.deflections[at(branch)].element, "reversal");
       for (int k : change.switched) {
         note_event(t, network_.sliders[at(k)].branch.element, modes_.slider[at(k)] == Modes::stuck ? "stick" : "slip");
@@ -266,7 +265,6 @@ class Run {
 
   void note_event(double t, int element, const char* what) {
     ++statistics_.events;
-    if (getenv("EVDBG")) fprintf(stderr, "EV %.12g %s %s\n", t, element_name(element).c_str(), what);
     observer_.event(t, element, what);
     last_switched_ = element_name(element);
   }
@@ -352,9 +350,11 @@ class Run {
       std::size_t i = 0;
       DeflectionBatch& batch = dae.batch_of(branch, i);
       const bool held = batch.holds(i);
+      const int direction = batch.direction(i);
       switched.push_back(branch);
       note_event(t, network_.deflections[at(branch)].element,
                  batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]));
+      if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
       if (held) {
         const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
         switched.insert(switched.end(), released.begin(), released.end());
