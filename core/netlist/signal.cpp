@@ -223,6 +223,17 @@ double Piece::integral(double from, double to) const {
   return straight + amplitude * half * sum;
 }
 
+double Piece::rounding(double t) const {
+  // The operations that lead to a breakpoint, an angle or a value, each off by half a unit in the last place.
+  constexpr double operations = 8;
+  const double tau = std::abs(t - origin);
+  const double angle = std::abs(phase) + (std::abs(omega) + std::abs(chirp) * tau / 2) * tau;
+  const double fastest = std::abs(slope) + std::abs(amplitude) * (std::abs(omega) + std::abs(chirp) * tau);
+  const double sizes = std::abs(level) + std::abs(slope) * tau + std::abs(amplitude) * (1 + angle) +
+                       fastest * (std::abs(t) + std::abs(origin));
+  return operations * std::numeric_limits<double>::epsilon() * sizes;
+}
+
 Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }
 
 double Signal::before(double t) const { return piece(std::nextafter(t, -infinity)).value(t); }

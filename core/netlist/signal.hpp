@@ -29,6 +29,9 @@ struct Piece {
   /// Integral of value from `from` to `to`: in closed form where chirp = 0, else by Gauss-Legendre panels of at most a
   /// quarter turn each, exact to rounding.
   double integral(double from, double to) const;
+  /// A bound on what rounding, of t and of breakpoints too, does to value(t): two stretches that meet differ by no more
+  /// than the bounds of both.
+  double rounding(double t) const;
 };
 
 /// A function of time as `simulate` needs it: piecewise smooth, every breakpoint known. All values in SI. Frequencies are

@@ -159,6 +159,103 @@ TEST_CASE("a reversal at which one stands is not the next one") {
   CHECK_EQ(driven.drive.next_reversal(0, -1, 0, 0.4999 / frequency), infinity);
 }
 
+// What is remembered of one search must serve the next ones, over instants at which nothing changes and over those at
+// which the signals do.
+TEST_CASE("the next reversal is the same whatever was asked before") {
+  int asked = 0, finite = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    SceneBuilder builder;
+    builder.motion("smooth", "a", "velocity", smooth(2 + random.below(2), 1, random));
+    builder.motion("edges", "b", "velocity",
+                   Signal(Signal::Square{random.uniform(0.1, 1), random.uniform(0.5, 4), 0.3, 0, 0}));
+    builder.motion("corners", "c", "position", Signal(Signal::Triangle{0.1, random.uniform(0.5, 4), 1.1, 0, 0}));
+    builder.motion("one way", "d", "velocity", Signal(Signal::Sine{0.3, 3.1, 0.2, 0, 0.9}));
+    const std::pair<int, int> pairs[] = {{0, -1}, {1, 0}, {-1, 3}, {2, 3}, {2, 0}, {3, 1}};
+    constexpr double stop = 2.7;
+    Driven driven(builder, 0, {0, 0, 0, 0, 0});
+    for (double t = 0; t < stop;) {
+      CAPTURE(t);
+      driven.drive.enter(t);
+      Driven fresh(builder, 0, {0, 0, 0, 0, 0});
+      fresh.drive.enter(t);
+      const double limit = std::min(driven.drive.next_break(), stop);
+      double next = limit;
+      for (const auto& [a, b] : pairs) {
+        const double expected = fresh.drive.next_reversal(a, b, t, limit);
+        const double found = driven.drive.next_reversal(a, b, t, limit);
+        ++asked;
+        if (std::isfinite(expected)) {
+          ++finite;
+          CHECK(std::abs(found - expected) < 1e-12);
+        } else {
+          CHECK_EQ(found, expected);
+        }
+        next = std::min(next, found);
+      }
+      // With one limit throughout, only the stretches tell that the signals have changed.
+      const double far = fresh.drive.next_reversal(0, 1, t, stop), again = driven.drive.next_reversal(0, 1, t, stop);
+      CHECK((std::isfinite(far) ? std::abs(again - far) < 1e-12 : again == far));
+      // Also between reversals, as events of other laws would have it, and with a nearer limit.
+      const double between = t + (next - t) * random.uniform(0.1, 0.9);
+      const double nearer = driven.drive.next_reversal(0, -1, between, between + 0.01);
+      CHECK((nearer == infinity || (nearer > between && nearer <= between + 0.01)));
+      t = random.below(3) == 0 ? between : next;
+    }
+  }
+  CHECK(finite > 1000);
+  CHECK(finite < asked - 1000);
+}
+
+// A corner was taken for a step of the size of its rounding, which grows with speed, with angle and with time.
+TEST_CASE("corners are no steps, however fast, wound up or late; the smallest real step is one") {
+  const auto largest_step = [](const Signal& signal, double start, double stop, double& rounding) {
+    SceneBuilder b;
+    b.motion("m", "a", "position", signal);
+    Driven driven(b, start, {0, 0});
+    driven.drive.enter(start);
+    double largest = 0;
+    int breaks = 0;
+    for (double t = driven.drive.next_break(); t < stop && breaks < 3000; t = driven.drive.next_break(), ++breaks) {
+      rounding = std::max(rounding, std::abs(signal.value(t) - signal.before(t)));
+      driven.drive.enter(t);
+      largest = std::max(largest, std::abs(driven.drive.steps()[0]));
+    }
+    return largest;
+  };
+  double rounding = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const double amplitude = std::pow(10, random.uniform(-6, 1)), frequency = std::pow(10, random.uniform(-1, 5));
+    const double start = random.below(2) * std::pow(10, random.uniform(0, 8)),
+                 offset = amplitude * random.uniform(-1, 1);
+    const double phase = random.uniform(-90, 90), began = start * random.below(2), duration = 3000 / frequency;
+    CHECK_EQ(largest_step(Signal(Signal::Triangle{amplitude, frequency, phase, began, offset}), start, start + duration,
+                          rounding),
+             0);
+    const double end_frequency = frequency * random.uniform(0, 30);
+    const double before = began - duration * random.uniform(0.1, 0.9);
+    CHECK_EQ(largest_step(Signal(Signal::Chirp{amplitude, frequency, end_frequency, duration, phase, before, offset}),
+                          start, start + duration, rounding),
+             0);
+    std::vector<double> times, values;
+    for (int k = 0; k < 50; ++k) {
+      times.push_back((k == 0 ? 0 : times.back()) + random.uniform(0, 2 / frequency));
+      values.push_back(amplitude * random.uniform(-1, 1));
+    }
+    CHECK_EQ(largest_step(Signal(Signal::Table{times, values, before, offset}), start, start + duration, rounding), 0);
+  }
+  CHECK(rounding > 0);  // else nothing was tested
+
+  double ignored = 0;
+  for (const double height : {1e-12, -1e-12, 1e-6}) {
+    const Signal steep(Signal::Table{{0, 1, 1, 2}, {1, 0.5, 0.5 + height, 1}, 0.1, 0.2});
+    CHECK(largest_step(steep, 0.2, 2, ignored) == doctest::Approx(std::abs(height)).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("a drive goes over jumps and corners: what steps, what goes on, when the next one comes") {
   SceneBuilder b;
   b.motion("by position", "a", "position", Signal(Signal::Step{0.037, 0.31, 0.013}));
