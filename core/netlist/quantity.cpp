@@ -88,6 +88,8 @@ Result evaluate_trimmed(std::string_view text, const Environment& environment) {
     if (text == "inf" || text == "+inf") return Number{std::numeric_limits<double>::infinity(), {}};
     if (magnitude == "inf") return TextError{0, "a value cannot be -infinity", "\"inf\" is the limit of a parameter"};
     if (magnitude == "nan") return TextError{0, "a value cannot be \"nan\"", "give a number"};
+    if (magnitude.starts_with("inf ") && begins_unit(without_spaces_before(magnitude.substr(3))))
+      return TextError{0, "`inf` has no unit", "an infinite value is \"inf\" alone"};
   }
   const auto leading = leading_number(text);
   if (leading) {

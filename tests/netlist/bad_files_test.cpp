@@ -111,7 +111,7 @@ DIR/scenes/broken.toml:1:13: error: the header of a table is not closed
   CHECK(messages_in(folder, including("latin.toml")) ==
         "\n"
         "DIR/scenes/latin.toml:1:13: error: byte 0xE9 is not UTF-8\n"
-        "    1 | title = \"caf\xE9\"\n"
+        "    1 | title = \"caf\uFFFD\"\n"
         "      |             ^\n"
         "  a netlist is UTF-8 text: save the file in that encoding\n");
   CHECK(messages_in(folder, R"~(
@@ -166,7 +166,7 @@ TEST_CASE("a file that is no netlist") {
                                   "e\n");
   CHECK(first(read_scene(latin, fake_declarations())) ==
         latin.string() +
-            ":1:5: error: byte 0xFC is not UTF-8\n    1 | # Gr\xFC\xDF"
+            ":1:5: error: byte 0xFC is not UTF-8\n    1 | # Gr\uFFFD\uFFFD"
             "e\n      |     ^\n"
             "  a netlist is UTF-8 text: save the file in that encoding");
 }
