@@ -256,6 +256,54 @@ TEST_CASE("corners are no steps, however fast, wound up or late; the smallest re
   }
 }
 
+// Far from time 0 the time itself has fewer digits, but of a signal that begins there nothing more is lost: what counts
+// is the distance from its beginning. Times are such that both are exact.
+TEST_CASE("a drive that begins late is as exact as one that begins at 0") {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    constexpr double late = 1e8, grain = 1.0 / (1 << 20);
+    const double a = random.uniform(0.1, 1), f = random.uniform(0.3, 50), phase = random.uniform(-9, 9), offset = 0.3;
+    const auto drive = [&](double start) {
+      SceneBuilder b;
+      for (const char* parameter : {"position", "velocity"}) {
+        const auto motion = [&](const std::string& name, const Signal& signal) {
+          b.motion(name + parameter, "node_" + name + parameter, parameter, signal);
+        };
+        motion("ramp", Signal(Signal::Ramp{a, start, offset}));
+        motion("sine", Signal(Signal::Sine{a, f, phase, start, offset}));
+        motion("square", Signal(Signal::Square{a, f, phase, start, offset}));
+        motion("triangle", Signal(Signal::Triangle{a, f, phase, start, offset}));
+        motion("chirp", Signal(Signal::Chirp{a, f, 3 * f, 1.5, phase, start, offset}));
+        motion("table", Signal(Signal::Table{{0.25, 1, 1.75}, {a, 0, -a}, start, offset}));
+      }
+      return b;
+    };
+    const std::vector<double> positions(13, 0.0);
+    Driven first(drive(0), 0, positions), then(drive(late), late, positions);
+    first.drive.enter(0);
+    then.drive.enter(late);
+    for (int k = 0; k < 2000; ++k) {
+      const double t = static_cast<double>(k * 1021) * grain;
+      // Edges of periods that are no multiples of the grain of time come earlier or later by that much.
+      for (double next = first.drive.next_break(); next <= t; next = first.drive.next_break()) first.drive.enter(next);
+      for (double next = then.drive.next_break(); next <= late + t; next = then.drive.next_break())
+        then.drive.enter(next);
+      if (first.drive.next_break() < t + 1e-6 || then.drive.next_break() < late + t + 1e-6) continue;
+      first.drive.evaluate(t);
+      then.drive.evaluate(late + t);
+      for (std::size_t i = 0; i < 12; ++i) {
+        CAPTURE(i);
+        // Edges and corners (of the square and the triangle) are late by half the grain of time there, 1.5e-8 s.
+        const bool exact = i % 6 != 2 && i % 6 != 3;
+        const double value = exact ? 1e-13 : 1e-8 * 4 * f * a, rate = exact ? 1e-11 : 1e-8 * 4 * f * a;
+        CHECK(std::abs(then.drive.position[i] - first.drive.position[i]) <= value);
+        CHECK(std::abs(then.drive.velocity[i] - first.drive.velocity[i]) <= rate);
+      }
+    }
+  }
+}
+
 TEST_CASE("a drive goes over jumps and corners: what steps, what goes on, when the next one comes") {
   SceneBuilder b;
   b.motion("by position", "a", "position", Signal(Signal::Step{0.037, 0.31, 0.013}));
