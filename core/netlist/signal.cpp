@@ -155,10 +155,12 @@ struct PieceAt {
     if (t < s.time) return constant(s.offset, s.time);
     const double high = s.offset + s.height;
     if (s.frequency > 0 && s.width * s.frequency >= 1) return constant(high);
-    const auto on = [&s](std::int64_t k) {
-      return s.frequency > 0 ? s.time + static_cast<double>(k) / s.frequency : k > 0 ? infinity : s.time;
+    const double start = s.frequency > 0 ? half_turns(s.phase) / 2 : 0;  // in periods
+    const auto on = [&](std::int64_t k) {
+      return s.frequency > 0 ? s.time + (static_cast<double>(k) - start) / s.frequency : k > 0 ? infinity : s.time;
     };
-    const auto k = last_edge(t, std::floor(s.frequency * (t - s.time)), 0, on);
+    const auto k =
+        last_edge(t, std::floor(s.frequency * (t - s.time) + start), static_cast<std::int64_t>(std::floor(start)), on);
     const double off = std::min(on(k) + s.width, on(k + 1));
     return t < off ? constant(high, off) : constant(s.offset, after(t, on(k + 1)));
   }

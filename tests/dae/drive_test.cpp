@@ -309,7 +309,7 @@ TEST_CASE("a drive goes over jumps and corners: what steps, what goes on, when t
   b.motion("by position", "a", "position", Signal(Signal::Step{0.037, 0.31, 0.013}));
   b.motion("by velocity", "b", "velocity", Signal(Signal::Square{0.7, 0.9, 0, 0.11, 0.05}));
   b.motion("corner", "c", "position", Signal(Signal::Triangle{0.19, 1.1, 0, 0.07, 0}));
-  b.force("push", "c", Signal(Signal::Pulse{2.3, 0.29, 0, 0.17, 0.4}));
+  b.force("push", "c", Signal(Signal::Pulse{2.3, 0.29, 0, 0, 0.17, 0.4}));
   Driven driven(b, 0, {0, 99, 1.7, 99});
   Drive& d = driven.drive;
 

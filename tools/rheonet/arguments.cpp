@@ -121,7 +121,7 @@ ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   Arguments arguments;
-  std::string accuracy;
+  std::optional<std::string> accuracy;
 
   CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet");
@@ -178,7 +178,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       throw WrongCommandLine{in_words(error), ""};
     }
     refuse_extra_words(app);
-    if (!accuracy.empty()) arguments.accuracy = read_accuracy(accuracy);
+    if (accuracy) arguments.accuracy = read_accuracy(*accuracy);
     if (app.get_subcommands().empty())
       throw WrongCommandLine{"no command given", "to simulate a scene: `rheonet run SCENE`"};
   } catch (const WrongCommandLine& mistake) {

@@ -43,7 +43,8 @@ bool is_source(const std::string& path, const Sources& sources) {
 }
 
 std::string rows_kept(const Output& output) {
-  if (output.rows() == 0) return fmt::format("nothing was written to {}", output.name());
+  if (output.rows() == 0) return fmt::format("no row was written to {}", output.name());
+  if (output.rows() == 1) return fmt::format("the one row up to there is in {}", output.name());
   return fmt::format("the {} rows up to there are in {}", output.rows(), output.name());
 }
 
