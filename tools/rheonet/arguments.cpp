@@ -7,6 +7,7 @@
 #include <charconv>
 #include <map>
 
+#include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
 #include "tools/rheonet/say.hpp"
 
@@ -111,8 +112,8 @@ double read_accuracy(const std::string& text) {
 
 ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
-  say("error: {}\n", mistake.message);
-  if (!mistake.hint.empty()) say("  {}\n", mistake.hint);
+  say("error: {}\n", printable(mistake.message));
+  if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
   say("  `rheonet {}--help` lists what there is\n", commands.empty() ? "" : commands.front()->get_name() + " ");
   return wrong_input;
 }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 
+#include "core/netlist/characters.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/output.hpp"
@@ -60,7 +61,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments);
   if (!read.scene) return wrong_input;
   if (arguments.output != "-" && is_source(arguments.output, read.sources)) {
-    say("error: `--output {}` would overwrite the scene itself\n", arguments.output);
+    say("error: `--output {}` would overwrite the scene itself\n", printable(arguments.output));
     return wrong_input;
   }
 
@@ -69,7 +70,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   try {
     output = std::make_unique<Output>(arguments.output);
   } catch (const std::system_error& error) {
-    say("error: cannot write to `{}`: {}\n", arguments.output, error.code().message());
+    say("error: cannot write to `{}`: {}\n", printable(arguments.output), error.code().message());
     return wrong_input;
   }
 
@@ -81,7 +82,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     progress.erase();
     if (const int error = output->close(); error != 0) return cannot_write(*output, error);
     if (!arguments.quiet) {
-      say("{}: {:g} s to {:g} s\n{}", arguments.scene, read.scene->start, read.scene->stop,
+      say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, output->rows(), output->name()));
     }
     return done;
