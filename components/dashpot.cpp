@@ -11,6 +11,7 @@ struct Dashpot {
   double B;  // N (s/m)^n
   double n;  // flow index
   double w_soft = 0;  // m/s: linear below, far under what is resolved
+  double f_soft = 0;  // N: the force there
 
   explicit Dashpot(std::span<const double> v) : B(v[0]), n(v[1]) {}
 
@@ -18,15 +19,19 @@ struct Dashpot {
   bool by_force() const { return n < 1; }
   double impulse() const { return n == 1 ? B : n < 1 ? 0 : std::numeric_limits<double>::infinity(); }
 
-  void soften(double w) { w_soft = n < 1 ? w : 0; }
+  void soften(double w) {
+    w_soft = n < 1 ? w : 0;
+    f_soft = B * std::pow(w_soft, n);
+  }
 
   template <class T>
   T force(const T& w) const {
-    if (std::abs(value_of(w)) < w_soft) return (B * std::pow(w_soft, n - 1)) * w;
+    if (std::abs(value_of(w)) < w_soft) return (f_soft / w_soft) * w;
     return n == 1 ? B * w : B * signed_power(w, n);
   }
   template <class T>
   T rate(const T& f) const {
+    if (std::abs(value_of(f)) < f_soft) return (w_soft / f_soft) * f;
     return signed_power(f / B, 1 / n);
   }
 

@@ -28,16 +28,18 @@ double Drive::position_of(const Motion& m, double t) const {
 }
 
 void Drive::enter(double t) {
+  // An instant within the present stretches changes none of them.
+  if (t >= next_break_) searches_.clear();
   next_break_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     Motion& m = motions_[i];
-    const double before = position_of(m, t);
+    const double before = position_of(m, t), rounding = m.piece.rounding(t);
     m.anchor = before;
     m.anchor_time = t;
     m.piece = m.signal.piece(t);
     const double step = position_of(m, t) - before;
     // A corner of a position signal leaves a difference of rounding, which is no step.
-    steps_[i] = std::abs(step) <= 1e-13 * (std::abs(before) + std::abs(m.piece.value(t))) ? 0 : step;
+    steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
     next_break_ = std::min(next_break_, m.piece.end);
   }
   for (Force& f : forces_) {
@@ -79,10 +81,19 @@ Drive::Flow Drive::flow(int a, int b, double t, double limit) const {
   return result;
 }
 
-double Drive::next_reversal(int a, int b, double t, double limit) const {
+double Drive::next_reversal(int a, int b, double t, double limit) {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (!std::isfinite(limit) || limit <= t) return never;
   const double grain = 1e-14 * (std::abs(t) + std::abs(limit)) + 1e-13 * (limit - t);
+  const auto [search, is_new] = searches_.try_emplace({a, b});
+  Search& last = search->second;
+  const bool still_ahead = !is_new && last.limit == limit && t >= last.from && last.found - t > 2 * grain;
+  if (!still_ahead) last = {t, limit, search_reversal(a, b, t, limit, grain)};
+  return last.found;
+}
+
+double Drive::search_reversal(int a, int b, double t, double limit, double grain) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
   double side = 0, zero = never;  // the side that w was last on, and where it was exactly 0 since
   for (double now = t; now < limit;) {
     const Flow f = flow(a, b, now, limit);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/network/network.hpp"
@@ -31,7 +33,8 @@ class Drive {
 
   /// The next instant after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its
   /// sign (-1: ground); infinite if there is none. No crossing is missed, however short the time to the next one.
-  double next_reversal(int a, int b, double t, double limit) const;
+  /// Remembered: asked again before that instant, with the same `limit`, it costs nothing.
+  double next_reversal(int a, int b, double t, double limit);
 
   /// Largest angular frequency of the present stretches [rad/s]: 0 if nothing oscillates.
   double fastest() const;
@@ -47,9 +50,12 @@ class Drive {
   double position_of(const Motion& m, double t) const;
   struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
   Flow flow(int a, int b, double t, double limit) const;
+  double search_reversal(int a, int b, double t, double limit, double grain) const;
+  struct Search { double from, limit, found; };
 
   std::vector<Motion> motions_;
   std::vector<Force> forces_;
+  std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present stretches
   std::vector<double> steps_;
   double next_break_ = 0;
   double time_;

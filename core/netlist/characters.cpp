@@ -1,5 +1,7 @@
 #include "core/netlist/characters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace rheonet {
@@ -62,6 +64,32 @@ std::string encode(std::u32string_view characters) {
     }
   }
   return text;
+}
+
+bool is_printable(char32_t c) {
+  const auto within = [c](char32_t first, char32_t last) { return first <= c && c <= last; };
+  return !(c < 0x20 || within(0x7F, 0x9F) || within(0x200E, 0x200F) || within(0x2028, 0x202E) ||
+           within(0x2066, 0x2069) || within(0xD800, 0xDFFF));
+}
+
+std::string printable(std::string_view text) {
+  std::string result;
+  for (const char32_t c : decode(text)) {
+    if (is_printable(c)) {
+      result += encode(std::u32string_view(&c, 1));
+    } else if (c == U'\n') {
+      result += "\\n";
+    } else if (c == U'\r') {
+      result += "\\r";
+    } else if (c == U'\t') {
+      result += "\\t";
+    } else if (c >= stray && c < stray + 0x100) {
+      result += fmt::format("\\x{:02X}", static_cast<unsigned>(c - stray));
+    } else {
+      result += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    }
+  }
+  return result;
 }
 
 std::size_t count_characters(std::string_view text) { return decode(text).size(); }

@@ -9,6 +9,13 @@ namespace rheonet {
 std::u32string decode(std::string_view text);
 std::string encode(std::u32string_view characters);
 
+/// Whether a terminal shows a character as itself: no control character (a tab is one), none that turns the direction of
+/// the text around it, no stray byte.
+bool is_printable(char32_t character);
+/// A text with each character that is not printable escaped as TOML would have it (a stray byte as \xFF), and so on one
+/// line.
+std::string printable(std::string_view text);
+
 /// Number of characters (code points) of a text: positions in messages count these, not bytes.
 std::size_t count_characters(std::string_view text);
 

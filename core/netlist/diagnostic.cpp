@@ -27,10 +27,18 @@ std::string_view line_of(std::string_view text, int number) {
   return text;
 }
 
+/// What stands for a character in an excerpt, as wide as itself: a control character must not reach the terminal.
+char32_t shown_as(char32_t c) {
+  constexpr char32_t picture_of_null = 0x2400, picture_of_delete = 0x2421, replacement = 0xFFFD;
+  if (c == U'\t' || is_printable(c)) return c;
+  return c < 0x20 ? picture_of_null + c : c == 0x7F ? picture_of_delete : replacement;
+}
+
 /// The line with a caret under character `column`, both behind a margin with the line's number, if not 0. A tab stands
 /// in both lines, so that the caret is in its place whatever the width of a tab.
 std::string excerpt(std::string_view line, int line_number, int column) {
-  const std::u32string characters = decode(line);
+  std::u32string characters = decode(line);
+  std::transform(characters.begin(), characters.end(), characters.begin(), shown_as);
   const auto caret = static_cast<std::size_t>(std::max(column, 1) - 1);
   std::size_t first = 0;
   std::size_t last = characters.size();
@@ -77,14 +85,14 @@ std::string format(const Diagnostic& diagnostic, const Sources& sources) {
   const auto* file = spot.file >= 0 && spot.file < std::ssize(sources.files)
                          ? &sources.files[static_cast<std::size_t>(spot.file)]
                          : nullptr;
-  std::string text = file ? file->path.string() : "command line";
+  std::string text = file ? printable(file->path.string()) : "command line";
   if (file && spot.line > 0) text += fmt::format(":{}:{}", spot.line, std::max(spot.column, 1));
   text += severity == Severity::error ? ": error: " : ": warning: ";
-  text += message;
+  text += printable(message);
   if (file && spot.line > 0) text += '\n' + excerpt(line_of(file->text, spot.line), spot.line, spot.column);
   if (spot.file < 0 && spot.line > 0 && spot.line <= std::ssize(sources.command_line))
     text += '\n' + excerpt(sources.command_line[static_cast<std::size_t>(spot.line - 1)], 0, spot.column);
-  if (!hint.empty()) text += "\n  " + hint;
+  if (!hint.empty()) text += "\n  " + printable(hint);
   return text;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/netlist/characters.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -12,6 +14,10 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_printable_text(std::string_view text) {
+  const std::u32string characters = decode(text);
+  return std::all_of(characters.begin(), characters.end(), is_printable);
+}
 
 bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_name, const std::string& what,
                  Mistakes& mistakes, std::string hint) {
@@ -57,7 +63,7 @@ bool expect_array(const TomlValue& value, const std::string& what, Mistakes& mis
 }
 
 bool expect_name(std::string_view name, Spot spot, const std::string& what, Mistakes& mistakes) {
-  const bool good = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+  const bool good = !name.empty() && is_printable_text(name) && std::all_of(name.begin(), name.end(), [](char c) {
     return is_letter(c) || is_digit(c) || c == '_' || c == '-';
   });
   if (!good)
@@ -68,9 +74,9 @@ bool expect_name(std::string_view name, Spot spot, const std::string& what, Mist
 
 bool expect_identifier(std::string_view name, Spot spot, const std::string& what, Mistakes& mistakes) {
   constexpr std::array<std::string_view, 3> reserved{"pi", "inf", "nan"};
-  const bool good = !name.empty() && !is_digit(name.front()) && std::all_of(name.begin(), name.end(), [](char c) {
-    return is_letter(c) || is_digit(c) || c == '_';
-  });
+  const bool good =
+      !name.empty() && !is_digit(name.front()) && is_printable_text(name) &&
+      std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
   if (!good) {
     mistakes.error(spot, "`" + std::string(name) + "` is no name for " + what,
                    "names that expressions use are made of letters, digits and `_`, and begin with no digit");

@@ -128,7 +128,7 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
     } else if (context_.models_missing) {
       return plan;  // it may be one of those
     } else {
-      refuse_type(*kind);
+      refuse_type(*kind, source, !scope);
     }
   }
   plan.sound = mistakes.errors() == before;
@@ -143,13 +143,25 @@ const Declaration* Planner::find_type(const std::string& type) const {
   return nullptr;
 }
 
-void Planner::refuse_type(const TomlEntry& type) {
+void Planner::refuse_type(const TomlEntry& type, const TomlValue& source, bool is_member) {
   std::vector<std::string> names;
   for (const Declaration* d : context_.declarations) {
     if (!d->rotational_type.empty() && d->rotational_type == type.value.text) {
       context_.mistakes.error(type.value.spot,
                               article(type.value.text) + " belongs to a rotational scene, this one is translational",
                               "use `" + d->type + "`, or set domain = \"rotation\"");
+      // What keys it has is known all the same.
+      Keys keys(source, article(type.value.text));
+      keys.find("type");
+      if (is_member) keys.find("name");
+      if (d->ports != Declaration::Ports::between) keys.find("at");
+      if (d->ports != Declaration::Ports::at) keys.find("between");
+      for (const Parameter& p : d->parameters) {
+        keys.find(p.name_in(Domain::rotation));
+        keys.find_quietly(p.name);
+      }
+      keys.find("repeat");
+      keys.finish(context_.mistakes);
       return;
     }
     names.push_back(d->type);

@@ -99,7 +99,7 @@ class Planner {
   void read_place(Plan& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, Keys& keys);
   void read_repeat(Plan& plan, Keys& keys);
   const Declaration* find_type(const std::string& type) const;
-  void refuse_type(const TomlEntry& type);
+  void refuse_type(const TomlEntry& type, const TomlValue& source, bool is_member);
 
   Context& context_;
   const Models& models_;

@@ -51,12 +51,6 @@ bool begins_unit(std::string_view rest) {
   return !rest.empty() && std::string_view("+-*/^<>=!&|?:,.)").find(rest[0]) == std::string_view::npos;
 }
 
-/// A unit that is a fraction, such as ms, is 1/1000 and not 0.001: "1.1 ms" is then the double nearest to 0.0011.
-double multiplied(double value, double factor) {
-  const double inverse = std::round(1 / factor);
-  return factor < 1 && inverse * factor == 1 ? value / inverse : value * factor;
-}
-
 Result quantity(const Leading& leading, std::string_view unit_text, const Environment& environment) {
   const auto parsed = parse_unit(unit_text);
   if (const auto* unit = std::get_if<Unit>(&parsed))
@@ -88,6 +82,8 @@ Result evaluate_trimmed(std::string_view text, const Environment& environment) {
     if (text == "inf" || text == "+inf") return Number{std::numeric_limits<double>::infinity(), {}};
     if (magnitude == "inf") return TextError{0, "a value cannot be -infinity", "\"inf\" is the limit of a parameter"};
     if (magnitude == "nan") return TextError{0, "a value cannot be \"nan\"", "give a number"};
+    if (magnitude.starts_with("inf ") && begins_unit(without_spaces_before(magnitude.substr(3))))
+      return TextError{0, "`inf` has no unit", "an infinite value is \"inf\" alone"};
   }
   const auto leading = leading_number(text);
   if (leading) {

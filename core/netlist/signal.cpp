@@ -155,10 +155,12 @@ struct PieceAt {
     if (t < s.time) return constant(s.offset, s.time);
     const double high = s.offset + s.height;
     if (s.frequency > 0 && s.width * s.frequency >= 1) return constant(high);
-    const auto on = [&s](std::int64_t k) {
-      return s.frequency > 0 ? s.time + static_cast<double>(k) / s.frequency : k > 0 ? infinity : s.time;
+    const double start = s.frequency > 0 ? half_turns(s.phase) / 2 : 0;  // in periods
+    const auto on = [&](std::int64_t k) {
+      return s.frequency > 0 ? s.time + (static_cast<double>(k) - start) / s.frequency : k > 0 ? infinity : s.time;
     };
-    const auto k = last_edge(t, std::floor(s.frequency * (t - s.time)), 0, on);
+    const auto k =
+        last_edge(t, std::floor(s.frequency * (t - s.time) + start), static_cast<std::int64_t>(std::floor(start)), on);
     const double off = std::min(on(k) + s.width, on(k + 1));
     return t < off ? constant(high, off) : constant(s.offset, after(t, on(k + 1)));
   }
@@ -221,6 +223,17 @@ double Piece::integral(double from, double to) const {
         sum += weight * std::sin(phase + (omega + chirp * tau / 2) * tau);
   }
   return straight + amplitude * half * sum;
+}
+
+double Piece::rounding(double t) const {
+  // The operations that lead to a breakpoint, an angle or a value, each off by half a unit in the last place.
+  constexpr double operations = 8;
+  const double tau = std::abs(t - origin);
+  const double angle = std::abs(phase) + (std::abs(omega) + std::abs(chirp) * tau / 2) * tau;
+  const double fastest = std::abs(slope) + std::abs(amplitude) * (std::abs(omega) + std::abs(chirp) * tau);
+  const double sizes = std::abs(level) + std::abs(slope) * tau + std::abs(amplitude) * (1 + angle) +
+                       fastest * (std::abs(t) + std::abs(origin));
+  return operations * std::numeric_limits<double>::epsilon() * sizes;
 }
 
 Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }

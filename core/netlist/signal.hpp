@@ -29,6 +29,9 @@ struct Piece {
   /// Integral of value from `from` to `to`: in closed form where chirp = 0, else by Gauss-Legendre panels of at most a
   /// quarter turn each, exact to rounding.
   double integral(double from, double to) const;
+  /// A bound on what rounding, of t and of breakpoints too, does to value(t): two stretches that meet differ by no more
+  /// than the bounds of both.
+  double rounding(double t) const;
 };
 
 /// A function of time as `simulate` needs it: piecewise smooth, every breakpoint known. All values in SI. Frequencies are
@@ -47,8 +50,9 @@ class Signal {
   struct Triangle { double amplitude, frequency, phase, time, offset; };
   /// A sine whose frequency goes linearly from `frequency` to `end_frequency` within `duration`, then stays there.
   struct Chirp { double amplitude, frequency, end_frequency, duration, phase, time, offset; };
-  /// `height` from `time` on for `width`; with frequency > 0 again at every period.
-  struct Pulse { double height, width, frequency, time, offset; };
+  /// `height` from `time` on for `width`. With frequency > 0 again at every period: while the angle 2 pi frequency
+  /// (t - time) + phase, modulo 2 pi, is below 2 pi frequency width.
+  struct Pulse { double height, width, frequency, phase, time, offset; };
   /// Linear between the points; from `time` until the first point it holds the first value, after the last point the
   /// last. Times do not decrease; two equal times are a jump. Points are relative to `time`.
   struct Table { std::vector<double> times, values; double time, offset; };

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/netlist/keys.hpp"
-#include "core/netlist/table_file.hpp"
+#include "core/netlist/units.hpp"
 
 namespace rheonet {
 
@@ -82,7 +82,7 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
       break;
     case Shape::pulse:
       required = {width};
-      optional.push_back(frequency);
+      optional.insert(optional.end(), {frequency, phase});
       break;
     default:
       break;
@@ -108,8 +108,8 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
 
 void SignalPlan::read_points(const TomlValue& source, Context& context) {
   if (source.is_string()) {
-    if (auto rows = read_table_file(source, context))
-      rows_ = std::make_shared<const std::vector<std::pair<double, double>>>(std::move(*rows));
+    file_spot_ = source.spot;
+    if (auto table = read_table_file(source, context)) file_ = std::make_shared<const TableFile>(std::move(*table));
     return;
   }
   if (!source.is_array()) {
@@ -140,18 +140,23 @@ std::optional<Signal> SignalPlan::evaluate(const Environment& environment, Conte
   return made_;
 }
 
+std::optional<Number> SignalPlan::times_amplitude(Number number, const Environment& environment,
+                                                  Context& context) const {
+  if (!keys_[amplitude].given()) return number;
+  const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
+  if (!factor) return {};
+  number.value *= factor->value;
+  number.dimension = number.dimension * factor->dimension;
+  number.plain = number.plain && factor->plain;
+  number.radian += factor->radian;
+  number.hertz += factor->hertz;
+  return number;
+}
+
 std::optional<double> SignalPlan::scaled(const Formula& formula, const Environment& environment,
                                          Context& context) const {
   auto number = formula.evaluate(environment, context.mistakes);
-  if (number && keys_[amplitude].given()) {
-    const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
-    if (!factor) return {};
-    number->value *= factor->value;
-    number->dimension = number->dimension * factor->dimension;
-    number->plain = number->plain && factor->plain;
-    number->radian += factor->radian;
-    number->hertz += factor->hertz;
-  }
+  if (number) number = times_amplitude(*number, environment, context);
   if (!number) return {};
   const Domain domain = context.domain;
   const Spot spot = formula.source().spot;
@@ -242,7 +247,12 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
         context.mistakes.error(keys_[width].source().spot, "`width` must be less than the period, 1/`frequency`");
         return {};
       }
-      return Signal(Signal::Pulse{*main, *high, *f, *start, *level});
+      if (*f == 0 && *angle != 0) {
+        context.mistakes.error(keys_[phase].source().spot, "a `pulse` without `frequency` has no `phase`",
+                               "`time` says when it begins");
+        return {};
+      }
+      return Signal(Signal::Pulse{*main, *high, *f, *angle, *start, *level});
     default:
       return Signal(Signal::Constant{*main});
   }
@@ -251,16 +261,22 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
 std::optional<Signal> SignalPlan::make_table(const Environment& environment, Context& context, double start,
                                              double level) const {
   Signal::Table table{{}, {}, start, level};
-  if (rows_) {
-    double factor = 1;
-    if (keys_[amplitude].given()) {
-      const auto value = keys_[amplitude].evaluate_finite(environment, quantity_, context.domain, context.mistakes);
-      if (!value) return {};
-      factor = *value;
+  if (file_) {
+    const auto unit = times_amplitude(file_->unit, environment, context);
+    if (!unit) return {};
+    const auto factor = as_quantity(*unit, quantity_, context.domain);
+    if (const auto* wrong = std::get_if<TextError>(&factor)) {
+      context.mistakes.error(file_spot_, "`table`: " + wrong->message,
+                             file_->unit.plain ? wrong->hint : "the unit is that of the header of the file");
+      return {};
     }
-    for (const auto& [t, value] : *rows_) {
+    if (!std::isfinite(std::get<double>(factor))) {
+      context.mistakes.error(keys_[amplitude].source().spot, "`amplitude` must be finite, but is infinite");
+      return {};
+    }
+    for (const auto& [t, value] : file_->points) {
       table.times.push_back(t);
-      table.values.push_back(factor * value);
+      table.values.push_back(multiplied(value, std::get<double>(factor)));
     }
     return Signal(std::move(table));
   }

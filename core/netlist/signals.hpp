@@ -9,6 +9,7 @@
 
 #include "core/netlist/context.hpp"
 #include "core/netlist/signal.hpp"
+#include "core/netlist/table_file.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -36,8 +37,9 @@ class SignalPlan {
   static const std::array<std::string, key_count>& key_names();
   void read_table_signal(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
-  /// `number` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
+  /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
   std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
+  std::optional<Number> times_amplitude(Number number, const Environment& environment, Context& context) const;
   std::optional<double> value_of(Key key, const Environment& environment, Context& context, double otherwise) const;
   std::optional<Signal> make(const Environment& environment, Context& context) const;
   std::optional<Signal> make_table(const Environment& environment, Context& context, double time, double offset) const;
@@ -50,7 +52,8 @@ class SignalPlan {
   Formula main_;
   std::array<Formula, key_count> keys_;
   std::vector<Point> points_;
-  std::shared_ptr<const std::vector<std::pair<double, double>>> rows_;  ///< of a CSV file
+  std::shared_ptr<const TableFile> file_;
+  Spot file_spot_;  ///< where it is named
   mutable std::optional<Signal> made_;
 };
 

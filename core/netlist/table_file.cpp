@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/netlist/characters.hpp"
+#include "core/netlist/units.hpp"
 
 namespace rheonet {
 
@@ -22,6 +23,12 @@ std::string_view trim(std::string_view text) {
   return text.substr(0, text.find_last_not_of(blank) + 1);
 }
 
+/// A field may stand in quotes, as spreadsheets write them.
+std::string_view without_quotes(std::string_view text) {
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quoted ? trim(text.substr(1, text.size() - 2)) : text;
+}
+
 /// The fields of a line, split at commas if it has any, else at semicolons, else at blanks.
 std::vector<Field> split(std::string_view line) {
   const char separator = line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
@@ -33,7 +40,7 @@ std::vector<Field> split(std::string_view line) {
     const std::string_view text = trim(line.substr(at, end - at));
     const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);
     if (separator != ' ' || !text.empty())
-      fields.push_back({text, 1 + static_cast<int>(count_characters(line.substr(0, begin)))});
+      fields.push_back({without_quotes(text), 1 + static_cast<int>(count_characters(line.substr(0, begin)))});
     at = end + 1;
   }
   return fields;
@@ -47,14 +54,37 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
+/// The unit at the end of the field of a header, "velocity [mm/s]" or "velocity (mm/s)"; plain if there is none,
+/// nothing if it is mistaken. What stands in round brackets may be another remark.
+std::optional<Number> unit_of_column(const Field& field, int file, int line, Mistakes& mistakes) {
+  const bool square = field.text.ends_with(']');
+  const auto begin = square || field.text.ends_with(')') ? field.text.rfind(square ? '[' : '(') : field.text.npos;
+  Number one{.value = 1, .dimension = {}};
+  if (begin == field.text.npos) return one;
+  const std::string_view text = trim(field.text.substr(begin + 1, field.text.size() - begin - 2));
+  const auto parsed = parse_unit(text);
+  if (const auto* unit = std::get_if<Unit>(&parsed))
+    return Number{unit->factor, unit->dimension, false, unit->radian, unit->hertz};
+  const Spot spot{file, line, field.column};
+  if (square) {
+    const TextError& wrong = std::get<TextError>(parsed);
+    mistakes.error(spot, "`" + std::string(text) + "` is no unit: " + wrong.message, wrong.hint);
+    return {};
+  }
+  mistakes.warning(spot, "`" + std::string(text) + "` is no unit: this column is taken in SI");
+  return one;
+}
+
 }  // namespace
 
-std::optional<std::vector<std::pair<double, double>>> read_table_file(const TomlValue& name, Context& context) {
+std::optional<TableFile> read_table_file(const TomlValue& name, Context& context) {
   const auto found = context.files.find(name, name.spot.file, context.mistakes);
   if (!found) return {};
   const auto file = context.files.read(*found, name.spot, context.mistakes);
   if (!file) return {};
-  std::vector<std::pair<double, double>> points;
+  TableFile table{{}, {.value = 1, .dimension = {}}};
+  auto& points = table.points;
+  double second = 1;  // the unit of the times, in s
   std::string_view rest = context.files.text(*file);
   bool first = true;
   for (int line_number = 1; !rest.empty(); ++line_number) {
@@ -73,24 +103,36 @@ std::optional<std::vector<std::pair<double, double>>> read_table_file(const Toml
     }
     const auto time = number(fields[0].text);
     const auto value = number(fields[1].text);
-    if (may_be_header && !time && !value) continue;
+    if (may_be_header && !time && !value) {
+      const auto time_unit = unit_of_column(fields[0], *file, line_number, context.mistakes);
+      const auto value_unit = unit_of_column(fields[1], *file, line_number, context.mistakes);
+      if (!time_unit || !value_unit) return {};
+      const auto seconds = as_quantity(*time_unit, Quantity::time, context.domain);
+      if (const auto* wrong = std::get_if<TextError>(&seconds)) {
+        context.mistakes.error({*file, line_number, fields[0].column}, "the unit of the times: " + wrong->message);
+        return {};
+      }
+      second = std::get<double>(seconds);
+      table.unit = *value_unit;
+      continue;
+    }
     for (const auto& [parsed, field] : {std::pair(time, fields[0]), std::pair(value, fields[1])}) {
       if (parsed && std::isfinite(*parsed)) continue;
       context.mistakes.error({*file, line_number, field.column},
                              "expected a finite number, found `" + std::string(field.text) + "`");
       return {};
     }
-    if (!points.empty() && *time < points.back().first) {
+    if (!points.empty() && multiplied(*time, second) < points.back().first) {
       context.mistakes.error({*file, line_number, fields[0].column}, "the times of a table must not decrease");
       return {};
     }
-    points.emplace_back(*time, *value);
+    points.emplace_back(multiplied(*time, second), *value);
   }
   if (points.empty()) {
     context.mistakes.error(name.spot, "the table `" + name.text + "` has no rows");
     return {};
   }
-  return points;
+  return table;
 }
 
 }  // namespace rheonet

@@ -5,12 +5,20 @@
 #include <vector>
 
 #include "core/netlist/context.hpp"
+#include "core/netlist/expression.hpp"
 
 namespace rheonet {
 
-/// Reads the points (time, value) of a signal from a CSV file: two columns of numbers in SI, split by commas,
-/// semicolons, tabs or spaces; the first row may be a header; empty lines and lines that begin with `#` are left out.
-/// `name` is the string that names the file. Mistakes are reported with the line of the CSV file.
-std::optional<std::vector<std::pair<double, double>>> read_table_file(const TomlValue& name, Context& context);
+/// The points of a signal as a CSV file gives them.
+struct TableFile {
+  std::vector<std::pair<double, double>> points;  ///< time [s], value
+  Number unit;                                    ///< of the values: 1 of it; plain if the file says none
+};
+
+/// Reads the points (time, value) of a signal from a CSV file: two columns of numbers, in quotes or not, split by commas,
+/// semicolons, tabs or spaces; the first row may be a header, whose fields may end with a unit in brackets ("t [ms]");
+/// empty lines and lines that begin with `#` are left out. `name` is the string that names the file. Mistakes are reported
+/// with the line of the CSV file.
+std::optional<TableFile> read_table_file(const TomlValue& name, Context& context);
 
 }  // namespace rheonet

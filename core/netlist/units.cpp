@@ -370,4 +370,9 @@ class Parser {
 
 std::variant<Unit, TextError> parse_unit(std::string_view text) { return Parser(text).run(); }
 
+double multiplied(double value, double factor) {
+  const double inverse = std::round(1 / factor);
+  return factor < 1 && inverse * factor == 1 ? value / inverse : value * factor;
+}
+
 }  // namespace rheonet

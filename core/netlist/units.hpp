@@ -29,4 +29,8 @@ struct TextError {
 /// by other names: "N*m*s/rad", "in*ozf", "N*(s/m)^0.5", "N s/m", "cSt". Units with an offset (degC) are refused.
 std::variant<Unit, TextError> parse_unit(std::string_view text);
 
+/// value * factor. A unit that is a fraction, such as ms, is 1/1000 and not 0.001: 1.1 of it are then the double nearest to
+/// 0.0011.
+double multiplied(double value, double factor);
+
 }  // namespace rheonet

@@ -177,7 +177,14 @@ bool check_bounds(double value, const Parameter& parameter, const Formula& formu
   const std::string unit = unit_of(parameter.quantity, domain, flow_index);
   const Spot spot = formula.source().spot;
   if (std::isinf(value) && !parameter.may_be_infinite) {
-    mistakes.error(spot, formula.name() + " must be finite, but is infinite");
+    // Only of what is a magnitude could one think that it has a limit.
+    const bool magnitude =
+        parameter.kind == Parameter::Kind::value && parameter.lower >= 0 && std::isinf(parameter.upper);
+    mistakes.error(spot, formula.name() + " must be finite, but is infinite",
+                   magnitude && value > 0
+                       ? "\"inf\" is for laws that become another one there, and this one does not in "
+                         "this version; a value large beside those around it comes close"
+                       : "");
     return false;
   }
   const bool too_low = parameter.lower_open ? value <= parameter.lower : value < parameter.lower;

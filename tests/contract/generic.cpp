@@ -104,7 +104,7 @@ Signal draw_signal(Quantity quantity, Domain domain, int kind, Random& random, b
       if (jumps) return Signal(Signal::Square{amplitude, frequency, phase, 0, 0});
       return Signal(Signal::Sine{amplitude, 0.7 * frequency, 0, time, 0});
     default:
-      if (jumps) return Signal(Signal::Pulse{amplitude, width, 0.3 / typical.time, time, -0.4 * amplitude});
+      if (jumps) return Signal(Signal::Pulse{amplitude, width, 0.3 / typical.time, 0, time, -0.4 * amplitude});
       return Signal(Signal::Ramp{amplitude / typical.time, time, 0});
   }
 }

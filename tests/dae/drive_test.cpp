@@ -159,12 +159,157 @@ TEST_CASE("a reversal at which one stands is not the next one") {
   CHECK_EQ(driven.drive.next_reversal(0, -1, 0, 0.4999 / frequency), infinity);
 }
 
+// What is remembered of one search must serve the next ones, over instants at which nothing changes and over those at
+// which the signals do.
+TEST_CASE("the next reversal is the same whatever was asked before") {
+  int asked = 0, finite = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    SceneBuilder builder;
+    builder.motion("smooth", "a", "velocity", smooth(2 + random.below(2), 1, random));
+    builder.motion("edges", "b", "velocity",
+                   Signal(Signal::Square{random.uniform(0.1, 1), random.uniform(0.5, 4), 0.3, 0, 0}));
+    builder.motion("corners", "c", "position", Signal(Signal::Triangle{0.1, random.uniform(0.5, 4), 1.1, 0, 0}));
+    builder.motion("one way", "d", "velocity", Signal(Signal::Sine{0.3, 3.1, 0.2, 0, 0.9}));
+    const std::pair<int, int> pairs[] = {{0, -1}, {1, 0}, {-1, 3}, {2, 3}, {2, 0}, {3, 1}};
+    constexpr double stop = 2.7;
+    Driven driven(builder, 0, {0, 0, 0, 0, 0});
+    for (double t = 0; t < stop;) {
+      CAPTURE(t);
+      driven.drive.enter(t);
+      Driven fresh(builder, 0, {0, 0, 0, 0, 0});
+      fresh.drive.enter(t);
+      const double limit = std::min(driven.drive.next_break(), stop);
+      double next = limit;
+      for (const auto& [a, b] : pairs) {
+        const double expected = fresh.drive.next_reversal(a, b, t, limit);
+        const double found = driven.drive.next_reversal(a, b, t, limit);
+        ++asked;
+        if (std::isfinite(expected)) {
+          ++finite;
+          CHECK(std::abs(found - expected) < 1e-12);
+        } else {
+          CHECK_EQ(found, expected);
+        }
+        next = std::min(next, found);
+      }
+      // With one limit throughout, only the stretches tell that the signals have changed.
+      const double far = fresh.drive.next_reversal(0, 1, t, stop), again = driven.drive.next_reversal(0, 1, t, stop);
+      CHECK((std::isfinite(far) ? std::abs(again - far) < 1e-12 : again == far));
+      // Also between reversals, as events of other laws would have it, and with a nearer limit.
+      const double between = t + (next - t) * random.uniform(0.1, 0.9);
+      const double nearer = driven.drive.next_reversal(0, -1, between, between + 0.01);
+      CHECK((nearer == infinity || (nearer > between && nearer <= between + 0.01)));
+      t = random.below(3) == 0 ? between : next;
+    }
+  }
+  CHECK(finite > 1000);
+  CHECK(finite < asked - 1000);
+}
+
+// A corner was taken for a step of the size of its rounding, which grows with speed, with angle and with time.
+TEST_CASE("corners are no steps, however fast, wound up or late; the smallest real step is one") {
+  const auto largest_step = [](const Signal& signal, double start, double stop, double& rounding) {
+    SceneBuilder b;
+    b.motion("m", "a", "position", signal);
+    Driven driven(b, start, {0, 0});
+    driven.drive.enter(start);
+    double largest = 0;
+    int breaks = 0;
+    for (double t = driven.drive.next_break(); t < stop && breaks < 3000; t = driven.drive.next_break(), ++breaks) {
+      rounding = std::max(rounding, std::abs(signal.value(t) - signal.before(t)));
+      driven.drive.enter(t);
+      largest = std::max(largest, std::abs(driven.drive.steps()[0]));
+    }
+    return largest;
+  };
+  double rounding = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    const double amplitude = std::pow(10, random.uniform(-6, 1)), frequency = std::pow(10, random.uniform(-1, 5));
+    const double start = random.below(2) * std::pow(10, random.uniform(0, 8)),
+                 offset = amplitude * random.uniform(-1, 1);
+    const double phase = random.uniform(-90, 90), began = start * random.below(2), duration = 3000 / frequency;
+    CHECK_EQ(largest_step(Signal(Signal::Triangle{amplitude, frequency, phase, began, offset}), start, start + duration,
+                          rounding),
+             0);
+    const double end_frequency = frequency * random.uniform(0, 30);
+    const double before = began - duration * random.uniform(0.1, 0.9);
+    CHECK_EQ(largest_step(Signal(Signal::Chirp{amplitude, frequency, end_frequency, duration, phase, before, offset}),
+                          start, start + duration, rounding),
+             0);
+    std::vector<double> times, values;
+    for (int k = 0; k < 50; ++k) {
+      times.push_back((k == 0 ? 0 : times.back()) + random.uniform(0, 2 / frequency));
+      values.push_back(amplitude * random.uniform(-1, 1));
+    }
+    CHECK_EQ(largest_step(Signal(Signal::Table{times, values, before, offset}), start, start + duration, rounding), 0);
+  }
+  CHECK(rounding > 0);  // else nothing was tested
+
+  double ignored = 0;
+  for (const double height : {1e-12, -1e-12, 1e-6}) {
+    const Signal steep(Signal::Table{{0, 1, 1, 2}, {1, 0.5, 0.5 + height, 1}, 0.1, 0.2});
+    CHECK(largest_step(steep, 0.2, 2, ignored) == doctest::Approx(std::abs(height)).epsilon(1e-3));
+  }
+}
+
+// Far from time 0 the time itself has fewer digits, but of a signal that begins there nothing more is lost: what counts
+// is the distance from its beginning. Times are such that both are exact.
+TEST_CASE("a drive that begins late is as exact as one that begins at 0") {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    constexpr double late = 1e8, grain = 1.0 / (1 << 20);
+    const double a = random.uniform(0.1, 1), f = random.uniform(0.3, 50), phase = random.uniform(-9, 9), offset = 0.3;
+    const auto drive = [&](double start) {
+      SceneBuilder b;
+      for (const char* parameter : {"position", "velocity"}) {
+        const auto motion = [&](const std::string& name, const Signal& signal) {
+          b.motion(name + parameter, "node_" + name + parameter, parameter, signal);
+        };
+        motion("ramp", Signal(Signal::Ramp{a, start, offset}));
+        motion("sine", Signal(Signal::Sine{a, f, phase, start, offset}));
+        motion("square", Signal(Signal::Square{a, f, phase, start, offset}));
+        motion("triangle", Signal(Signal::Triangle{a, f, phase, start, offset}));
+        motion("chirp", Signal(Signal::Chirp{a, f, 3 * f, 1.5, phase, start, offset}));
+        motion("table", Signal(Signal::Table{{0.25, 1, 1.75}, {a, 0, -a}, start, offset}));
+      }
+      return b;
+    };
+    const std::vector<double> positions(13, 0.0);
+    Driven first(drive(0), 0, positions), then(drive(late), late, positions);
+    first.drive.enter(0);
+    then.drive.enter(late);
+    for (int k = 0; k < 2000; ++k) {
+      const double t = static_cast<double>(k * 1021) * grain;
+      // Edges of periods that are no multiples of the grain of time come earlier or later by that much.
+      for (double next = first.drive.next_break(); next <= t; next = first.drive.next_break()) first.drive.enter(next);
+      for (double next = then.drive.next_break(); next <= late + t; next = then.drive.next_break())
+        then.drive.enter(next);
+      if (first.drive.next_break() < t + 1e-6 || then.drive.next_break() < late + t + 1e-6) continue;
+      first.drive.evaluate(t);
+      then.drive.evaluate(late + t);
+      for (std::size_t i = 0; i < 12; ++i) {
+        CAPTURE(i);
+        // Edges and corners (of the square and the triangle) are late by half the grain of time there, 1.5e-8 s.
+        const bool exact = i % 6 != 2 && i % 6 != 3;
+        const double value = exact ? 1e-13 : 1e-8 * 4 * f * a, rate = exact ? 1e-11 : 1e-8 * 4 * f * a;
+        CHECK(std::abs(then.drive.position[i] - first.drive.position[i]) <= value);
+        CHECK(std::abs(then.drive.velocity[i] - first.drive.velocity[i]) <= rate);
+      }
+    }
+  }
+}
+
 TEST_CASE("a drive goes over jumps and corners: what steps, what goes on, when the next one comes") {
   SceneBuilder b;
   b.motion("by position", "a", "position", Signal(Signal::Step{0.037, 0.31, 0.013}));
   b.motion("by velocity", "b", "velocity", Signal(Signal::Square{0.7, 0.9, 0, 0.11, 0.05}));
   b.motion("corner", "c", "position", Signal(Signal::Triangle{0.19, 1.1, 0, 0.07, 0}));
-  b.force("push", "c", Signal(Signal::Pulse{2.3, 0.29, 0, 0.17, 0.4}));
+  b.force("push", "c", Signal(Signal::Pulse{2.3, 0.29, 0, 0, 0.17, 0.4}));
   Driven driven(b, 0, {0, 99, 1.7, 99});
   Drive& d = driven.drive;
 

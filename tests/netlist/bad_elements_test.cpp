@@ -83,6 +83,52 @@ scene.toml:2:15: error: an `inertia` belongs to a rotational scene, this one is 
       |               ^
   use `mass`, or set domain = "rotation"
 )~"},
+      {"a rotational type in translation, with keys that it has nowhere",
+       R"~(
+[elements]
+m1 = { type = "inertia", at = "a", mass = 1, inertai = 2 }
+[elements.g]
+between = ["a", "ground"]
+parallel = [{ type = "torque", name = "t", torque = 1, at = "a", torqe = 2 }]
+)~",
+       R"~(
+scene.toml:2:15: error: an `inertia` belongs to a rotational scene, this one is translational
+    2 | m1 = { type = "inertia", at = "a", mass = 1, inertai = 2 }
+      |               ^
+  use `mass`, or set domain = "rotation"
+scene.toml:2:46: error: unknown key `inertai` of an `inertia`
+    2 | m1 = { type = "inertia", at = "a", mass = 1, inertai = 2 }
+      |                                              ^
+  did you mean `inertia`?
+scene.toml:5:22: error: a `torque` belongs to a rotational scene, this one is translational
+    5 | parallel = [{ type = "torque", name = "t", torque = 1, at = "a", torqe = 2 }]
+      |                      ^
+  use `force`, or set domain = "rotation"
+scene.toml:5:66: error: unknown key `torqe` of a `torque`
+    5 | parallel = [{ type = "torque", name = "t", torque = 1, at = "a", torqe = 2 }]
+      |                                                                  ^
+  did you mean `torque`?
+)~"},
+      {"control characters in a name",
+       R"~(
+[elements]
+"k\n\u001B[2J" = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+k2 = { type = "spring", between = ["a\u009B1m", "b\u202E"], stiffness = 1 }
+)~",
+       R"~(
+scene.toml:2:1: error: `k\n\u001B[2J` is no name for an element
+    2 | "k\n\u001B[2J" = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+      | ^
+  names are made of letters, digits, `_` and `-`
+scene.toml:3:36: error: `a\u009B1m` is no name for a node
+    3 | k2 = { type = "spring", between = ["a\u009B1m", "b\u202E"], stiffness = 1 }
+      |                                    ^
+  names are made of letters, digits, `_` and `-`
+scene.toml:3:49: error: `b\u202E` is no name for a node
+    3 | k2 = { type = "spring", between = ["a\u009B1m", "b\u202E"], stiffness = 1 }
+      |                                                 ^
+  names are made of letters, digits, `_` and `-`
+)~"},
       {"a rotational name in translation",
        R"~(
 [elements]

@@ -111,7 +111,7 @@ DIR/scenes/broken.toml:1:13: error: the header of a table is not closed
   CHECK(messages_in(folder, including("latin.toml")) ==
         "\n"
         "DIR/scenes/latin.toml:1:13: error: byte 0xE9 is not UTF-8\n"
-        "    1 | title = \"caf\xE9\"\n"
+        "    1 | title = \"caf\uFFFD\"\n"
         "      |             ^\n"
         "  a netlist is UTF-8 text: save the file in that encoding\n");
   CHECK(messages_in(folder, R"~(
@@ -166,7 +166,7 @@ TEST_CASE("a file that is no netlist") {
                                   "e\n");
   CHECK(first(read_scene(latin, fake_declarations())) ==
         latin.string() +
-            ":1:5: error: byte 0xFC is not UTF-8\n    1 | # Gr\xFC\xDF"
+            ":1:5: error: byte 0xFC is not UTF-8\n    1 | # Gr\uFFFD\uFFFD"
             "e\n      |     ^\n"
             "  a netlist is UTF-8 text: save the file in that encoding");
 }
@@ -225,6 +225,32 @@ DIR/scenes/infinite.csv:1:3: error: expected a finite number, found `inf`
     1 | 0 inf
       |   ^
 )~");
+  folder.write("scenes/unit.csv", "t [ms],v [mm/sek]\n0,0\n");
+  CHECK(messages_in(folder, with_table("unit.csv")) == R"~(
+DIR/scenes/unit.csv:1:8: error: `mm/sek` is no unit: unknown unit `sek`
+    1 | t [ms],v [mm/sek]
+      |        ^
+  did you mean `s`?
+)~");
+  folder.write("scenes/length.csv", "t (mm),v\n0,0\n");
+  CHECK(messages_in(folder, with_table("length.csv")) == R"~(
+DIR/scenes/length.csv:1:1: error: the unit of the times: expected a time (s), found a length (m)
+    1 | t (mm),v
+      | ^
+)~");
+  folder.write("scenes/newton.csv", "t,v [N]\n0,0\n");
+  CHECK(messages_in(folder, with_table("newton.csv")) == R"~(
+scene.toml:2:55: error: `table`: expected a velocity (m/s), found a force (N)
+    2 | m = { type = "motion", at = "a", velocity = { table = "newton.csv" } }
+      |                                                       ^
+  the unit is that of the header of the file
+)~");
+  folder.write("scenes/remark.csv", "t,v (measured)\n0,0\n");
+  const ReadResult remark = read(with_table("remark.csv"), {}, folder.path() / "scenes");
+  CHECK(remark.scene);
+  REQUIRE(remark.diagnostics.size() == 1);
+  CHECK(remark.diagnostics[0].severity == Severity::warning);
+  CHECK(remark.diagnostics[0].message == "`measured` is no unit: this column is taken in SI");
   CHECK(messages_in(folder, with_table("../word.csv")) == R"~(
 scene.toml:2:55: error: `../word.csv` leads outside the netlist's folder
     2 | m = { type = "motion", at = "a", velocity = { table = "../word.csv" } }

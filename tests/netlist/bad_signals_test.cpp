@@ -32,6 +32,7 @@ t = { type = "motion", at = "t", velocity = { chirp = 1, frequency = 1 } }
 u = { type = "motion", at = "u", velocity = { time = 1 } }
 v = { type = "motion", at = "v", velocity = { step = 1, time = nan } }
 w = { type = "motion", at = "w", velocity = { table = [[0, 0], [1, nan]] } }
+x = { type = "motion", at = "x", velocity = { pulse = 1, width = 2, phase = "90 deg" } }
 )~",
        R"~(
 scene.toml:2:47: error: signal `velocity` has no shape
@@ -113,6 +114,10 @@ scene.toml:23:64: error: `time` is not a number (NaN)
 scene.toml:24:68: error: the value of a point is not a number (NaN)
    24 | w = { type = "motion", at = "w", velocity = { table = [[0, 0], [1, nan]] } }
       |                                                                    ^
+scene.toml:25:77: error: a `pulse` without `frequency` has no `phase`
+   25 | x = { type = "motion", at = "x", velocity = { pulse = 1, width = 2, phase = "90 deg" } }
+      |                                                                             ^
+  `time` says when it begins
 )~"},
   });
 }

@@ -57,6 +57,15 @@ TEST_CASE("an option of the command line is shown as it was typed") {
   CHECK(shown.find("--set k1.stifness=3\n") - (shown.find('\n') + 1) + 9 == shown.find('^') - (shown.rfind('\n') + 1));
 }
 
+TEST_CASE("what a file says does not steer the terminal") {
+  const Sources sources{{{"sce\nne.toml", "a = \"\x1B[2Jx\x7F\u009By\" # \r z"}}, {}};
+  CHECK(format({Severity::error, {0, 1, 13}, "no `\x1B[2J`\nfine: done", "is it `\u202E`?"}, sources) ==
+        "sce\\nne.toml:1:13: error: no `\\u001B[2J`\\nfine: done\n"
+        "    1 | a = \"\u241B[2Jx\u2421\uFFFDy\" # \u240D z\n"
+        "      |             ^\n"
+        "  is it `\\u202E`?");
+}
+
 TEST_CASE("a warning says that it is one") {
   CHECK(format({Severity::warning, {}, "odd", "say why"}, {}) == "command line: warning: odd\n  say why");
 }

@@ -67,7 +67,10 @@ TEST_CASE("signals: each shape, in SI") {
   CHECK(pulse.height == 7);
   CHECK(pulse.width == 0.25);
   CHECK(pulse.frequency == 0);
-  CHECK(shape_of<Signal::Pulse>("{ pulse = 7, width = 0.25, frequency = 2 }").frequency == 2);
+  CHECK(pulse.phase == 0);
+  const auto pulses = shape_of<Signal::Pulse>("{ pulse = 7, width = 0.25, frequency = 2, phase = \"180 deg\" }");
+  CHECK(pulses.frequency == 2);
+  CHECK(pulses.phase == doctest::Approx(std::numbers::pi));
 }
 
 TEST_CASE("signals: the amplitude is a factor, and may carry the unit") {
@@ -98,6 +101,27 @@ TEST_CASE("signals: tables, inline and from a file") {
     CHECK(table.times == std::vector<double>{0, 2});
     CHECK(table.values == std::vector<double>{1, 3});
   }
+}
+
+TEST_CASE("signals: a file with units, and in quotes") {
+  const Folder folder;
+  const auto read = [&](const std::string& text, const std::string& keys = "",
+                        const std::string& domain = "translation") {
+    folder.write("t.csv", text);
+    return shape_of<Signal::Table>("{ table = \"t.csv\"" + keys + " }", domain, folder.path());
+  };
+  for (const char* header :
+       {"time [ms],speed [mm/s]", "time (ms) ; v_x (mm/s)", "\"t [ms]\",\"speed (top) [ mm s^-1 ]\""}) {
+    const std::string separator = std::string(header).find(';') == std::string::npos ? "," : ";";
+    const auto table = read(std::string(header) + "\n1.1" + separator + "2.3\n\"200\"" + separator + "\"-4\"\n");
+    CHECK(table.times == std::vector<double>{0.0011, 0.2});
+    CHECK(table.values == std::vector<double>{0.0023, -0.004});
+  }
+  CHECK(read("\"1\",\"2\"\n\"3\",\"4\"\n").times == std::vector<double>{1, 3});
+  CHECK(read("t [s],speed [rpm]\n0,60\n", "", "rotation").values == std::vector<double>{2 * pi});
+  // The file and the amplitude together make the unit.
+  CHECK(read("t,speed [mm]\n0,60\n", ", amplitude = \"2 Hz\"").values == std::vector<double>{0.12});
+  CHECK(read("t,speed [mm/s]\n0,60\n", ", amplitude = 2").values == std::vector<double>{0.12});
 }
 
 TEST_CASE("signals: within a repeat and a model") {

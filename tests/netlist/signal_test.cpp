@@ -49,8 +49,8 @@ struct Reference {
   }
   long double operator()(const Signal::Pulse& s) const {
     if (t < s.time) return s.offset;
-    const long double tau = t - s.time;
-    const long double within = s.frequency > 0 ? tau - std::floor(tau * s.frequency) / s.frequency : tau;
+    const long double within =
+        s.frequency > 0 ? wrapped(angle(s.frequency, s.phase, s.time)) / turn / s.frequency : t - s.time;
     return s.offset + (within < s.width ? s.height : 0);
   }
   long double operator()(const Signal::Table& s) const {
@@ -93,11 +93,13 @@ const std::vector<Signal>& examples() {
       Signal(Signal::Chirp{1.2, 0.4, 3.1, 2.3, 0.8, 0.33, 0.1}),
       Signal(Signal::Chirp{1.2, 2.4, 0.3, 1.7, -0.8, -0.6, 0.1}),
       Signal(Signal::Chirp{1.2, 1.4, 0.9, 0, 0.8, 0.5, 0.1}),
-      Signal(Signal::Pulse{1.8, 0.42, 0, 0.61, 0.3}),
-      Signal(Signal::Pulse{1.8, 0.27, 1.13, 0.61, 0.3}),
-      Signal(Signal::Pulse{-1.8, 0.63, 1.13, -7.9, 0.3}),
-      Signal(Signal::Pulse{1.8, 2.5, 1.13, 0.61, 0.3}),
-      Signal(Signal::Pulse{1.8, 0, 1.13, 0.61, 0.3}),
+      Signal(Signal::Pulse{1.8, 0.42, 0, 0, 0.61, 0.3}),
+      Signal(Signal::Pulse{1.8, 0.27, 1.13, 0, 0.61, 0.3}),
+      Signal(Signal::Pulse{-1.8, 0.63, 1.13, 0, -7.9, 0.3}),
+      Signal(Signal::Pulse{1.8, 0.27, 1.13, 0.9, 0.61, 0.3}),
+      Signal(Signal::Pulse{1.8, 0.27, 1.13, -17.3, 0.61, 0.3}),
+      Signal(Signal::Pulse{1.8, 2.5, 1.13, 0, 0.61, 0.3}),
+      Signal(Signal::Pulse{1.8, 0, 1.13, 0, 0.61, 0.3}),
       Signal(Signal::Table{{0, 1, 2}, {0, 0.5, 0}, 0, 0}),
       Signal(Signal::Table{{0.3, 0.8, 0.8, 1.9, 2.2}, {-0.2, 0.7, 1.3, 0.4, 0.9}, 0.45, 0.15}),
       Signal(Signal::Table{{-1.1, 0.8, 1.7}, {0.4, 1.3, -0.6}, 0.45, 0.15}),
@@ -206,12 +208,12 @@ TEST_CASE("the integral of a chirp is exact to rounding, also where its frequenc
 TEST_CASE("the number of breakpoints is that of the edges") {
   CHECK(breakpoints(Signal(Signal::Square{1, 3, 0, 0, 0}), 0, 10.01).size() == 60);
   CHECK(breakpoints(Signal(Signal::Triangle{1, 3, 0, 0, 0}), 0, 10).size() == 60);
-  CHECK(breakpoints(Signal(Signal::Pulse{1, 0.1, 3, 0, 0}), 0, 10.01).size() == 60);
+  CHECK(breakpoints(Signal(Signal::Pulse{1, 0.1, 3, 0, 0, 0}), 0, 10.01).size() == 60);
   CHECK(breakpoints(Signal(Signal::Sine{1, 3, 0, 0.5, 0}), 0, 10) == std::vector<double>{0.5});
   CHECK(breakpoints(Signal(Signal::Chirp{1, 3, 5, 2.5, 0, 0.5, 0}), 0, 10) == std::vector<double>{0.5, 3});
   CHECK(breakpoints(Signal(Signal::Step{1, 0.5, 0}), -1, 10) == std::vector<double>{0.5});
   CHECK(breakpoints(Signal(Signal::Constant{1}), -1, 10).empty());
-  CHECK(breakpoints(Signal(Signal::Pulse{1, 0, 3, 0, 0}), 0, 10).empty());  // of no width
+  CHECK(breakpoints(Signal(Signal::Pulse{1, 0, 3, 0, 0, 0}), 0, 10).empty());  // of no width
   CHECK(breakpoints(Signal(Signal::Table{{0, 1, 1, 2}, {0, 1, 2, 3}, 0.5, 0}), -1, 10) ==
         std::vector<double>{0.5, 1.5, 2.5});
 }
@@ -250,8 +252,8 @@ TEST_CASE("the next stretch is always another one, at any time and of any length
       for (const double phase : {0.0, 0.1, -200.0, pi / 2}) {
         const Signal signals[] = {Signal(Signal::Square{1, frequency, phase, time, 0}),
                                   Signal(Signal::Triangle{1, frequency, phase, time, 0}),
-                                  Signal(Signal::Pulse{1, 0.3 / frequency, frequency, time, 0}),
-                                  Signal(Signal::Pulse{1, 1e-300, frequency, time, 0}),
+                                  Signal(Signal::Pulse{1, 0.3 / frequency, frequency, phase, time, 0}),
+                                  Signal(Signal::Pulse{1, 1e-300, frequency, phase, time, 0}),
                                   Signal(Signal::Chirp{1, frequency, 2 * frequency, 1e-9, phase, time, 0})};
         for (const Signal& signal : signals)
           for (double t : times)

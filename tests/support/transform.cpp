@@ -37,7 +37,8 @@ struct Transform {
                          time * s.time,       value * s.offset + add};
   }
   Signal::Shape operator()(Signal::Pulse s) const {
-    return Signal::Pulse{value * s.height, time * s.width, s.frequency / time, time * s.time, value * s.offset + add};
+    return Signal::Pulse{value * s.height, time * s.width, s.frequency / time,
+                         s.phase,          time * s.time,  value * s.offset + add};
   }
   Signal::Shape operator()(Signal::Table s) const {
     for (double& t : s.times) t *= time;

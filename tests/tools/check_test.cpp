@@ -14,6 +14,23 @@ TEST_CASE("check says that a scene is right, and simulates nothing") {
   CHECK(contains(result.out, "scene.toml: no mistake found (2 elements, 1 node)"));
 }
 
+TEST_CASE("no control character of a file or a command line reaches the terminal") {
+  const Folder folder;
+  const std::string scene = std::string("title = \"a\\u001B[31m\\nb\"\n") + (std::string(oscillator).substr(17));
+  folder.write("scene.toml", scene);
+  folder.write("e\x1B.toml", scene);
+  for (const std::string words :
+       {"check -v scene.toml", "check e\x1B.toml", "run e\x1B.toml", "run scene.toml \x1B[31m",
+        "run scene.toml -o no/\x1B", "run \x1B.toml", "run scene.toml --set 'k1.\x1B=\x1B'",
+        "run scene.toml -o \x1B.csv", "run e\x1B.toml -o e\x1B.toml"}) {
+    CAPTURE(words);
+    const Finished result = folder.shell("rheonet " + words);
+    CHECK_FALSE(contains(result.out, "\x1B"));
+    CHECK_FALSE(contains(result.err, "\x1B"));
+    CHECK(contains(result.out + result.err, words == "run scene.toml --set 'k1.\x1B=\x1B'" ? "\u241B" : "\\u001B"));
+  }
+}
+
 TEST_CASE("check -v prints the network in SI") {
   const Folder folder;
   folder.write("scene.toml", R"(title = "drum"

@@ -45,6 +45,7 @@ TEST_CASE("a wrong command line has status 2, an empty standard output, and says
       {"run scene.toml other.toml", "unexpected argument `other.toml`", "`rheonet run --help`"},
       {"run scene.toml --accuracy much", "`--accuracy` takes a number such as 1e-6, not `much`", ""},
       {"run scene.toml --accuracy 1e-3x", "`--accuracy` takes a number such as 1e-6, not `1e-3x`", ""},
+      {"run scene.toml --accuracy ''", "`--accuracy` takes a number such as 1e-6, not ``", ""},
       {"run scene.toml --accuracy", "`--accuracy` needs a value", "`rheonet run --help`"},
       {"run scene.toml -o", "`--output` needs a value", ""},
       {"run scene.toml -o a.csv -o b.csv", "`--output` is given more than once", ""},

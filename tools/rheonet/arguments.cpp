@@ -7,6 +7,7 @@
 #include <charconv>
 #include <map>
 
+#include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
 #include "tools/rheonet/say.hpp"
 
@@ -111,8 +112,8 @@ double read_accuracy(const std::string& text) {
 
 ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
-  say("error: {}\n", mistake.message);
-  if (!mistake.hint.empty()) say("  {}\n", mistake.hint);
+  say("error: {}\n", printable(mistake.message));
+  if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
   say("  `rheonet {}--help` lists what there is\n", commands.empty() ? "" : commands.front()->get_name() + " ");
   return wrong_input;
 }
@@ -121,7 +122,7 @@ ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   Arguments arguments;
-  std::string accuracy;
+  std::optional<std::string> accuracy;
 
   CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet");
@@ -178,7 +179,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       throw WrongCommandLine{in_words(error), ""};
     }
     refuse_extra_words(app);
-    if (!accuracy.empty()) arguments.accuracy = read_accuracy(accuracy);
+    if (accuracy) arguments.accuracy = read_accuracy(*accuracy);
     if (app.get_subcommands().empty())
       throw WrongCommandLine{"no command given", "to simulate a scene: `rheonet run SCENE`"};
   } catch (const WrongCommandLine& mistake) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/netlist/characters.hpp"
 #include "core/network/component.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/commands.hpp"
@@ -50,7 +51,7 @@ std::array<std::string, 4> row(const SceneElement& element, const Scene& scene) 
 }
 
 void print_network(const Scene& scene) {
-  fmt::print("{} ({})\n", scene.title.empty() ? "untitled" : scene.title,
+  fmt::print("{} ({})\n", scene.title.empty() ? "untitled" : printable(scene.title),
              scene.domain == Domain::rotation ? "rotation" : "translation");
   fmt::print("{:g} s to {:g} s, accuracy {:g}, {} output times, {}\n", scene.start, scene.stop, scene.accuracy,
              scene.output_intervals + 1, count(scene.records.size(), "recorded quantity", "recorded quantities"));
@@ -106,8 +107,8 @@ ExitStatus check_scene(const Arguments& arguments) {
     say("error: {}\n", error.what());
     return not_simulated;
   }
-  fmt::print("{}: no mistake found ({}, {})\n", arguments.scene, count(scene.elements.size(), "element", "elements"),
-             count(scene.nodes.size() - 1, "node", "nodes"));
+  fmt::print("{}: no mistake found ({}, {})\n", printable(arguments.scene),
+             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"));
   return done;
 }
 

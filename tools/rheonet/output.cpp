@@ -8,9 +8,12 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/netlist/characters.hpp"
+
 namespace rheonet::tool {
 
-Output::Output(const std::string& path) : path_(path), name_(path == "-" ? "standard output" : "`" + path + "`") {
+Output::Output(const std::string& path)
+    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`") {
   if (path == "-") {
     descriptor_ = STDOUT_FILENO;
   } else {

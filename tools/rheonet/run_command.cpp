@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 
+#include "core/netlist/characters.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/output.hpp"
@@ -43,7 +44,8 @@ bool is_source(const std::string& path, const Sources& sources) {
 }
 
 std::string rows_kept(const Output& output) {
-  if (output.rows() == 0) return fmt::format("nothing was written to {}", output.name());
+  if (output.rows() == 0) return fmt::format("no row was written to {}", output.name());
+  if (output.rows() == 1) return fmt::format("the one row up to there is in {}", output.name());
   return fmt::format("the {} rows up to there are in {}", output.rows(), output.name());
 }
 
@@ -59,7 +61,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments);
   if (!read.scene) return wrong_input;
   if (arguments.output != "-" && is_source(arguments.output, read.sources)) {
-    say("error: `--output {}` would overwrite the scene itself\n", arguments.output);
+    say("error: `--output {}` would overwrite the scene itself\n", printable(arguments.output));
     return wrong_input;
   }
 
@@ -68,7 +70,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   try {
     output = std::make_unique<Output>(arguments.output);
   } catch (const std::system_error& error) {
-    say("error: cannot write to `{}`: {}\n", arguments.output, error.code().message());
+    say("error: cannot write to `{}`: {}\n", printable(arguments.output), error.code().message());
     return wrong_input;
   }
 
@@ -80,7 +82,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     progress.erase();
     if (const int error = output->close(); error != 0) return cannot_write(*output, error);
     if (!arguments.quiet) {
-      say("{}: {:g} s to {:g} s\n{}", arguments.scene, read.scene->start, read.scene->stop,
+      say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, output->rows(), output->name()));
     }
     return done;

@@ -39,7 +39,7 @@ struct Words {
   std::string operator()(const Signal::Pulse& s) const {
     return fmt::format("pulse of {} for {} at {}{}{}", number(s.height, unit), number(s.width, "s"),
                        number(s.time, "s"), s.frequency > 0 ? ", again at " + number(s.frequency, "Hz") : "",
-                       rest(0, 0, s.offset, unit));
+                       rest(s.phase, 0, s.offset, unit));
   }
   std::string operator()(const Signal::Table& s) const {
     return fmt::format("table of {} points over {} to {}{}", s.times.size(), number(s.times.front(), "s"),
