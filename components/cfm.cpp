@@ -141,6 +141,10 @@ struct Cfm : SolidFriction {
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
 
 std::string start_within_bound(std::span<const double> v) {
+  if (std::isinf(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]) && v[1] > 0 && v[2] > 0) {
+    return "`stiffness` = inf needs `damping` or `coulomb` infinite too; with both finite it is a dashpot in series with "
+           "a slider: wire these";
+  }
   return std::isnan(v[4]) || std::abs(v[4]) <= v[1] ? "" : "`f0` lies beyond `coulomb`, a force that it cannot have";
 }
 
@@ -151,11 +155,11 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
                      .description = "slope df/dd at f = 0 (rest stiffness); 0 means no force"},
-                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .symbol = "Fc",
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .symbol = "Fc",
                      .description = "largest force, reached above the velocity Fc/B; 0 means no force"},
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .symbol = "B",
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .symbol = "B",
                      .description = "force per velocity in slow steady motion; 0 means no force"},
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
                      .upper = 100, .symbol = "i", .description = "shape of the loop, as for `sfm`"},
@@ -169,7 +173,13 @@ const RegisterComponent registered({
                      "f^2/B + f (w - f/B)(1 - u^i) with u = 1 - s f/Fc.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0, coulomb = 0 or damping = 0", .becomes = "", .applies = no_force, .values = {}}},
+    .limits = {{.when = "stiffness = 0, coulomb = 0 or damping = 0", .becomes = "", .applies = no_force, .values = {}},
+               {.when = "damping = inf", .becomes = "sfm",
+                .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], v[3], v[4]}; }},
+               {.when = "coulomb = inf", .becomes = "vfm",
+                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[2], v[0], 0, v[4]}; }}},
     .deflection = deflection_batch<Cfm>,
     .check = start_within_bound,
     .drawing = "M0 .5 H.1 M.1 .25 H.9 V.75 H.1 Z M.2 .7 C.35 .35 .5 .35 .8 .35 M.3 .2 H.7 M.9 .5 H1",

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "components/solid_friction.hpp"
+#include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
 namespace rheonet {
@@ -62,9 +63,9 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
                      .description = "slope df/dd at f = 0 (rest stiffness of the bristles); 0 means no force"},
-                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .symbol = "Fc",
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .symbol = "Fc",
                      .description = "force of steady sliding; 0 means no force"},
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
                      .upper = 100, .symbol = "i",
@@ -78,7 +79,15 @@ const RegisterComponent registered({
             .notes = "Rate-independent; abs(f) <= Fc. Stores f^2/(2 sigma), dissipates f w (1 - u^i) with u = 1 - s f/Fc.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}}},
+    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
+               {.when = "stiffness = inf", .becomes = "slider",
+                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }},
+               {.when = "coulomb = inf", .becomes = "spring",
+                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
+                .values = [](std::span<const double> v) {
+                  return std::vector<double>{v[0], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
+                }}},
     .deflection = deflection_batch<Sfm>,
     .check = start_within_bound,
     .drawing = "M0 .5 H.15 M.15 .3 V.7 M.15 .7 C.3 .3 .5 .3 .85 .3 M.85 .3 C.7 .7 .5 .7 .15 .7 M.85 .3 V.7 M.85 .5 H1",

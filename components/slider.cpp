@@ -15,9 +15,9 @@ const RegisterComponent registered({
         {
             .type = "slider",
             .ports = Declaration::Ports::between,
-            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .symbol = "Fc",
-                            .description = "force of sliding; 0 means no force"},
-                           {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .same_as = "coulomb",
+            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .symbol = "Fc",
+                            .description = "force of sliding; 0 means no force, inf a rigid link"},
+                           {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .same_as = "coulomb",
                             .symbol = "Fs", .description = "force at which it breaks away, not less than `coulomb`"}},
             .summary = "ideal Coulomb slider: sticks without creep, or slips at a constant force",
             .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w)",

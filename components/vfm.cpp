@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
 namespace rheonet {
@@ -39,9 +40,9 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .symbol = "B",
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .symbol = "B",
                      .description = "force per velocity in steady motion; 0 means no force"},
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
                      .description = "force per displacement just after a reversal (rest stiffness); 0 means no force"},
                     {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false,
                      .later = "a delay is not simulated in this version", .symbol = "TD",
@@ -56,7 +57,15 @@ const RegisterComponent registered({
             .notes = "Stores f^2/(2 sigma), dissipates f^2/B.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}}},
+    .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}},
+               {.when = "stiffness = inf", .becomes = "dashpot",
+                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], 1, not_given}; }},
+               {.when = "damping = inf", .becomes = "spring",
+                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
+                .values = [](std::span<const double> v) {
+                  return std::vector<double>{v[1], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
+                }}},
     .deflection = deflection_batch<Vfm>,
     .drawing = "M0 .5 H.1 M.1 .3 H.9 V.7 H.1 Z M.2 .6 C.4 .6 .4 .4 .8 .4 M.9 .5 H1",
 });

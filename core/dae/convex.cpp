@@ -264,12 +264,14 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   full_steps_ = 0;
   if (first != breaks.end()) {
     high = first->step;
+    // This side of the jump: the far side says nothing of the stretch.
     const double before = slope_along(d, high * (1 - 1e-14));
     if (before < 0 || high == low) {
       move(high);
       branches_[at(first->branch)].stuck = true;
       return Outcome::solved;
     }
+    high *= 1 - 1e-14;
   } else {
     for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
       // The last digits of the whole step may be rounding.
@@ -278,12 +280,13 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
     }
   }
   // Within one stretch: exact at once where all is linear.
+  const double descent = -slope_along(d, 0);
   double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
   for (int k = 0; k < 100 && slope_high > 0; ++k) {
     const double secant = low + (high - low) * slope_low / (slope_low - slope_high);
     step = k % 3 == 2 ? (low + high) / 2 : std::min(std::max(secant, low), high);
     const double slope = slope_along(d, step);
-    if (std::abs(slope) <= 1e-10 * std::max(-slope_low, slope_high) || step == low || step == high) break;
+    if (std::abs(slope) <= 1e-10 * descent || step == low || step == high) break;
     (slope < 0 ? low : high) = step;
     (slope < 0 ? slope_low : slope_high) = slope;
   }
@@ -372,7 +375,9 @@ bool ConvexNetwork::release() {
 /// Sum of the magnitudes of the powers of all branches and loads.
 double ConvexNetwork::power() const {
   double sum = 0;
-  for (const Branch& b : branches_) sum += std::abs(force(b, difference(b), b.side) * difference(b));
+  for (const Branch& b : branches_) {
+    if (const double w = difference(b); w != 0) sum += std::abs(force(b, w, b.side) * w);
+  }
   for (std::size_t k = 0; k < x_.size(); ++k) {
     sum += std::abs(applied_[k] * x_[k]) + std::abs(inertia_[k] * (x_[k] - rest_[k]) * x_[k]);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rheonet {
 
@@ -54,6 +55,51 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   for (int k : sliders_) {
     if (const double g = slider_function(k, view); g <= 0) margin_[at(k)] = -g * (1 + force_rounding);
   }
+}
+
+bool NetworkEvents::sticks() const {
+  return std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
+}
+
+double NetworkEvents::at_time(const Integrator& integrator, double t, int k) {
+  integrator.interpolate(t, 0, y_);
+  integrator.interpolate(t, 1, yp_);
+  return slider_function(k, dae_.view(t, y_.data(), yp_.data()));
+}
+
+std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
+  constexpr int refinements = 4;
+  constexpr double near = 0.1;  // a parabola tells where the least value is, not how little
+  const double a = integrator.previous_time(), b = integrator.time();
+  std::optional<Missed> first;
+  for (std::size_t i = 0; i < sliders_.size() && b > a; ++i) {
+    const int k = sliders_[i];
+    if (!dae_.structure().stuck[at(k)]) continue;
+    double left = a, middle = (a + b) / 2, right = b;
+    double gl = at_time(integrator, left, k), gm = at_time(integrator, middle, k), gr = at_time(integrator, right, k);
+    const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});
+    for (int n = 0; n < refinements && gm > 0; ++n) {
+      // The vertex of the parabola through the three.
+      const double p = (middle - left) * (gm - gr), q = (middle - right) * (gm - gl);
+      const double least = middle - ((middle - left) * p - (middle - right) * q) / (2 * (p - q));
+      if (!(least > left && least < right) || least == middle || std::min({gl, gm, gr}) > near * (1 + n) * steep + gm / 2) break;
+      const double g = at_time(integrator, least, k);
+      if (g >= gm) break;
+      (least < middle ? right : left) = middle;
+      (least < middle ? gr : gl) = gm;
+      middle = least;
+      gm = g;
+    }
+    if (!(gm < 0) || !(gl > 0)) continue;
+    while (middle - left > 4 * std::numeric_limits<double>::epsilon() * std::abs(middle)) {
+      const double half = (left + middle) / 2;
+      if (half <= left || half >= middle) break;
+      (at_time(integrator, half, k) > 0 ? left : middle) = half;
+    }
+    const int which = static_cast<int>(events_.size() - sliders_.size() + i);
+    if (!first || middle < first->t) first = Missed{middle, which};
+  }
+  return first;
 }
 
 void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/dae/consistency.hpp"
@@ -23,6 +24,13 @@ class NetworkEvents final : public EventFunctions {
   /// At the beginning of a stretch: what is beyond a bound there is so by rounding, and the bound gives way as far.
   void begin(double t, const double* y, const double* yp);
 
+  /// Sliders stick here that may break away.
+  bool sticks() const;
+  /// A force may go beyond a bound and come back within one step: the first such instant in the last step, and the event
+  /// that it is.
+  struct Missed { double t; int which; };
+  std::optional<Missed> missed(const Integrator& integrator);
+
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
   const Which& operator[](std::size_t k) const { return events_[k]; }
@@ -33,6 +41,7 @@ class NetworkEvents final : public EventFunctions {
     std::size_t i;
     int branch;
   };
+  double at_time(const Integrator& integrator, double t, int slider);
   double slider_function(int slider, const Dae::View& view) const;
 
   Dae& dae_;

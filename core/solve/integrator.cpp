@@ -197,6 +197,19 @@ Integrator::Statistics& Integrator::Statistics::operator+=(const Statistics& oth
   return *this;
 }
 
+void Integrator::limit_step(double longest) {
+  require(IDASetMaxStep(impl_->ida, std::isfinite(longest) ? longest : 0), "IDASetMaxStep");
+}
+
+void Integrator::cut(double t, int which) {
+  Implementation& s = *impl_;
+  interpolate(t, 1, s.yp);
+  interpolate(t, 0, s.y);
+  s.time = t;
+  std::fill(s.fired.begin(), s.fired.end(), 0);
+  s.fired[at(which)] = 1;
+}
+
 double Integrator::time() const { return impl_->time; }
 double Integrator::previous_time() const { return impl_->previous; }
 const std::vector<double>& Integrator::y() const { return impl_->y; }

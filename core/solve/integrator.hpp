@@ -38,7 +38,11 @@ class Integrator {
 
   /// Starts afresh at t from a consistent state. The first step is h.
   void restart(double t, const std::vector<double>& y, const std::vector<double>& yp, double h, double stop);
+  /// No step is longer than this [s]; infinite for no limit.
+  void limit_step(double longest);
   Outcome step();
+  /// Takes back the last step's part after t: an event of function `which` there has been missed.
+  void cut(double t, int which);
 
   double time() const;
   double previous_time() const;  ///< where the last step began

@@ -33,6 +33,9 @@ constexpr double lookahead_of_cycle = 0.01;
 // Restarts that bring the time on by less than this share of the run, one after the other, are chattering.
 constexpr double chatter_share = 1e-10;
 constexpr int chatter_restarts = 500;
+// While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
+// alone, which no error test looks at.
+constexpr double longest_angle = 0.3;
 // Equations of so many sets of modes are kept, for when the modes come back.
 constexpr std::size_t remembered_systems = 64;
 // Constant forces balance but for this share of their magnitudes.
@@ -290,7 +293,7 @@ class Run {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
         throw SimulationError(fmt::format("interrupted at t = {:.6g} s", system_->integrator.time()));
       }
-      const Integrator::Outcome outcome = system_->integrator.step();
+      Integrator::Outcome outcome = system_->integrator.step();
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
         // A fresh start with a shorter first step helps where the history is to blame.
         if ((shrink *= 1e-2) < 1e-7) fail(outcome);
@@ -300,6 +303,10 @@ class Run {
         system_->consistency.derivative(t, y_, yp_);
         restart(t, until, shrink);
         continue;
+      }
+      if (const auto missed = system_->events.sticks() ? system_->events.missed(system_->integrator) : std::nullopt) {
+        system_->integrator.cut(missed->t, missed->which);
+        outcome = Integrator::Outcome::event;
       }
       t = system_->integrator.time();
       observer_.step(system_->integrator);
@@ -395,6 +402,9 @@ class Run {
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
     // Below a few units in the last place of t there is no time to step over.
     const double grain = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
+    const double omega = drive_.fastest();
+    system_->integrator.limit_step(omega > 0 && system_->events.sticks() ? longest_angle / omega
+                                                                         : std::numeric_limits<double>::infinity());
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain), until - t), until);
   }
 

@@ -65,6 +65,9 @@ TEST_CASE("laws are sorted into one contiguous batch a type, and every element k
       case Role::rate:
         CHECK_EQ(net.rates.at(index).element, element);
         break;
+      case Role::slip:
+        CHECK_EQ(net.sliders.at(index).branch.element, element);
+        break;
       case Role::mass:
         CHECK_EQ(net.masses.at(index).element, element);
         CHECK_EQ(net.masses.at(index).mass, 0.19);
