@@ -21,8 +21,10 @@ constexpr int enough_full_steps = 3;
 constexpr double bound_rounding = 1e-12;
 // What decides among equals, relative to the smallest of the slopes that count.
 constexpr double weak_share = 1e-9;
+// Where there is no slope around, what it adds to the bounds of a branch.
+constexpr double weak_force = 1e-3;
 // It may carry this share of a force: more means that nothing else does.
-constexpr double weak_limit = 1e-4;
+constexpr double weak_limit = 1e-2;
 // A law with a slope this much smaller than its other one is flat to that side.
 constexpr double negligible = 1e-14;
 
@@ -93,14 +95,25 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
 }
 
 void ConvexNetwork::choose_weak() {
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Branch& b : branches_) {
-    if (const double slope = std::max(b.law.forward, b.law.backward); slope > 0) smallest = std::min(smallest, slope);
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> least(x_.size(), none);  // slope around each node
+  double farthest = 0;
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    if (inertia_[k] > 0) least[k] = inertia_[k];
+    farthest = std::max(farthest, std::abs(x_[k]));
   }
-  if (!std::isfinite(smallest)) smallest = 1;
+  for (const Branch& b : branches_) {
+    const double slope = std::max(b.law.forward, b.law.backward);
+    if (slope == 0) continue;
+    for (int node : {b.a, b.b}) least[at(node)] = std::min(least[at(node)], slope);
+  }
   for (Branch& b : branches_) {
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
-    if (b.jumps || flatter <= negligible * steeper) b.weak = weak_share * smallest;
+    if (!b.jumps && flatter > negligible * steeper) continue;
+    const double around = std::min(least[at(b.a)], least[at(b.b)]);
+    double bounds = 0;
+    for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
+    b.weak = around < none ? weak_share * around : farthest > 0 && bounds > 0 ? weak_force * bounds / farthest : 1;
   }
 }
 
@@ -356,10 +369,9 @@ bool ConvexNetwork::release() {
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const Branch& b = branches_[k];
     if (!b.stuck) continue;
-    const double over = std::max(f[k] - b.law.high, b.law.low - f[k]);
-    double bounds = 0;
-    for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
-    if (over > bound_rounding * bounds) beyond.push_back({over, static_cast<int>(k)});
+    const bool above = f[k] > b.law.high;
+    const double over = above ? f[k] - b.law.high : b.law.low - f[k];
+    if (over > bound_rounding * std::abs(above ? b.law.high : b.law.low)) beyond.push_back({over, static_cast<int>(k)});
   }
   std::sort(beyond.begin(), beyond.end(), std::greater<>());
   released_.clear();

@@ -45,6 +45,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   Change change;
   const Modes before = modes;
   drive_.evaluate(t);
+  stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
   halt(fired.sliders, modes, state);
@@ -248,7 +249,8 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     const double limit = bound(k);
     ConvexNetwork::Law law{.low = -limit - force[k], .high = limit - force[k]};
     // At its bound the rate alone decides, not the rounding of the event.
-    if (contains(fired.sliders, static_cast<int>(k)) && modes.slider[k] == Modes::stuck) {
+    const bool at_bound = std::abs(std::abs(force[k]) - limit) <= balance_rounding * limit;
+    if (modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || contains(fired.sliders, static_cast<int>(k)))) {
       (force[k] > 0 ? law.high : law.low) = 0;
     }
     slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);

@@ -64,6 +64,7 @@ class Instant {
   const Network& network_;
   const Structure& structure_;
   Drive& drive_;
+  bool stepped_ = false;      ///< the forces of the sliders are those before a step of the drive
   std::vector<char> broken_;  ///< of each slider: its bound is that of sliding
 };
 
