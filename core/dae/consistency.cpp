@@ -194,13 +194,6 @@ void Consistency::project(double t, std::vector<double>& y) {
       }
     }
   };
-  // What has no scale of its own was nothing and stays so; what came out as a rounding of its way there is nothing.
-  const auto finish = [&] {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (scale[i] == 0) y[i] = before[i];
-      if (kind_[i] == 0 && std::abs(y[i]) <= balance_rounding * scale[i]) y[i] = 0;
-    }
-  };
   const auto norm = [&](const std::vector<double>& x) {
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -218,20 +211,29 @@ void Consistency::project(double t, std::vector<double>& y) {
     }
     return true;
   };
+  const auto finish = [&] {
+    // What is left of a velocity by rounding on the way there is nothing.
+    for (std::size_t i = 0; i < n; ++i) {
+      if (kind_[i] == 0 && std::abs(y[i]) <= balance_rounding * scale[i]) y[i] = 0;
+    }
+    // Integrals that nothing moves stay as they were to the last digit.
+    std::swap(trial, y);
+    y = trial;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (kind_[i] == 1 || kind_[i] == 3) y[i] = before[i];
+    }
+    if (!within_rounding()) y = trial;
+  };
   double damping = 1;
   for (int iteration = 0; iteration < 500; ++iteration) {
     factorise(t, y);
-    defects(y);
+    if (within_rounding()) return finish();
     for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
     solve(change);
     // What is small beside others of its kind is not small by itself: it may be their rounding.
     std::array<double, kinds> largest{};
     for (const double v : dae_.drive().velocity) largest[0] = std::max(largest[0], std::abs(v));
-    // Integrals have theirs from before: here they move by roundings only.
-    const auto size_of = [&](std::size_t i) {
-      const bool integral = kind_[i] == 1 || kind_[i] == 3;
-      return integral ? std::abs(before[i]) : std::max(scale[i], std::abs(y[i]));
-    };
+    const auto size_of = [&](std::size_t i) { return std::max({scale[i], std::abs(y[i]), std::abs(change[i])}); };
     for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max(largest[kind_[i]], size_of(i));
     for (std::size_t i = 0; i < n; ++i) scale[i] = std::max(size_of(i), share_of_kind * largest[kind_[i]]);
     const double size = norm(change);

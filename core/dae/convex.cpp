@@ -22,7 +22,7 @@ constexpr double bound_rounding = 1e-12;
 // What decides among equals, relative to the smallest of the slopes that count.
 constexpr double weak_share = 1e-9;
 // Where there is no slope around, what it adds to the bounds of a branch.
-constexpr double weak_force = 1e-3;
+constexpr double weak_force = 1e-9;
 // It may carry this share of a force: more means that nothing else does.
 constexpr double weak_limit = 1e-2;
 // A law with a slope this much smaller than its other one is flat to that side.

@@ -48,7 +48,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
-  halt(fired.sliders, modes, state);
+  change.heat += halt(fired.sliders, modes, state);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = modes.slider[k] != Modes::stuck && !event;
@@ -114,9 +114,13 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
 }
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
-/// velocity is the rounding of the event.
-void Instant::halt(const std::vector<int>& fired, const Modes& modes, State& state) const {
-  if (fired.empty()) return;
+/// velocity is the rounding of the event. Rigid links do so at once, and the energy that this takes is heat.
+double Instant::halt(const std::vector<int>& events, const Modes& modes, State& state) const {
+  std::vector<int> fired = events;
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    if (std::isinf(network_.sliders[k].law.breakaway)) fired.push_back(static_cast<int>(k));
+  }
+  double heat = 0;
   Modes held = modes;
   for (int k : fired) held.slider[at(k)] = Modes::stuck;
   std::vector<std::vector<NodeId>> around(structure_.kind.size());
@@ -146,8 +150,13 @@ void Instant::halt(const std::vector<int>& fired, const Modes& modes, State& sta
       }
     }
     if (std::isnan(known) && mass == 0) continue;
-    for (NodeId node : cluster) state.velocity[at(node)] = std::isnan(known) ? momentum / mass : known;
+    for (NodeId node : cluster) {
+      const double before = state.velocity[at(node)], after = std::isnan(known) ? momentum / mass : known;
+      if (std::isnan(known)) heat += structure_.mass[at(node)] * (before - after) * (before + after) / 2;
+      state.velocity[at(node)] = after;
+    }
   }
+  return std::max(0.0, heat);
 }
 
 Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& slider_force, bool rates) const {

@@ -44,7 +44,7 @@ class Instant {
   /// Displacements within the instant; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
-  void halt(const std::vector<int>& fired, const Modes& modes, State& state) const;
+  double halt(const std::vector<int>& events, const Modes& modes, State& state) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
