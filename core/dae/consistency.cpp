@@ -203,8 +203,8 @@ void Consistency::project(double t, std::vector<double>& y) {
     return largest;
   };
   // What rounding leaves of the equations, in terms of the unknowns.
-  const auto within_rounding = [&] {
-    defects(y);
+  const auto within_rounding = [&](const std::vector<double>& at_y) {
+    defects(at_y);
     dae_.magnitudes(r1_.data());
     for (std::size_t i = 0; i < n; ++i) {
       if (!dae_.differential(static_cast<int>(i)) && std::abs(defect[i]) > balance_rounding * r1_[i]) return false;
@@ -222,12 +222,12 @@ void Consistency::project(double t, std::vector<double>& y) {
     for (std::size_t i = 0; i < n; ++i) {
       if (kind_[i] == 1 || kind_[i] == 3) y[i] = before[i];
     }
-    if (!within_rounding()) y = trial;
+    if (!within_rounding(y)) y = trial;
   };
   double damping = 1;
   for (int iteration = 0; iteration < 500; ++iteration) {
     factorise(t, y);
-    if (within_rounding()) return finish();
+    if (within_rounding(y)) return finish();
     for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
     solve(change);
     // What is small beside others of its kind is not small by itself: it may be their rounding.
@@ -241,12 +241,15 @@ void Consistency::project(double t, std::vector<double>& y) {
     if (size <= 1e-14) return finish();
     for (;; damping /= 2) {
       for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
-      defects(trial);
+      if (within_rounding(trial)) {
+        y = trial;
+        return finish();
+      }
       for (std::size_t i = 0; i < n; ++i) next[i] = -defect[i];
       solve(next);
       if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
       if (damping < 1e-6) {
-        if (size <= 1e-9 || within_rounding()) return finish();
+        if (size <= 1e-9 || within_rounding(y)) return finish();
         for(size_t i=0;i<n;++i) fprintf(stderr,"%zu diff %d y %g before %g change %g next %g defect %g mag %g scale %g %s\n",i,dae_.differential((int)i),y[i],before[i],change[i],next[i],defect[i],r1_[i],scale[i],dae_.describe((int)i).c_str());
         for(size_t i=0;i<n;++i) fprintf(stderr,"%zu diff %d y %g before %g change %g next %g defect %g mag %g scale %g %s\n",i,dae_.differential((int)i),y[i],before[i],change[i],next[i],defect[i],r1_[i],scale[i],dae_.describe((int)i).c_str());
         report_singular(t);

@@ -124,18 +124,23 @@ void ConvexNetwork::stick_at_first() {
   std::vector<char> heavy(n, 0);  // of each set: its value is given
   for (std::size_t k = 0; k < n; ++k) heavy[k] = fixed_[k] || inertia_[k] > 0;
   std::vector<double> value(x_);
+  std::vector<char> fixed(fixed_);
   for (Branch& b : branches_) {
     if (!b.jumps) continue;
     const int sa = sets.find(b.a), sb = sets.find(b.b);
-    if (heavy[at(sa)] && heavy[at(sb)] && value[at(sa)] != value[at(sb)]) {
+    const bool rigid = std::isinf(b.law.low) && std::isinf(b.law.high);
+    if (!rigid && heavy[at(sa)] && heavy[at(sb)] && value[at(sa)] != value[at(sb)]) {
       b.side = value[at(sa)] > value[at(sb)] ? 1 : -1;
       continue;
     }
     b.stuck = true;
     if (sa == sb) continue;
     const bool given = heavy[at(sa)] || heavy[at(sb)];
-    const double common = value[at(heavy[at(sa)] ? sa : sb)];
+    const bool first = fixed[at(sa)] || (!fixed[at(sb)] && heavy[at(sa)]);
+    const double common = value[at(first ? sa : sb)];
+    const bool firm = fixed[at(sa)] || fixed[at(sb)];
     sets.join(sa, sb);
+    fixed[at(sets.find(sa))] = firm;
     heavy[at(sets.find(sa))] = given;
     value[at(sets.find(sa))] = common;
   }

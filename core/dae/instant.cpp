@@ -139,7 +139,13 @@ double Instant::halt(const std::vector<int>& events, const Modes& modes, State& 
     for (std::size_t c = 0; c < cluster.size(); ++c) {
       const NodeId node = cluster[c];
       if (structure_.kind[at(node)] == Kind::known) {
-        known = structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
+        const double given = structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
+        const Slip& law = network_.sliders[at(k)].law;
+        if (!std::isnan(known) && given != known && std::isinf(law.breakaway)) {
+          throw SimulationError(fmt::format("rigid link `{}` joins nodes that are made to move at different velocities",
+                                            network_.name_of(network_.sliders[at(k)].branch)));
+        }
+        known = given;
       }
       momentum += structure_.mass[at(node)] * state.velocity[at(node)];
       mass += structure_.mass[at(node)];
