@@ -67,6 +67,9 @@ const RegisterComponent registered({
                   return std::vector<double>{v[1], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
                 }}},
     .deflection = deflection_batch<Vfm>,
+    .check = [](std::span<const double> v) -> std::string {
+      return std::isinf(v[0]) && std::isinf(v[1]) ? "`damping` and `stiffness` are both infinite: a rigid link; join the nodes" : "";
+    },
     .drawing = "M0 .5 H.1 M.1 .3 H.9 V.7 H.1 Z M.2 .6 C.4 .6 .4 .4 .8 .4 M.9 .5 H1",
 });
 

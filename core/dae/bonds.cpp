@@ -1,5 +1,8 @@
 #include "core/dae/bonds.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace rheonet {
 
 namespace {
@@ -12,7 +15,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 Bonds::Bonds(const Network& network, const Structure& structure) {
   row_.assign(structure.kind.size(), -1);
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
-    if (structure.stuck[k]) sliders_.push_back({k, network.sliders[k].branch.a, network.sliders[k].branch.b});
+    const Network::Slider& s = network.sliders[k];
+    if (structure.stuck[k]) sliders_.push_back({k, s.branch.a, s.branch.b, s.law.breakaway});
   }
   for (const Bond& bond : sliders_) {
     for (NodeId node : {bond.a, bond.b}) {
@@ -21,9 +25,14 @@ Bonds::Bonds(const Network& network, const Structure& structure) {
       node_.push_back(node);
     }
   }
+  if (!node_.empty()) laplacian_.compute(laplacian(std::vector<char>(sliders_.size(), 0)));
+}
+
+Bonds::Matrix Bonds::laplacian(const std::vector<char>& clamped) const {
   std::vector<Eigen::Triplet<double>> entries;
-  for (const Bond& bond : sliders_) {
-    const int a = row_[at(bond.a)], b = row_[at(bond.b)];
+  for (std::size_t k = 0; k < sliders_.size(); ++k) {
+    if (clamped[k]) continue;
+    const int a = row_[at(sliders_[k].a)], b = row_[at(sliders_[k].b)];
     if (a >= 0) entries.emplace_back(a, a, 1);
     if (b >= 0) entries.emplace_back(b, b, 1);
     if (a >= 0 && b >= 0) {
@@ -32,17 +41,67 @@ Bonds::Bonds(const Network& network, const Structure& structure) {
     }
   }
   const auto n = static_cast<Eigen::Index>(node_.size());
-  Eigen::SparseMatrix<double> matrix(n, n);
+  Matrix matrix(n, n);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  if (n > 0) laplacian_.compute(matrix);
+  return matrix;
+}
+
+/// Every node still has a way to one whose potential is given.
+bool Bonds::still_joined(const std::vector<char>& clamped) const {
+  std::vector<char> reached(node_.size(), 0);
+  const auto held = [&](NodeId node) { return row_[at(node)] < 0 || reached[at(row_[at(node)])]; };
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t k = 0; k < sliders_.size(); ++k) {
+      if (clamped[k] || held(sliders_[k].a) == held(sliders_[k].b)) continue;
+      reached[at(row_[at(held(sliders_[k].a) ? sliders_[k].b : sliders_[k].a)])] = 1;
+      again = true;
+    }
+  }
+  return std::find(reached.begin(), reached.end(), 0) == reached.end();
 }
 
 void Bonds::solve(const std::vector<double>& left, std::vector<double>& force) const {
-  Eigen::VectorXd phi(static_cast<Eigen::Index>(node_.size()));
-  for (std::size_t r = 0; r < node_.size(); ++r) phi[static_cast<Eigen::Index>(r)] = -left[at(node_[r])];
-  if (!node_.empty()) phi = laplacian_.solve(phi);
-  const auto potential = [&](NodeId node) { return row_[at(node)] < 0 ? 0 : phi[row_[at(node)]]; };
-  for (const Bond& bond : sliders_) force[bond.slider] = potential(bond.a) - potential(bond.b);
+  if (node_.empty()) {
+    for (const Bond& bond : sliders_) force[bond.slider] = 0;
+    return;
+  }
+  std::vector<char> clamped(sliders_.size(), 0);
+  const auto distribute = [&](const auto& factor) {
+    Eigen::VectorXd phi(static_cast<Eigen::Index>(node_.size()));
+    for (std::size_t r = 0; r < node_.size(); ++r) phi[static_cast<Eigen::Index>(r)] = -left[at(node_[r])];
+    const auto add = [&](NodeId node, double f) {
+      if (row_[at(node)] >= 0) phi[row_[at(node)]] -= f;
+    };
+    for (std::size_t k = 0; k < sliders_.size(); ++k) {
+      if (!clamped[k]) continue;
+      add(sliders_[k].a, force[sliders_[k].slider]);
+      add(sliders_[k].b, -force[sliders_[k].slider]);
+    }
+    phi = factor.solve(phi);
+    const auto potential = [&](NodeId node) { return row_[at(node)] < 0 ? 0 : phi[row_[at(node)]]; };
+    for (std::size_t k = 0; k < sliders_.size(); ++k) {
+      if (!clamped[k]) force[sliders_[k].slider] = potential(sliders_[k].a) - potential(sliders_[k].b);
+    }
+  };
+  distribute(laplacian_);
+  if (sliders_.size() == node_.size()) return;  // a tree leaves nothing open
+  // What would be beyond its bound stays there, as long as the others can take the rest.
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t k = 0; k < sliders_.size(); ++k) {
+      double& f = force[sliders_[k].slider];
+      if (clamped[k] || std::abs(f) <= sliders_[k].bound) continue;
+      clamped[k] = 1;
+      if (!still_joined(clamped)) {
+        clamped[k] = 0;
+        continue;
+      }
+      f = std::copysign(sliders_[k].bound, f);
+      again = true;
+    }
+    if (again) distribute(Eigen::SimplicialLDLT<Matrix>(laplacian(clamped)));
+  }
 }
 
 }  // namespace rheonet

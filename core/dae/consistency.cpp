@@ -17,6 +17,11 @@ namespace {
 constexpr double share_of_kind = 1e-6;
 // Terms of an equation that cancel leave this share of their magnitudes.
 constexpr double balance_rounding = 1e-14;
+// What Newton's method may leave where it gets no further.
+constexpr double loose_balance = 1e-10;
+constexpr int most_whole_steps = 20;
+// Of the velocities that there are: less is nothing.
+constexpr double velocity_rounding = 1e-14;
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -44,7 +49,12 @@ Consistency::Consistency(Dae& dae) : dae_(dae), factor_(std::make_unique<Factor>
   const auto set = [&](int unknown, std::size_t kind) {
     if (unknown >= 0) kind_[at(unknown)] = kind;
   };
-  for (std::size_t j = 0; j < dae.network().deflections.size(); ++j) set(dae.deflection_unknown(static_cast<int>(j)), 1);
+  branch_.assign(n, -1);
+  for (std::size_t j = 0; j < dae.network().deflections.size(); ++j) {
+    const int unknown = dae.deflection_unknown(static_cast<int>(j));
+    set(unknown, 1);
+    if (unknown >= 0) branch_[at(unknown)] = static_cast<int>(j);
+  }
   for (std::size_t r = 0; r < dae.network().rates.size(); ++r) set(dae.force_unknown(static_cast<int>(r)), 2);
   for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.position_unknown(static_cast<NodeId>(k)), 3);
 }
@@ -211,10 +221,11 @@ void Consistency::project(double t, std::vector<double>& y) {
     }
     return true;
   };
+  double fastest = 0;  // velocity at first, all nodes
   const auto finish = [&] {
     // What is left of a velocity by rounding on the way there is nothing.
     for (std::size_t i = 0; i < n; ++i) {
-      if (kind_[i] == 0 && std::abs(y[i]) <= balance_rounding * scale[i]) y[i] = 0;
+      if (kind_[i] == 0 && std::abs(y[i]) <= velocity_rounding * fastest) y[i] = 0;
     }
     // Integrals that nothing moves stay as they were to the last digit.
     std::swap(trial, y);
@@ -224,6 +235,31 @@ void Consistency::project(double t, std::vector<double>& y) {
     }
     if (!within_rounding(y)) y = trial;
   };
+  // Mostly the equations are as good as linear here, and whole steps reach the rounding of their terms at once.
+  for (const double v : dae_.drive().velocity) fastest = std::max(fastest, std::abs(v));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (kind_[i] == 0) fastest = std::max(fastest, std::abs(y[i]));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (int iteration = 0; iteration < most_whole_steps; ++iteration) {
+    factorise(t, y);
+    if (within_rounding(y)) return finish();
+    double error = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!dae_.differential(static_cast<int>(i)) && defect[i] != 0) error = std::max(error, std::abs(defect[i]) / r1_[i]);
+    }
+    if (!(error < least / 2)) {
+      if (!(least <= loose_balance)) break;
+      y = trial;
+      return finish();
+    }
+    least = error;
+    trial = y;
+    for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
+    solve(change);
+    for (std::size_t i = 0; i < n; ++i) y[i] += change[i];
+  }
+  y = before;
   double damping = 1;
   for (int iteration = 0; iteration < 500; ++iteration) {
     factorise(t, y);
@@ -233,7 +269,16 @@ void Consistency::project(double t, std::vector<double>& y) {
     // What is small beside others of its kind is not small by itself: it may be their rounding.
     std::array<double, kinds> largest{};
     for (const double v : dae_.drive().velocity) largest[0] = std::max(largest[0], std::abs(v));
-    const auto size_of = [&](std::size_t i) { return std::max({scale[i], std::abs(y[i]), std::abs(change[i])}); };
+    // A deflection counts by the force that it makes.
+    double force = 0;
+    for (double r : r1_) force = std::max(force, r);
+    const std::vector<double>& slope = dae_.slopes();
+    const auto size_of = [&](std::size_t i) {
+      if (kind_[i] == 3) return std::max(std::abs(before[i]), std::abs(y[i]));
+      if (kind_[i] != 1) return std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
+      const double stiffness = std::abs(slope[at(branch_[i])]);
+      return std::max(std::abs(before[i]), stiffness > 0 ? share_of_kind * force / stiffness : 0);
+    };
     for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max(largest[kind_[i]], size_of(i));
     for (std::size_t i = 0; i < n; ++i) scale[i] = std::max(size_of(i), share_of_kind * largest[kind_[i]]);
     const double size = norm(change);

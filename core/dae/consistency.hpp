@@ -40,6 +40,7 @@ class Consistency {
   std::vector<double> values_, r0_, r1_, zero_;
   static constexpr std::size_t kinds = 4;  ///< velocity, deflection, force, position
   std::vector<std::size_t> kind_;          ///< of each unknown
+  std::vector<int> branch_;                ///< of each unknown that is a deflection
 };
 
 }  // namespace rheonet

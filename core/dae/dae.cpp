@@ -259,7 +259,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   offset_ = state.offset;
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = network_->sliders[k].branch;
-    slip_force_[k] = modes.slider[k] * network_->sliders[k].law.coulomb;
+    slip_force_[k] = structure_->stuck[k] ? 0 : modes.slider[k] * network_->sliders[k].law.coulomb;
     slider_shift_[k] = state.position[at(b.a)] - state.position[at(b.b)];
   }
   y.assign(at(size_), 0);

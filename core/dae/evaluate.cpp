@@ -134,7 +134,9 @@ void Dae::magnitudes(double* r) const {
   for (std::size_t j = 0; j < ip_.size(); ++j) add_branch(structure_->deflections[j], view_.f[j]);
   for (std::size_t k = 0; k < if_.size(); ++k) {
     const Branch& b = structure_->rates[k];
-    add_branch(b, if_[k] >= 0 ? rate_in_[k] : rate_out_[k]);
+    // The difference of two velocities is known to the last digit of each.
+    const double speed = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]);
+    add_branch(b, if_[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
     if (if_[k] >= 0) r[if_[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
   }
   for (std::size_t k = 0; k < slip_force_.size(); ++k) add_branch(structure_->sliders[k], slip_force_[k]);

@@ -44,7 +44,12 @@ void join(const Network& network, const Modes& modes, Structure& s) {
   const auto end = [&](NodeId node) { return s.rigid[at(node)]; };
   for (Branch& b : s.deflections) b = {b.element, end(b.a), end(b.b)};
   for (Branch& b : s.rates) b = {b.element, end(b.a), end(b.b)};
-  for (Branch& b : s.sliders) b = {b.element, end(b.a), end(b.b)};
+  for (std::size_t k = 0; k < s.sliders.size(); ++k) {
+    Branch& b = s.sliders[k];
+    b = {b.element, end(b.a), end(b.b)};
+    // What others hold together sticks too, though its force may be at its bound.
+    s.stuck[k] = s.stuck[k] || b.a == b.b;
+  }
 }
 
 void assign_known_and_massive(const Network& network, Structure& s) {

@@ -163,6 +163,9 @@ class Run {
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
     system_ = &system_of_modes();
+    for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
+      if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
+    }
     tolerances_.attach(system_->dae);
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);

@@ -66,6 +66,8 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
 
       // That it is the right law: the trajectory of values nearby is near, but for the start, where what the limit does
       // at once takes a moment.
+      // A law that sticks is not reached smoothly: what is nearly rigid rings.
+      if (limit.becomes == "slider") continue;
       constexpr double small = 1e-9, distance = 1e-5;
       Trajectory nearby;
       ++tried;
