@@ -240,6 +240,17 @@ void Consistency::project(double t, std::vector<double>& y) {
   for (std::size_t i = 0; i < n; ++i) {
     if (kind_[i] == 0) fastest = std::max(fastest, std::abs(y[i]));
   }
+  // At rest nothing but rest solves them, and that exactly.
+  trial = y;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!dae_.differentiated(static_cast<int>(i)) && kind_[i] != 1) trial[i] = 0;
+  }
+  factorise(t, trial);
+  defects(trial);
+  if (std::all_of(defect.begin(), defect.end(), [](double d) { return d == 0; })) {
+    y = trial;
+    return;
+  }
   double least = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_whole_steps; ++iteration) {
     factorise(t, y);

@@ -26,6 +26,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   const std::size_t nodes = network.scene->nodes.size(), deflections = network.deflections.size();
   seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0),
            std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0)};
+  foreseen_ = seen_;
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
@@ -57,7 +58,6 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.velocity_unknown(static_cast<NodeId>(k)), Sort::velocity, k);
     stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
-  foreseen_.assign(n, 0);
   tolerance_.assign(n, relative_);
 }
 
@@ -87,16 +87,27 @@ bool Tolerances::blind() const {
 
 void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                          const std::vector<double>& ypp) {
-  forget_ = t + 10 * ahead;
+  // What was foreseen a moment ago, before an event perhaps, still holds.
+  if (t > forget_) forget();
+  if (ahead > 0) {
+    forget_ = t + 10 * ahead;
+    ahead_ = ahead;
+  }
   for (std::size_t i = 0; i < y.size(); ++i) {
-    foreseen_[i] = std::abs(y[i]) + ahead * (std::abs(yp[i]) + ahead / 2 * std::abs(ypp[i]));
+    double& foreseen = foreseen_of(quantity_[i]);
+    foreseen = std::max(foreseen, std::abs(y[i]) + ahead * (std::abs(yp[i]) + ahead / 2 * std::abs(ypp[i])));
   }
   see(y, dae_->view(t, y.data(), yp.data()));
   update(t, yp);
 }
 
+void Tolerances::forget() {
+  ahead_ = 0;
+  for (std::vector<double>& sort : foreseen_) std::fill(sort.begin(), sort.end(), 0.0);
+}
+
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
-  if (t > forget_) std::fill(foreseen_.begin(), foreseen_.end(), 0.0);
+  if (t > forget_) forget();
   see(y, view);
   update(t, yp);
 }
@@ -112,24 +123,29 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
     double& l = largest[static_cast<std::size_t>(q.sort)];
-    l = std::max({l, seen(q), foreseen_[i]});
+    l = std::max({l, seen(q), foreseen_of(quantity_[i])});
     if (q.sort == Sort::force) force = std::max(force, seen(q));
-    if (q.sort == Sort::deflection) force = std::max(force, std::abs(slope[q.index]) * foreseen_[i]);
+    if (q.sort == Sort::deflection) force = std::max(force, std::abs(slope[q.index]) * foreseen_of(quantity_[i]));
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
-    double scale = std::max({seen(q), foreseen_[i], floor_of_kind * largest[static_cast<std::size_t>(q.sort)]});
+    double scale = std::max({seen(q), foreseen_of(quantity_[i]), floor_of_kind * largest[static_cast<std::size_t>(q.sort)]});
     if (q.sort == Sort::deflection) {
       // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
       const std::size_t j = q.index;
       const double stiffness = std::abs(slope[j]);
-      const double own = std::max(force_seen_[j], stiffness * foreseen_[i]);
+      const double own = std::max(force_seen_[j], stiffness * foreseen_of(quantity_[i]));
       const double by_force = std::max(own, floor_of_kind * force);
       if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
     }
     tolerance_[i] = std::max(relative_ * (scale > 0 ? scale : 1), grain * std::abs(yp[i]));
+    // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
+    if (q.sort == Sort::deflection || q.sort == Sort::position) {
+      const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
+      tolerance_[i] = std::max(tolerance_[i], relative_ * velocity * ahead_);
+    }
   }
   unresolved_velocity_ = relative_ * largest[static_cast<std::size_t>(Sort::velocity)];
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.

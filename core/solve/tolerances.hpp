@@ -40,17 +40,20 @@ class Tolerances {
   struct Quantity { Sort sort; std::size_t index; };
   double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double seen(const Quantity& q) const { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
+  double& foreseen_of(const Quantity& q) { return foreseen_[static_cast<std::size_t>(q.sort)][q.index]; }
+  void forget();
   void see(const std::vector<double>& y, const Dae::View& view);
   void update(double t, const std::vector<double>& yp);
 
   const Network& network_;
   Dae* dae_ = nullptr;
   double relative_;
+  double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
   std::array<std::vector<double>, sorts> seen_;       ///< largest magnitude of everything that can be an unknown
-  std::vector<double> foreseen_;                      ///< of each unknown
+  std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> slide_seen_;                    ///< of each slider
   double unresolved_velocity_ = 0;
