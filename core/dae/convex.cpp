@@ -412,10 +412,15 @@ bool ConvexNetwork::run_away() {
       if (std::isfinite(f)) scale = std::max(scale, std::abs(f));
     }
   }
+  // What has inertia does not run away.
+  std::vector<char> heavy(x_.size(), 0);
+  for (std::size_t k = 0; k < x_.size(); ++k) {
+    if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
+  }
   for (const Branch& b : branches_) {
     if (b.stuck || std::abs(b.weak * difference(b)) <= weak_limit * scale) continue;
     for (int node : {b.a, b.b}) {
-      if (column_[at(cluster_[at(node)])] >= 0) runaways_.push_back(node);
+      if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);
     }
   }
   return !runaways_.empty();

@@ -67,16 +67,28 @@ double NetworkEvents::at_time(const Integrator& integrator, double t, int k) {
   return slider_function(k, dae_.view(t, y_.data(), yp_.data()));
 }
 
+void NetworkEvents::all_at_time(const Integrator& integrator, double t, std::vector<double>& g) {
+  integrator.interpolate(t, 0, y_);
+  integrator.interpolate(t, 1, yp_);
+  const Dae::View& view = dae_.view(t, y_.data(), yp_.data());
+  g.resize(sliders_.size());
+  for (std::size_t i = 0; i < sliders_.size(); ++i) g[i] = slider_function(sliders_[i], view);
+}
+
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
   constexpr int refinements = 4;
   constexpr double near = 0.1;  // a parabola tells where the least value is, not how little
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
-  for (std::size_t i = 0; i < sliders_.size() && b > a; ++i) {
+  if (!(b > a)) return first;
+  all_at_time(integrator, a, left_);
+  all_at_time(integrator, (a + b) / 2, middle_);
+  all_at_time(integrator, b, right_);
+  for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
     if (!dae_.structure().stuck[at(k)]) continue;
     double left = a, middle = (a + b) / 2, right = b;
-    double gl = at_time(integrator, left, k), gm = at_time(integrator, middle, k), gr = at_time(integrator, right, k);
+    double gl = left_[i], gm = middle_[i], gr = right_[i];
     const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});
     for (int n = 0; n < refinements && gm > 0; ++n) {
       // The vertex of the parabola through the three.

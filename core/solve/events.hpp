@@ -41,6 +41,7 @@ class NetworkEvents final : public EventFunctions {
     std::size_t i;
     int branch;
   };
+  void all_at_time(const Integrator& integrator, double t, std::vector<double>& g);
   double at_time(const Integrator& integrator, double t, int slider);
   double slider_function(int slider, const Dae::View& view) const;
 
@@ -52,6 +53,7 @@ class NetworkEvents final : public EventFunctions {
   std::vector<double> y_, yp_;
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
+  std::vector<double> left_, middle_, right_;  ///< event functions of the sliders over a step
   std::vector<double> margin_;  ///< of each slider
   std::vector<Which> events_;
 };
