@@ -1,6 +1,7 @@
 #include "core/dae/bonds.hpp"
 
 #include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 
 namespace rheonet {
@@ -48,17 +49,19 @@ Bonds::Matrix Bonds::laplacian(const std::vector<char>& clamped) const {
 
 /// Every node still has a way to one whose potential is given.
 bool Bonds::still_joined(const std::vector<char>& clamped) const {
-  std::vector<char> reached(node_.size(), 0);
-  const auto held = [&](NodeId node) { return row_[at(node)] < 0 || reached[at(row_[at(node)])]; };
-  for (bool again = true; again;) {
-    again = false;
-    for (std::size_t k = 0; k < sliders_.size(); ++k) {
-      if (clamped[k] || held(sliders_[k].a) == held(sliders_[k].b)) continue;
-      reached[at(row_[at(held(sliders_[k].a) ? sliders_[k].b : sliders_[k].a)])] = 1;
-      again = true;
-    }
+  // Number n stands for all nodes with a given potential.
+  const std::size_t n = node_.size();
+  std::vector<int> rank(n + 1), parent(n + 1);
+  boost::disjoint_sets<int*, int*> sets(rank.data(), parent.data());
+  for (std::size_t k = 0; k <= n; ++k) sets.make_set(static_cast<int>(k));
+  const auto number = [&](NodeId node) { return row_[at(node)] < 0 ? static_cast<int>(n) : row_[at(node)]; };
+  for (std::size_t k = 0; k < sliders_.size(); ++k) {
+    if (!clamped[k]) sets.union_set(number(sliders_[k].a), number(sliders_[k].b));
   }
-  return std::find(reached.begin(), reached.end(), 0) == reached.end();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (sets.find_set(static_cast<int>(k)) != sets.find_set(static_cast<int>(n))) return false;
+  }
+  return true;
 }
 
 void Bonds::solve(const std::vector<double>& left, std::vector<double>& force) const {
