@@ -65,7 +65,7 @@ Difference difference_at(F f, double x, double h) {
 template <class F>
 Difference difference(F f, double x, double h, double enough) {
   Difference result = difference_at(f, x, h);
-  for (int k = 0; k < 3 && result.doubt > enough; ++k) result = difference_at(f, x, h /= 10);
+  for (int k = 0; k < 5 && result.doubt > enough; ++k) result = difference_at(f, x, h /= 10);
   return result;
 }
 
