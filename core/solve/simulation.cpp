@@ -22,7 +22,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The local error of a step against the global error promised. Errors add up: over 16 cycles of an undamped oscillator
 // by a factor of 100 to 900 (measured with IDA at order 5).
-constexpr double local_share = 5e-4;
+constexpr double local_share = 6.4e-4;
 // A first step may be wrong by this much of its tolerance (weighted root mean square of h^2 y''/2).
 constexpr double first_step_error = 0.3;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
