@@ -306,8 +306,6 @@ void Consistency::project(double t, std::vector<double>& y) {
       if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
       if (damping < 1e-6) {
         if (size <= 1e-9 || within_rounding(y)) return finish();
-        for(size_t i=0;i<n;++i) fprintf(stderr,"%zu diff %d y %g before %g change %g next %g defect %g mag %g scale %g %s\n",i,dae_.differential((int)i),y[i],before[i],change[i],next[i],defect[i],r1_[i],scale[i],dae_.describe((int)i).c_str());
-        for(size_t i=0;i<n;++i) fprintf(stderr,"%zu diff %d y %g before %g change %g next %g defect %g mag %g scale %g %s\n",i,dae_.differential((int)i),y[i],before[i],change[i],next[i],defect[i],r1_[i],scale[i],dae_.describe((int)i).c_str());
         report_singular(t);
       }
     }
