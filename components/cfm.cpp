@@ -45,25 +45,18 @@ struct Cfm : SolidFriction {
       if (i < 1) g[1] = held ? s * w - Fc / B + noise : travel_to_bound() - s * (p - p_ref);
     }
   }
-  const char* switch_memory(int which, double p, double w) {
+  void switch_memory(int which, double p, double w) {
     if (standing) {
       go(p, which == 0 ? 1 : -1);
-      return "start";
-    }
-    if (s == 0) {
+    } else if (s == 0) {
       go(p, w < 0 ? -1 : 1);
-      return "start";
-    }
-    if (which == 0) {
+    } else if (which == 0) {
       go(p, -s);
-      return "reversal";
-    }
-    if (!held) {
+    } else if (!held) {
       held = true;
-      return "yield";
+    } else {
+      release(p);
     }
-    release(p);
-    return "release";
   }
   bool fits(double w) const {
     if (standing) return false;

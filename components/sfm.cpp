@@ -29,13 +29,12 @@ struct Sfm : SolidFriction {
     g[0] = s * w + noise;  // reversal
     if (i < 1) g[1] = held ? 1 : travel_to_bound() - s * (p - p_ref);
   }
-  const char* switch_memory(int which, double p, double) {
+  void switch_memory(int which, double p, double) {
     if (which == 0) {
       turn(p, -s);
-      return "reversal";
+    } else {
+      held = true;
     }
-    held = true;
-    return "yield";
   }
   bool fits(double w) const { return w * s >= 0; }
   bool set_direction(double p, double, int direction) {

@@ -8,14 +8,14 @@ namespace rheonet {
 
 Drive::Drive(const Network& network, double start, const std::vector<double>& positions) {
   for (const Network::Motion& m : network.motions) {
-    Motion motion{.signal = m.signal, .by_position = m.position, .piece = {}};
+    Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
     motion.anchor_time = start;
     motion.anchor = m.position ? m.signal.before(start) : positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests where it was before the run.
     motion.piece.level = m.position ? motion.anchor : 0;
     motions_.push_back(std::move(motion));
   }
-  for (const Network::Force& f : network.forces) forces_.push_back({f.signal, {}});
+  for (const Network::Force& f : network.forces) forces_.push_back({f.element, f.signal, {}});
   position.resize(motions_.size());
   velocity = acceleration = steps_ = position;
   force.resize(forces_.size());
@@ -47,6 +47,24 @@ void Drive::enter(double t) {
     next_break_ = std::min(next_break_, f.piece.end);
   }
   time_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<Drive::Break> Drive::breaks(double t) const {
+  constexpr double slope_rounding = 1e-12;
+  std::vector<Break> result;
+  const auto look = [&](const auto& drive) {
+    const Piece& before = drive.piece;
+    if (before.end > t) return;
+    const Piece after = drive.signal.piece(t);
+    const double step = after.value(t) - before.value(t), bend = after.rate(t) - before.rate(t);
+    const bool jumps = std::abs(step) > before.rounding(t) + after.rounding(t);
+    const bool bends = std::abs(bend) > slope_rounding * (std::abs(after.rate(t)) + std::abs(before.rate(t)));
+    const double change = jumps ? step : bends ? bend : 0;
+    result.push_back({drive.element, jumps, change < 0 ? -1 : change > 0 ? 1 : 0});
+  };
+  for (const Motion& m : motions_) look(m);
+  for (const Force& f : forces_) look(f);
+  return result;
 }
 
 void Drive::evaluate(double t) {

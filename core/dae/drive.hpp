@@ -20,6 +20,10 @@ class Drive {
   void enter(double t);
   /// The next instant at which a signal or one of its derivatives jumps; infinite if none does.
   double next_break() const { return next_break_; }
+  /// What breaks at t = next_break(), to be asked before `enter`: whether the signal of this element itself jumps there or
+  /// only a derivative, and to which side it or its slope goes (0: neither).
+  struct Break { int element; bool jumps; int direction; };
+  std::vector<Break> breaks(double t) const;
   /// Position steps at the last `enter` (at the start: from before the run), for each motion.
   const std::vector<double>& steps() const { return steps_; }
 
@@ -41,12 +45,13 @@ class Drive {
 
  private:
   struct Motion {
+    int element;
     Signal signal;
     bool by_position;
     Piece piece;
     double anchor_time = 0, anchor = 0;  ///< position at a time, from which a velocity is integrated
   };
-  struct Force { Signal signal; Piece piece; };
+  struct Force { int element; Signal signal; Piece piece; };
   double position_of(const Motion& m, double t) const;
   struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
   Flow flow(int a, int b, double t, double limit) const;

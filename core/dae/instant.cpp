@@ -43,7 +43,6 @@ double Instant::bound(std::size_t k) const {
 Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
                                Modes& modes, std::vector<double>& force) {
   Change change;
-  const Modes before = modes;
   drive_.evaluate(t);
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
@@ -64,9 +63,6 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     for (int k : broken) broken_[at(k)] = 1;
     again = !broken.empty();
     stepped = false;
-  }
-  for (std::size_t k = 0; k < modes.slider.size(); ++k) {
-    if (modes.slider[k] != before.slider[k]) change.switched.push_back(static_cast<int>(k));
   }
   return change;
 }
@@ -324,7 +320,6 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
         }
       } else if (!laws.batch->fits(i, w)) {
         laws.batch->set_direction(i, state.p[at(j)], w, direction);
-        change.turned.push_back(j);
       }
     }
   }

@@ -20,8 +20,6 @@ class Instant {
   struct Change {
     double heat = 0;                 ///< turned into heat within the instant [J]
     std::vector<std::string> notes;  ///< impulses
-    std::vector<int> turned;         ///< deflection branches whose memory changed its direction
-    std::vector<int> switched;       ///< sliders whose mode changed
     std::vector<int> standing;       ///< deflection branches that both directions hold at rest
   };
   /// What has come to an event.

@@ -50,9 +50,8 @@ class DeflectionBatch {
   /// Event functions of element i at deflection p, its rate dp and velocity w, positive as long as the memory stays as it
   /// is. `noise` is the velocity below which a reversal means nothing.
   virtual void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const = 0;
-  /// Changes the memory of element i as its event `which` demands, and says what happened ("reversal", "yield"). The
-  /// force is the same before and after.
-  virtual const char* switch_memory(std::size_t i, int which, double p, double w) = 0;
+  /// Changes the memory of element i as its event `which` demands. The force is the same before and after.
+  virtual void switch_memory(std::size_t i, int which, double p, double w) = 0;
   /// The deflection jumps from p to p + jump at one instant (an end is moved by a step): the memory follows. Returns the
   /// energy that this turns into heat.
   virtual double jump(std::size_t i, double p, double jump) = 0;

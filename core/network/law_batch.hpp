@@ -26,7 +26,7 @@ struct MemorylessLaw {
     return T(0.0);
   }
   void event_functions(double, double, double, double, double*) const {}
-  const char* switch_memory(int, double, double) { return ""; }
+  void switch_memory(int, double, double) {}
   double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
   static constexpr bool can_hold = false;
@@ -73,8 +73,8 @@ class DeflectionBatchOf final : public DeflectionBatch {
   void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const override {
     laws_[i].event_functions(p, dp, w, noise, g);
   }
-  const char* switch_memory(std::size_t i, int which, double p, double w) override {
-    return laws_[i].switch_memory(which, p, w);
+  void switch_memory(std::size_t i, int which, double p, double w) override {
+    laws_[i].switch_memory(which, p, w);
   }
   double jump(std::size_t i, double p, double jump) override { return laws_[i].jump(p, jump); }
   bool set_direction(std::size_t i, double p, double w, int direction) override {

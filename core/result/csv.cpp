@@ -18,6 +18,7 @@ double now() {
 }  // namespace
 
 void CsvWriter::header(const std::vector<std::string>& names) {
+  if (!file_) return;
   fmt::format_to(std::back_inserter(buffer_), "time");
   for (const std::string& name : names) fmt::format_to(std::back_inserter(buffer_), ",{}", name);
   buffer_.push_back('\n');
@@ -25,9 +26,25 @@ void CsvWriter::header(const std::vector<std::string>& names) {
 }
 
 void CsvWriter::row(double time, const std::vector<double>& values) {
+  if (!file_) return;
+  begin_row(time);
+  for (double v : values) fmt::format_to(std::back_inserter(buffer_), ",{}", v + 0.0);
+  end_row();
+}
+
+void CsvWriter::text_row(double time, const std::vector<std::string>& cells) {
+  if (!file_) return;
+  begin_row(time);
+  for (const std::string& cell : cells) fmt::format_to(std::back_inserter(buffer_), ",{}", cell);
+  end_row();
+}
+
+void CsvWriter::begin_row(double time) {
   // Adding 0 turns -0 into 0. `{}` gives the fewest digits that read back as the same double.
   fmt::format_to(std::back_inserter(buffer_), "{}", time + 0.0);
-  for (double v : values) fmt::format_to(std::back_inserter(buffer_), ",{}", v + 0.0);
+}
+
+void CsvWriter::end_row() {
   buffer_.push_back('\n');
   constexpr std::size_t full = 1 << 16;  // bytes
   constexpr double patience = 0.25;      // s
@@ -42,7 +59,7 @@ void CsvWriter::flush() {
   if (!written) {
     const int reason = errno;
     file_ = nullptr;  // what follows would only fail again
-    throw SimulationError(fmt::format("the results cannot be written: {}", std::strerror(reason)));
+    throw SimulationError(fmt::format("{} cannot be written: {}", what_, std::strerror(reason)));
   }
 }
 

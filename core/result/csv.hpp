@@ -8,17 +8,23 @@
 
 namespace rheonet {
 
-/// Writes rows of numbers that read back as the same doubles. Rows reach the file at least every quarter of a second of
-/// running, and when it is closed. Throws SimulationError if the file cannot be written (disk full, pipe closed).
+/// Writes rows, their numbers so that they read back as the same doubles. Rows reach the file at least every quarter of a
+/// second of running, and when it is closed. Throws SimulationError if the file cannot be written (disk full, pipe closed).
 class CsvWriter {
  public:
-  explicit CsvWriter(std::FILE* file) : file_(file) {}
+  /// `what` is written, for messages: "the results". Without a file nothing is.
+  CsvWriter(std::FILE* file, const char* what) : file_(file), what_(what) {}
   void header(const std::vector<std::string>& names);
   void row(double time, const std::vector<double>& values);
+  void text_row(double time, const std::vector<std::string>& cells);
   void flush();
 
  private:
+  void begin_row(double time);
+  void end_row();
+
   std::FILE* file_;
+  const char* what_;
   fmt::memory_buffer buffer_;
   double last_flush_ = 0;
 };

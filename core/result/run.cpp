@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -19,15 +20,23 @@ namespace {
 /// Writes the rows: at output times by interpolation; where an event falls on one, the state just after it.
 class Recorder final : public Observer {
  public:
-  Recorder(const Network& network, std::FILE* csv)
-      : scene_(*network.scene), channels_(network), csv_(csv), energy_(scene_.accuracy * 0.01) {
+  Recorder(const Network& network, const RunSettings& settings)
+      : scene_(*network.scene),
+        channels_(network),
+        csv_(settings.csv, "the results"),
+        events_(settings.events, "the events"),
+        energy_(scene_.accuracy * 0.01),
+        switched_(scene_.elements.size(), 0) {
     for (const Record& record : scene_.records) names_.push_back(record.path);
   }
 
   void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp,
              double heat) override {
     // Only now is it known that the scene can be simulated at all.
-    if (unknowns_ < 0) csv_.header(names_);
+    if (unknowns_ < 0) {
+      csv_.header(names_);
+      events_.header({"element", "event", "direction"});
+    }
     unknowns_ = std::max(unknowns_, dae.unknowns());
     energy_.attach(dae);
     channels_.attach(dae, consistency);
@@ -53,9 +62,12 @@ class Recorder final : public Observer {
     if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), false);
   }
 
-  void event(double t, int, const char*) override {
+  void event(const Event& event) override {
+    const std::size_t element = static_cast<std::size_t>(event.element);
+    ++switched_[element];
+    events_.text_row(event.t, {scene_.elements[element].name, event.what, std::to_string(event.direction)});
     if (!scene_.output_events || pending_event_) return;
-    write(t, before_);
+    write(event.t, before_);
     pending_event_ = true;
   }
 
@@ -65,7 +77,18 @@ class Recorder final : public Observer {
     }
   }
 
-  void flush() { csv_.flush(); }
+  void flush() {
+    events_.flush();
+    csv_.flush();
+  }
+  std::vector<Summary::Switched> switched() const {
+    std::vector<Summary::Switched> result;
+    for (std::size_t k = 0; k < switched_.size(); ++k) {
+      if (switched_[k] > 0) result.push_back({scene_.elements[k].name, switched_[k]});
+    }
+    std::stable_sort(result.begin(), result.end(), [](const auto& p, const auto& q) { return p.times > q.times; });
+    return result;
+  }
   const EnergyAccount& energy() const { return energy_; }
   int unknowns() const { return unknowns_; }
 
@@ -90,8 +113,9 @@ class Recorder final : public Observer {
   const Scene& scene_;
   std::vector<std::string> names_;
   Channels channels_;
-  CsvWriter csv_;
+  CsvWriter csv_, events_;
   EnergyAccount energy_;
+  std::vector<long> switched_;  ///< how often, of each element
   std::int64_t next_ = 0;
   bool pending_event_ = false;
   int unknowns_ = -1;  ///< the most in any mode
@@ -108,7 +132,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);
   const std::vector<char> needed = needed_positions(network);
-  Recorder recorder(network, settings.csv);
+  Recorder recorder(network, settings);
   SimulationStatistics statistics;
   try {
     statistics = simulate(network, needed,
@@ -132,7 +156,8 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   summary.residual_evaluations = statistics.integrator.residuals;
   summary.jacobian_evaluations = statistics.integrator.jacobians;
   summary.restarts = statistics.integrator.restarts;
-  summary.events = statistics.events;
+  summary.switched = recorder.switched();
+  for (const Summary::Switched& s : summary.switched) summary.events += s.times;
   summary.supplied = recorder.energy().supplied();
   summary.stored = recorder.energy().stored();
   summary.dissipated = recorder.energy().dissipated();
@@ -151,7 +176,7 @@ namespace {
 class Blind final : public Observer {
   void begin(Dae&, Consistency&, double, const std::vector<double>&, const std::vector<double>&, double) override {}
   void step(const Integrator&) override {}
-  void event(double, int, const char*) override {}
+  void event(const Event&) override {}
   void end(double) override {}
 };
 

@@ -12,21 +12,24 @@
 namespace rheonet {
 
 struct RunSettings {
-  std::FILE* csv = nullptr;                    ///< receives the rows as they come; nullptr: nowhere
+  std::FILE* csv = nullptr;     ///< receives the rows as they come; nullptr: nowhere
+  std::FILE* events = nullptr;  ///< receives what switches, as it does: time, element, event, direction
   const std::atomic<bool>* interrupt = nullptr;  ///< becomes true when the user wants to stop: the run throws SimulationError
   std::function<void(double fraction)> progress;  ///< called now and then with the fraction of the run that is done
 };
 
 /// What a run took, and its energy account [J].
 struct Summary {
+  struct Switched { std::string element; long times; };
   int unknowns = 0;
   bool sparse = false;  ///< KLU rather than dense linear algebra
   long steps = 0;
   long rejected_steps = 0;
   long residual_evaluations = 0;
   long jacobian_evaluations = 0;
-  long events = 0;    ///< reversals, yields, and discontinuities of signals
+  long events = 0;    ///< how often an element switched: see core/solve/switches.hpp
   long restarts = 0;  ///< of the integrator
+  std::vector<Switched> switched;  ///< the elements that did, the busiest first
   double supplied = 0;    ///< by motions and forces
   double stored = 0;      ///< gain of kinetic and elastic energy since the start
   double dissipated = 0;

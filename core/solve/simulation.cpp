@@ -70,7 +70,8 @@ class Run {
         drive_(begin_.drive),
         state_(begin_.state),
         instant_(network, classified_, drive_),
-        tolerances_(network, local_share * settings.accuracy) {
+        tolerances_(network, local_share * settings.accuracy),
+        switches_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
     find_what_may_tie();
@@ -82,10 +83,8 @@ class Run {
     cross(t, true, {});
     while (t < settings_.stop) {
       t = stretch(t);
-      const bool discontinuity = t >= drive_.next_break();
-      if (discontinuity) {
-        ++statistics_.events;
-        observer_.event(t, -1, "discontinuity");
+      if (t >= drive_.next_break()) {
+        for (const Drive::Break& b : drive_.breaks(t)) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
       } else if (t >= settings_.stop) {
         break;
       }
@@ -175,11 +174,8 @@ class Run {
     system_->consistency.derivative(t, y_, yp_);
     dae.view(t, y_.data(), yp_.data());
     check_ties(t);
-    if (t > settings_.start) {
-      for (int branch : change.turned) note_event(t, network_.deflections[at(branch)].element, "reversal");
-      for (int k : change.switched) {
-        note_event(t, network_.sliders[at(k)].branch.element, modes_.slider[at(k)] == Modes::stuck ? "stick" : "slip");
-      }
+    for (const Event& event : switches_.follow(t, modes_)) {
+      if (t > settings_.start) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
   }
@@ -256,7 +252,6 @@ class Run {
   /// The state at the end of a stretch, every balance met to rounding.
   void leave(double t) {
     system_->consistency.project(t, y_);
-    yp_ = system_->integrator.yp();
     const Dae::View& view = system_->dae.view(t, y_.data(), yp_.data());
     slider_force_ = view.slider_force;
     system_->dae.leave(state_);
@@ -267,12 +262,6 @@ class Run {
     double h = std::min(drive_.next_break(), settings_.stop) - t;
     if (const double omega = drive_.fastest(); omega > 0) h = std::min(h, 1 / omega);
     return h > 0 ? h : settings_.stop - settings_.start;
-  }
-
-  void note_event(double t, int element, const char* what) {
-    ++statistics_.events;
-    observer_.event(t, element, what);
-    last_switched_ = element_name(element);
   }
 
   /// Reversals of laws between prescribed nodes are known beforehand, so that no step can miss them.
@@ -288,6 +277,7 @@ class Run {
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
     const double until = std::min({drive_.next_break(), settings_.stop, next_given_reversal(t)});
+    if (until - t <= grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
     int chatter = 0;
@@ -319,6 +309,7 @@ class Run {
       if (settings_.progress) settings_.progress((t - settings_.start) / (settings_.stop - settings_.start));
       if (outcome == Integrator::Outcome::stop) {
         y_ = system_->integrator.y();
+        yp_ = system_->integrator.yp();
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
@@ -333,7 +324,7 @@ class Run {
             fmt::format("at t = {:.6g} s element `{}` changes its direction over and over without getting anywhere; a "
                         "dashpot beside "
                         "it, a mass at its ends or a looser accuracy would end it",
-                        t, last_switched_));
+                        t, element_name(last_fired_)));
       }
       if (t >= until) return until;
       restart(t, until, shrink);
@@ -342,6 +333,7 @@ class Run {
 
   void switch_memories(double t) {
     y_ = system_->integrator.y();
+    yp_ = system_->integrator.yp();
     leave(t);
     Dae& dae = system_->dae;
     const Dae::View view = dae.view(t, y_.data(), yp_.data());
@@ -353,6 +345,7 @@ class Run {
       const auto [branch, which] = system_->events[k];
       if (which < 0) {
         sudden.sliders.push_back(branch);
+        last_fired_ = network_.sliders[at(branch)].branch.element;
         continue;
       }
       // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
@@ -362,8 +355,8 @@ class Run {
       const bool held = batch.holds(i);
       const int direction = batch.direction(i);
       switched.push_back(branch);
-      note_event(t, network_.deflections[at(branch)].element,
-                 batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]));
+      last_fired_ = network_.deflections[at(branch)].element;
+      batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
       if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
       if (held) {
         const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
@@ -381,6 +374,9 @@ class Run {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->soften(i, tolerances_.unresolved_velocity());
     }
   }
+
+  /// Below a few units in the last place of t there is no time to step over [s].
+  static double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance
   /// (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
@@ -403,12 +399,10 @@ class Run {
     const double curvature = ypp.empty() ? 0 : std::sqrt(sum / static_cast<double>(ypp.size()));
     double h = std::min(until - t, 100 * ahead);
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
-    // Below a few units in the last place of t there is no time to step over.
-    const double grain = 64 * std::numeric_limits<double>::epsilon() * std::abs(t);
     const double omega = drive_.fastest();
     system_->integrator.limit_step(omega > 0 && system_->events.sticks() ? longest_angle / omega
                                                                          : std::numeric_limits<double>::infinity());
-    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain), until - t), until);
+    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain(t)), until - t), until);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
@@ -432,6 +426,7 @@ class Run {
   Instant instant_;
   Tolerances tolerances_;
   Modes modes_;
+  Switches switches_;
   std::vector<double> slider_force_;
   std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
   std::vector<Branch> known_;
@@ -440,7 +435,7 @@ class Run {
   Integrator::Statistics past_;  ///< of systems that are remembered no more
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
-  std::string last_switched_;
+  int last_fired_ = 0;  ///< element of the last event
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/solve/integrator.hpp"
+#include "core/solve/switches.hpp"
 
 namespace rheonet {
 
@@ -21,8 +22,8 @@ class Observer {
   /// A step from integrator.previous_time() to integrator.time(). It may be interpolated. Memories of the laws are still
   /// those of the step, also where it ends in an event.
   virtual void step(const Integrator& integrator) = 0;
-  /// An event at the end of the last step; `begin` follows.
-  virtual void event(double t, int element, const char* what) = 0;
+  /// An element has switched at the end of the last step; `begin` follows the last such event of an instant.
+  virtual void event(const Event& event) = 0;
   /// The end of the run.
   virtual void end(double t) = 0;
 };
@@ -37,7 +38,6 @@ struct SimulationSettings {
 
 struct SimulationStatistics {
   Integrator::Statistics integrator;
-  long events = 0;
   std::vector<std::string> notes;
 };
 

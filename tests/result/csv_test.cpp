@@ -59,7 +59,7 @@ TEST_CASE("numbers read back as the same doubles") {
   while (values.size() < 20000) values.push_back(any_finite(random));
 
   const File file = temporary();
-  CsvWriter csv(file.get());
+  CsvWriter csv(file.get(), "the results");
   csv.header({"x"});
   for (const double x : values) csv.row(-x, {x});
   csv.flush();
@@ -80,7 +80,7 @@ TEST_CASE("numbers read back as the same doubles") {
 
 TEST_CASE("no zero is negative, and numbers take no more digits than they need") {
   const File file = temporary();
-  CsvWriter csv(file.get());
+  CsvWriter csv(file.get(), "the results");
   csv.header({"a", "b.c"});
   csv.row(-0.0, {-0.0, 0.1});
   csv.row(0.5, {-5e-324, 1e-7});
@@ -90,12 +90,12 @@ TEST_CASE("no zero is negative, and numbers take no more digits than they need")
 
 TEST_CASE("a header alone, no columns, no file") {
   const File file = temporary();
-  CsvWriter csv(file.get());
+  CsvWriter csv(file.get(), "the results");
   csv.header({});
   csv.row(0.25, {});
   csv.flush();
   CHECK_EQ(contents(file.get()), "time\n0.25\n");
-  CsvWriter nowhere(nullptr);
+  CsvWriter nowhere(nullptr, "the results");
   nowhere.header({"a"});
   nowhere.row(0.25, {1});
   nowhere.flush();
@@ -103,7 +103,7 @@ TEST_CASE("a header alone, no columns, no file") {
 
 TEST_CASE("rows reach the file while it is written, all of them when it is flushed") {
   const File file = temporary();
-  CsvWriter csv(file.get());
+  CsvWriter csv(file.get(), "the results");
   csv.header({"a"});
   int rows = 0;
   for (; std::ftell(file.get()) == 0; ++rows) {
@@ -119,7 +119,7 @@ TEST_CASE("rows reach the file while it is written, all of them when it is flush
 TEST_CASE("a file that cannot be written stops the run once, with the reason") {
   std::FILE* full = std::fopen("/dev/full", "w");
   if (!full) return;  // a system without it
-  CsvWriter csv(full);
+  CsvWriter csv(full, "the results");
   csv.header({"a"});
   csv.row(0.5, {1.5});
   CHECK_THROWS_WITH_AS(csv.flush(), "the results cannot be written: No space left on device", SimulationError);

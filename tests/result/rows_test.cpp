@@ -104,7 +104,7 @@ TEST_CASE("rows at events: the state before and the state after") {
     scene.output_events = true;
     Summary summary;
     const Trajectory run = simulate(scene, &summary);
-    CHECK_EQ(summary.events, 1);
+    CHECK_EQ(summary.events, 2);
     REQUIRE_EQ(run.time().size(), 12);
     std::size_t first = 0;
     while (run.time()[first] < time) ++first;

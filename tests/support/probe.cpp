@@ -32,7 +32,7 @@ class Visitor final : public Observer {
       visit_(t, y_, yp_);
     }
   }
-  void event(double, int, const char*) override {}
+  void event(const Event&) override {}
   void end(double) override {}
 
  private:

@@ -48,7 +48,8 @@ std::vector<double> numbers(const std::string& csv) {
 }  // namespace
 
 // A toml block begins with a comment that names its file; sh blocks run one after the other as one script, in a folder
-// that looks like the project's; a csv block is what first.csv must hold, rounded to six decimals.
+// that looks like the project's; the first csv block is what first.csv must hold, rounded to six decimals, the second one
+// what events.csv must.
 TEST_CASE("every example of README.md does what it says") {
   const Folder folder;
   const fs::path build = fs::path(RHEONET_PROGRAM).parent_path().parent_path();
@@ -58,7 +59,7 @@ TEST_CASE("every example of README.md does what it says") {
   fs::create_symlink(source / "netlists", folder.path() / "netlists");
 
   std::string script = "set -eu\nexport HOME=\"$PWD/home\"\n";
-  std::string rows;
+  std::vector<std::string> tables;
   int netlists = 0;
   for (const Block& block : blocks(text_of(source / "README.md"))) {
     if (block.language == "toml") {
@@ -78,7 +79,7 @@ TEST_CASE("every example of README.md does what it says") {
         CHECK((fs::status(tool).permissions() & fs::perms::owner_exec) != fs::perms::none);
       }
     } else if (block.language == "csv") {
-      rows = block.text;
+      tables.push_back(block.text);
     } else {
       CHECK(block.language == "text");
     }
@@ -89,6 +90,9 @@ TEST_CASE("every example of README.md does what it says") {
   CAPTURE(result.err);
   CHECK(result.status == 0);
 
+  REQUIRE(tables.size() == 2);
+  const std::string& rows = tables[0];
+  CHECK(folder.read("events.csv") == tables[1]);
   const std::string csv = folder.read("first.csv");
   CHECK(csv.substr(0, csv.find('\n')) == rows.substr(0, rows.find('\n')));
   const std::vector<double> expected = numbers(rows), found = numbers(csv);

@@ -69,6 +69,56 @@ TEST_CASE("-o writes the same rows to a file, `-o -` to standard output; -q says
   CHECK(contains(folder.shell("rheonet run scene.toml -o out.csv").err, "to `out.csv`"));
 }
 
+TEST_CASE("--events writes what switches, and the summary counts it") {
+  const Folder folder;
+  folder.write("scene.toml", switching);
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv");
+  CAPTURE(result.err);
+  CHECK(result.status == 0);
+  const std::string events = folder.read("events.csv");
+  CAPTURE(events);
+  CHECK(events.starts_with("time,element,event,direction\n0.1"));
+  CHECK(contains(events, ",s1,slip,1\n0.25,hand,jump,-1\n0.25,s1,stick,0\n"));
+  CHECK(lines(events) == 4);
+  CHECK(contains(result.err, "events                             3  2 of `s1`, 1 of `hand`\n"));
+  CHECK(folder.read("out.csv") == folder.shell("rheonet run -q scene.toml").out);
+  CHECK(folder.shell("rheonet run -q scene.toml -o out.csv --events -").out == events);
+  CHECK(contains(folder.shell("rheonet run --help").out, "--events"));
+}
+
+TEST_CASE("a run that fails leaves its events, and says so") {
+  const Folder folder;
+  folder.write("scene.toml", overcome);
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv");
+  CAPTURE(result.err);
+  CHECK(result.status == 1);
+  CHECK(contains(result.err, "error: at t = 0.3 s nothing resists the force at node `end`"));
+  CHECK(contains(result.err, "the 3 rows up to there are in `out.csv`"));
+  CHECK(contains(result.err, "the 4 events up to there are in `events.csv`"));
+  CHECK(lines(folder.read("events.csv")) == 5);
+}
+
+TEST_CASE("events that have no file of their own are refused before simulating; a full disk ends the run") {
+  const Folder folder;
+  folder.write("scene.toml", switching);
+  const auto run = [&folder](const std::string& options) { return folder.shell("rheonet run scene.toml " + options); };
+  CHECK(run("--events -").status == 2);
+  CHECK(contains(run("--events -").err, "`--output` and `--events` both write to standard output"));
+  CHECK(run("-o out.csv --events ./out.csv").status == 2);
+  CHECK_FALSE(folder.has("out.csv"));
+  CHECK(contains(run("-o out.csv --events scene.toml").err, "`--events scene.toml` would overwrite the scene"));
+  CHECK(run("-o out.csv --events none/events.csv").status == 2);
+  CHECK_FALSE(folder.has("out.csv"));
+  const Finished full = run("-o out.csv --events /dev/full");
+  CHECK(full.status == 1);
+  CHECK(contains(full.err, "cannot write to `/dev/full`: No space left on device"));
+  CHECK(contains(full.err, "no event was written to `/dev/full`"));
+  folder.write("bad.toml", contradictory);
+  folder.write("events.csv", "earlier results\n");
+  CHECK(folder.shell("rheonet run bad.toml -o out.csv --events events.csv").status == 1);
+  CHECK(folder.read("events.csv") == "earlier results\n");
+}
+
 TEST_CASE("--accuracy wins over the scene") {
   const Folder folder;
   folder.write("scene.toml", oscillator);
@@ -158,7 +208,7 @@ TEST_CASE("an interrupted run keeps its rows and says so") {
   for (const std::string signal : {"INT", "TERM"}) {
     CAPTURE(signal);
     const Finished result =
-        folder.shell(std::string("timeout --preserve-status -s ") + signal + " 1 rheonet run scene.toml -o out.csv");
+        folder.shell(std::string("timeout --foreground --preserve-status -s ") + signal + " 1 rheonet run scene.toml -o out.csv");
     CAPTURE(result.err);
     CHECK(result.status == 1);
     CHECK(contains(result.err, "interrupted"));

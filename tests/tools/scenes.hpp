@@ -27,6 +27,30 @@ output = { every = "0.1 s" }
 record = ["block.position"]
 )";
 
+/// A slider behind a spring, pulled to and fro: it slips at 0.1 s and sticks at 0.25 s.
+inline const char* const switching = R"([elements]
+hand = { type = "motion", at = "grip", velocity = { square = "1 m/s", frequency = "2 Hz" } }
+k1 = { type = "spring", between = ["grip", "mid"], stiffness = "10 N/m" }
+s1 = { type = "slider", between = ["mid", "ground"], coulomb = "1 N" }
+[simulate]
+stop = "0.4 s"
+output = { points = 5 }
+record = ["k1.force"]
+)";
+
+/// The same, and at 0.3 s a force on a slider that can take half of it: the run ends there.
+inline const char* const overcome = R"([elements]
+hand = { type = "motion", at = "grip", velocity = { square = "1 m/s", frequency = "2 Hz" } }
+k1 = { type = "spring", between = ["grip", "mid"], stiffness = "10 N/m" }
+s1 = { type = "slider", between = ["mid", "ground"], coulomb = "1 N" }
+s2 = { type = "slider", between = ["end", "ground"], coulomb = "1 N" }
+push = { type = "force", at = "end", force = { step = "2 N", time = "0.3 s" } }
+[simulate]
+stop = "0.4 s"
+output = { points = 5 }
+record = ["k1.force"]
+)";
+
 /// Two prescriptions for one node: it can be read, not simulated.
 inline const char* const contradictory = R"([elements]
 left = { type = "motion", at = "bar", velocity = "1 m/s" }

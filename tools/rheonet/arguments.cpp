@@ -29,7 +29,7 @@ constexpr const char* of_run =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
     "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows could not be written; 2 the scene or the command line is wrong.";
+    "rows or events could not be written; 2 the scene or the command line is wrong.";
 constexpr const char* of_check =
     "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
     "line is wrong.";
@@ -151,6 +151,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", of_run);
   add_scene(run);
   run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
+      ->type_name("FILE");
+  run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
       ->type_name("FILE");
   run->add_option("--accuracy", accuracy, "error of each recorded quantity relative to its largest magnitude")
       ->type_name("E");

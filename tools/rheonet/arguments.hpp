@@ -17,6 +17,7 @@ struct Arguments {
   Command command = Command::run;
   std::string scene;
   std::string output = "-";            ///< "-": standard output
+  std::string events;                  ///< where the events go; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
   bool quiet = false;

@@ -18,7 +18,7 @@ class Output {
 
   std::FILE* file() { return file_; }  ///< unbuffered: who writes to it gathers rows
   bool is_terminal() const;
-  const std::string& name() const { return name_; }          ///< for messages
+  const std::string& name() const { return name_; }          ///< for messages: "`out.csv`"
   long rows() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< written so far, without the header
 
   /// Closes. The error of this or any earlier write (errno), 0 if all is written.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "core/netlist/characters.hpp"
 #include "core/result/run.hpp"
@@ -43,53 +44,87 @@ bool is_source(const std::string& path, const Sources& sources) {
   return false;
 }
 
-std::string rows_kept(const Output& output) {
-  if (output.rows() == 0) return fmt::format("no row was written to {}", output.name());
-  if (output.rows() == 1) return fmt::format("the one row up to there is in {}", output.name());
-  return fmt::format("the {} rows up to there are in {}", output.rows(), output.name());
+std::unique_ptr<Output> open_output(const std::string& path) {
+  try {
+    return std::make_unique<Output>(path);
+  } catch (const std::system_error& error) {
+    say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
+    return nullptr;
+  }
 }
 
-ExitStatus cannot_write(const Output& output, int error) {
-  say("error: cannot write to {}: {}\n  {} rows were written before\n", output.name(), std::strerror(error),
-      output.rows());
-  return not_simulated;
+// Two streams into one file would overwrite each other.
+bool same_file(const std::string& path, const std::string& other) {
+  std::error_code error;
+  if (path == "-" || other == "-") return path == other;
+  return fs::equivalent(path, other, error) && fs::is_regular_file(path, error);
 }
+
+std::string kept(const Output& output, const char* row) {
+  if (output.rows() == 0) return fmt::format("  no {} was written to {}\n", row, output.name());
+  if (output.rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, output.name());
+  return fmt::format("  the {} {}s up to there are in {}\n", output.rows(), row, output.name());
+}
+
+/// Where a run writes to.
+struct Outputs {
+  std::unique_ptr<Output> rows, events;  ///< events: nullptr if nobody asks for them
+
+  std::string kept() const { return tool::kept(*rows, "row") + (events ? tool::kept(*events, "event") : ""); }
+
+  /// Closes both; false, and an error message, if not all is written.
+  bool close() const {
+    const int errors[] = {rows->close(), events ? events->close() : 0};
+    if (errors[0] == 0 && errors[1] == 0) return true;
+    const Output& failed = errors[0] != 0 ? *rows : *events;
+    say("error: cannot write to {}: {}\n{}", failed.name(), std::strerror(errors[0] != 0 ? errors[0] : errors[1]), kept());
+    return false;
+  }
+};
 
 }  // namespace
 
 ExitStatus run_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments);
   if (!read.scene) return wrong_input;
-  if (arguments.output != "-" && is_source(arguments.output, read.sources)) {
-    say("error: `--output {}` would overwrite the scene itself\n", printable(arguments.output));
-    return wrong_input;
+  for (const auto& [option, path] : {std::pair{"output", arguments.output}, std::pair{"events", arguments.events}}) {
+    if (path != "-" && is_source(path, read.sources)) {
+      say("error: `--{} {}` would overwrite the scene itself\n", option, printable(path));
+      return wrong_input;
+    }
   }
 
   stop_on_signals();
-  std::unique_ptr<Output> output;
-  try {
-    output = std::make_unique<Output>(arguments.output);
-  } catch (const std::system_error& error) {
-    say("error: cannot write to `{}`: {}\n", printable(arguments.output), error.code().message());
-    return wrong_input;
+  Outputs outputs;
+  outputs.rows = open_output(arguments.output);
+  if (!outputs.rows) return wrong_input;
+  if (!arguments.events.empty()) {
+    outputs.events = open_output(arguments.events);
+    if (!outputs.events) return wrong_input;
+    if (same_file(arguments.output, arguments.events)) {
+      say("error: `--output` and `--events` both write to {}; give one of them another file\n", outputs.rows->name());
+      return wrong_input;
+    }
   }
 
   // Rows that scroll by on the same terminal say enough.
-  Progress progress(!arguments.quiet && !output->is_terminal());
+  Progress progress(!arguments.quiet && !outputs.rows->is_terminal());
   const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
-    const Summary summary = run(*read.scene, {.csv = output->file(), .interrupt = &stop, .progress = on_progress});
+    const Summary summary = run(*read.scene, {.csv = outputs.rows->file(),
+                                              .events = outputs.events ? outputs.events->file() : nullptr,
+                                              .interrupt = &stop,
+                                              .progress = on_progress});
     progress.erase();
-    if (const int error = output->close(); error != 0) return cannot_write(*output, error);
+    if (!outputs.close()) return not_simulated;
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
-          describe(summary, output->rows(), output->name()));
+          describe(summary, outputs.rows->rows(), outputs.rows->name()));
     }
     return done;
   } catch (const SimulationError& error) {
     progress.erase();
-    if (const int write_error = output->close(); write_error != 0) return cannot_write(*output, write_error);
-    say("error: {}\n  {}\n", error.what(), rows_kept(*output));
+    if (outputs.close()) say("error: {}\n{}", error.what(), outputs.kept());
     return not_simulated;
   }
 }

@@ -13,6 +13,21 @@ std::string grouped(long n) {
   return digits;
 }
 
+// The busiest few elements, by name.
+std::string busiest(const std::vector<Summary::Switched>& switched) {
+  constexpr std::size_t few = 4;
+  const std::size_t named = switched.size() <= few ? switched.size() : few - 1;
+  std::string text;
+  for (std::size_t k = 0; k < named; ++k) {
+    text += fmt::format("{}{} of `{}`", k ? ", " : "", grouped(switched[k].times), switched[k].element);
+  }
+  long others = 0;
+  for (std::size_t k = named; k < switched.size(); ++k) others += switched[k].times;
+  const long elements = static_cast<long>(switched.size() - named);
+  if (elements > 0) text += fmt::format(", {} of {} others", grouped(others), grouped(elements));
+  return text;
+}
+
 }  // namespace
 
 std::string in_time_units(double seconds) {
@@ -40,7 +55,7 @@ std::string describe(const Summary& s, long rows, const std::string& destination
   line("steps", grouped(s.steps), fmt::format("{} rejected", grouped(s.rejected_steps)));
   line("residual evaluations", grouped(s.residual_evaluations), "");
   line("Jacobian evaluations", grouped(s.jacobian_evaluations), "");
-  line("events", grouped(s.events), "reversals, yields, jumps and corners of signals");
+  line("events", grouped(s.events), busiest(s.switched));
   line("starts", grouped(s.restarts), "of the integrator: the first, and those that events made necessary");
   line("wall time", in_time_units(s.wall_seconds), "");
   line("CPU time", in_time_units(s.cpu_seconds), "");
