@@ -74,6 +74,13 @@ struct Cfm : SolidFriction {
     }
     return changed;
   }
+  DeflectionBatch::Steady steady() const { return {0, B, Fc}; }
+  double settle(double p, double f, int direction) {
+    along_sigma = standing = false;
+    begin(p, f, direction);
+    if (direction == 0) rest(p);
+    return p;
+  }
   static constexpr bool can_hold = true;
   void hold_rates(const Dual& p, Dual& forward, Dual& backward) const {
     const Dual f = force(p);

@@ -42,6 +42,11 @@ struct Sfm : SolidFriction {
     turn(p, direction);
     return true;
   }
+  DeflectionBatch::Steady steady() const { return {Fc, 0, Fc}; }
+  double settle(double p, double f, int direction) {
+    begin(p, f, direction);
+    return p;
+  }
   static constexpr bool can_hold = false;
   void hold_rates(const Dual&, Dual&, Dual&) const {}
   bool hold(double) { return false; }

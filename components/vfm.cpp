@@ -24,6 +24,8 @@ struct Vfm : MemorylessLaw {
     return f / B;
   }
   double start(double) const { return f0 / sigma; }
+  DeflectionBatch::Steady steady() const { return {0, B, std::numeric_limits<double>::infinity()}; }
+  double settle(double, double f, int) const { return f / sigma; }
   double stored_energy(double p) const { return sigma * p * p / 2; }
   double dissipated_power(double p, double, double) const {
     const double f = force(p);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/dae/convex.hpp"
+#include "core/dae/rate_law.hpp"
 
 namespace rheonet {
 
@@ -249,10 +250,12 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), {.low = low, .high = high, .backward = backward, .forward = forward});
     }
   }
+  double scale = 0;
+  for (double magnitude : now.magnitude) scale = std::max(scale, magnitude);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, now));
+      problem.add(slot(b.a), slot(b.b), rate_law(*laws.batch, i, scale > 0 ? scale : 1));
     }
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
@@ -284,22 +287,6 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     if (direction != 0 && !broken_[k] && law.breakaway > law.coulomb) broken.push_back(static_cast<int>(k));
   }
   return broken;
-}
-
-/// A law of velocity alone, and where it has no finite slope at rest one that leads away from there.
-ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, const Nodal& now) {
-  const double impulse = batch.impulse(i);
-  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse};
-  double scale = 0;
-  for (double f : now.magnitude) scale = std::max(scale, f);
-  if (scale == 0) scale = 1;
-  const double secant = scale / batch.velocity_at(i, scale);
-  return {.backward = secant, .forward = secant, .beyond = [&batch, i](double w, double& slope) {
-            const double f = batch.force_at(i, w);
-            // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
-            slope = f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
-            return f;
-          }};
 }
 
 void Instant::take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,

@@ -66,6 +66,12 @@ struct Scene {
   std::vector<SceneAssembly> assemblies;
   std::vector<Record> records;           ///< in the order asked for; everything, in the order of the file, if not asked
 
+  enum class StartFrom {
+    given,   ///< the start values of nodes and elements
+    rest,    ///< at rest, all forces balanced
+    steady,  ///< in steady motion under the drives as they are at the start
+  };
+  StartFrom start_from = StartFrom::given;
   double start = 0;         ///< s
   double stop = 0;          ///< s, > start
   double accuracy = 1e-6;   ///< relative, 1e-12 .. 0.1

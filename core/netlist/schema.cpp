@@ -229,6 +229,10 @@ Json simulate_schema() {
                           {"description", "a pair of rows, before and after, at every event"},
                           {"default", false}}}});
   Json schema = object({{"start", described(reference("value"), "[s]; 0 if absent")},
+                        {"start_from",
+                         {{"enum", {"given", "rest", "steady"}},
+                          {"description", "start values as given; or at rest, or in steady motion, with all forces balanced"},
+                          {"default", "given"}}},
                         {"stop", described(reference("value"), "[s]")},
                         {"accuracy", described(reference("value"),
                                                "error allowed, relative to the largest magnitude of "

@@ -1,5 +1,6 @@
 #include "core/netlist/simulate_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/netlist/keys.hpp"
@@ -72,6 +73,19 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
   }
 }
 
+void read_start_from(const TomlEntry* entry, Mistakes& mistakes, Scene& scene) {
+  if (!entry || !expect_string(entry->value, "`start_from`", mistakes)) return;
+  const std::vector<std::string> words{"given", "rest", "steady"};  // in the order of Scene::StartFrom
+  const auto found = std::find(words.begin(), words.end(), entry->value.text);
+  if (found == words.end()) {
+    mistakes.error(entry->value.spot,
+                   "`start_from` must be `given`, `rest` or `steady`, but is `" + entry->value.text + "`",
+                   did_you_mean(entry->value.text, words));
+    return;
+  }
+  scene.start_from = static_cast<Scene::StartFrom>(found - words.begin());
+}
+
 }  // namespace
 
 const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& environment, Context& context,
@@ -86,6 +100,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
     return formula.evaluate_finite(environment, quantity, context.domain, mistakes).value_or(not_given);
   };
   scene.start = value(keys.find("start"), Quantity::time, 0);
+  read_start_from(keys.find("start_from"), mistakes, scene);
   const TomlEntry* stop = keys.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
   scene.stop = value(stop, Quantity::time, not_given);
   if (scene.stop <= scene.start) {

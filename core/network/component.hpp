@@ -79,6 +79,15 @@ class DeflectionBatch {
   /// The force does not depend on the deflection until an event: friction that has come to its bound.
   virtual bool constant(std::size_t i) const = 0;
 
+  /// The force under which element i moves steadily, that is at a constant velocity w with a force that no longer changes:
+  /// rest sgn w + slope w, but not beyond +-bound; at w = 0 anything within +-rest. Without steady motion (a spring) `rest`
+  /// is infinite.
+  struct Steady { double rest, slope, bound; };
+  virtual Steady steady(std::size_t i) const = 0;
+  /// Gives element i such a force and the memory that goes with it, in `direction` (-1, 1, or 0 for rest). Its deflection
+  /// was p; returns that from then on.
+  virtual double settle(std::size_t i, double p, double f, int direction) = 0;
+
   virtual double stored_energy(std::size_t i, double p) const = 0;
   /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
   virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct MemorylessLaw {
   int direction() const { return 0; }
   void hold_rates(const Dual&, Dual&, Dual&) const {}
   bool constant() const { return false; }
+  DeflectionBatch::Steady steady() const {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    return {infinite, 0, infinite};
+  }
+  double settle(double p, double, int) { return p; }
 };
 
 /// A batch of one deflection law.
@@ -100,6 +106,8 @@ class DeflectionBatchOf final : public DeflectionBatch {
     return f.value;
   }
   bool constant(std::size_t i) const override { return laws_[i].constant(); }
+  Steady steady(std::size_t i) const override { return laws_[i].steady(); }
+  double settle(std::size_t i, double p, double f, int direction) override { return laws_[i].settle(p, f, direction); }
   double stored_energy(std::size_t i, double p) const override { return laws_[i].stored_energy(p); }
   double dissipated_power(std::size_t i, double p, double dp, double w) const override {
     return laws_[i].dissipated_power(p, dp, w);

@@ -11,6 +11,7 @@
 
 #include "core/dae/instant.hpp"
 #include "core/dae/start.hpp"
+#include "core/dae/steady.hpp"
 #include "core/solve/events.hpp"
 #include "core/solve/tolerances.hpp"
 
@@ -80,7 +81,7 @@ class Run {
 
   SimulationStatistics go() {
     double t = settings_.start;
-    cross(t, true, {});
+    begin();
     while (t < settings_.stop) {
       t = stretch(t);
       if (t >= drive_.next_break()) {
@@ -98,7 +99,7 @@ class Run {
 
   /// The start alone.
   SimulationStatistics check() {
-    cross(settings_.start, true, {});
+    begin();
     statistics_.integrator = statistics();
     return std::move(statistics_);
   }
@@ -106,6 +107,16 @@ class Run {
  private:
   const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
   const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
+
+  void begin() {
+    if (network_.scene->start_from != Scene::StartFrom::given) {
+      SteadyStart steady = settle(network_, classified_, settings_.start, begin_);
+      modes_ = steady.modes;
+      slider_force_ = steady.slider_force;
+      statistics_.notes = steady.notes;
+    }
+    cross(settings_.start, true, {});
+  }
 
   /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
   void find_what_may_tie() {

@@ -17,6 +17,9 @@ constexpr double floor_of_kind = 1e-4;
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected.
 constexpr double time_grains = 8;
+// Roundings of a deflection that a step may be off by, and of forces that balance.
+constexpr double value_grains = 4;
+constexpr double force_grains = 16;
 // Rounding of a velocity that is a given function of time.
 constexpr double given_noise = 1e-13;
 
@@ -59,6 +62,39 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
   tolerance_.assign(n, relative_);
+  rounding_.assign(n, 0);
+}
+
+/// Forces F that balance do so but for their rounding, and what that leaves of a velocity is noise: eps F/sqrt(k m) at a
+/// mass, eps F/B at a node that only dashpots hold. Without this a network in equilibrium would be followed into its
+/// rounding.
+void Tolerances::find_rounding(const Dae::View& view) {
+  const Structure& structure = dae_->structure();
+  std::vector<double> force(structure.kind.size(), 0), stiffness(force), damping(force);
+  const auto add = [](std::vector<double>& sum, const Branch& b, double x) {
+    sum[at(b.a)] += x;
+    sum[at(b.b)] += x;
+  };
+  const std::vector<double>& slope = dae_->slopes();
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    add(force, structure.deflections[j], std::abs(view.f[j]));
+    add(stiffness, structure.deflections[j], std::abs(slope[j]));
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t r = at(laws.first) + i;
+      add(force, structure.rates[r], std::abs(view.rate_force[r]));
+      if (const double B = laws.batch->impulse(i); std::isfinite(B)) add(damping, structure.rates[r], B);
+    }
+  }
+  for (std::size_t k = 0; k < structure.sliders.size(); ++k) add(force, structure.sliders[k], std::abs(view.slider_force[k]));
+  for (std::size_t n = 0; n < force.size(); ++n) {
+    const int unknown = dae_->velocity_unknown(static_cast<NodeId>(n));
+    if (unknown < 0) continue;
+    const double impedance = std::sqrt(stiffness[n] * structure.mass[n]) + damping[n];
+    if (impedance == 0) continue;
+    rounding_[at(unknown)] = force_grains * std::numeric_limits<double>::epsilon() * (force[n] + std::abs(view.applied[n])) / impedance;
+  }
 }
 
 void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
@@ -97,7 +133,9 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
     double& foreseen = foreseen_of(quantity_[i]);
     foreseen = std::max(foreseen, std::abs(y[i]) + ahead * (std::abs(yp[i]) + ahead / 2 * std::abs(ypp[i])));
   }
-  see(y, dae_->view(t, y.data(), yp.data()));
+  const Dae::View& view = dae_->view(t, y.data(), yp.data());
+  see(y, view);
+  find_rounding(view);
   update(t, yp);
 }
 
@@ -140,7 +178,10 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       const double by_force = std::max(own, floor_of_kind * force);
       if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
     }
-    tolerance_[i] = std::max(relative_ * (scale > 0 ? scale : 1), grain * std::abs(yp[i]));
+    tolerance_[i] = std::max({relative_ * (scale > 0 ? scale : 1), grain * std::abs(yp[i]), rounding_[i]});
+    if (q.sort == Sort::deflection) {
+      tolerance_[i] = std::max(tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q));
+    }
     // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
     if (q.sort == Sort::deflection || q.sort == Sort::position) {
       const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];

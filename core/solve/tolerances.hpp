@@ -44,6 +44,7 @@ class Tolerances {
   void forget();
   void see(const std::vector<double>& y, const Dae::View& view);
   void update(double t, const std::vector<double>& yp);
+  void find_rounding(const Dae::View& view);
 
   const Network& network_;
   Dae* dae_ = nullptr;
@@ -56,6 +57,7 @@ class Tolerances {
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> slide_seen_;                    ///< of each slider
+  std::vector<double> rounding_;                      ///< of each unknown: what is left of forces that balance
   double unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, tolerance_;

@@ -29,7 +29,21 @@ duration = 3
 scene.toml:5:1: error: unknown key `duration` of [simulate]
     5 | duration = 3
       | ^
-  its keys are `start`, `stop`, `accuracy`, `output` and `record`
+  its keys are `start`, `start_from`, `stop`, `accuracy`, `output` and `record`
+)~"},
+      {"a mistyped start",
+       R"~(
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+[simulate]
+start_from = "stedy"
+stop = 1
+)~",
+       R"~(
+scene.toml:4:14: error: `start_from` must be `given`, `rest` or `steady`, but is `stedy`
+    4 | start_from = "stedy"
+      |              ^
+  did you mean `steady`?
 )~"},
       {"a mistyped domain",
        R"~(

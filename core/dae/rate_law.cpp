@@ -1,0 +1,20 @@
+#include "core/dae/rate_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheonet {
+
+ConvexNetwork::Law rate_law(const RateBatch& batch, std::size_t i, double scale) {
+  const double impulse = batch.impulse(i);
+  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse};
+  const double secant = scale / batch.velocity_at(i, scale);
+  return {.backward = secant, .forward = secant, .beyond = [&batch, i](double w, double& slope) {
+            const double f = batch.force_at(i, w);
+            // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
+            slope = f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
+            return f;
+          }};
+}
+
+}  // namespace rheonet

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/dae/convex.hpp"
+#include "core/network/component.hpp"
+
+namespace rheonet {
+
+/// Element i of a batch as a branch of a convex problem over velocities: where its law has no finite slope at rest, with
+/// one that leads away from there towards forces of about `scale` [N]. The batch must outlive it.
+ConvexNetwork::Law rate_law(const RateBatch& batch, std::size_t i, double scale);
+
+}  // namespace rheonet
