@@ -13,6 +13,7 @@
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
 #include "core/solve/events.hpp"
+#include "core/solve/headway.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
@@ -31,9 +32,6 @@ constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
 // The same relative to the time in which the network itself changes.
 constexpr double lookahead_of_cycle = 0.01;
-// Restarts that bring the time on by less than this share of the run, one after the other, are chattering.
-constexpr double chatter_share = 1e-10;
-constexpr int chatter_restarts = 500;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
@@ -72,7 +70,8 @@ class Run {
         state_(begin_.state),
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
-        switches_(network) {
+        switches_(network),
+        headway_(network.scene->elements.size() + 1, settings.accuracy) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
     find_what_may_tie();
@@ -85,7 +84,9 @@ class Run {
     while (t < settings_.stop) {
       t = stretch(t);
       if (t >= drive_.next_break()) {
-        for (const Drive::Break& b : drive_.breaks(t)) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+        for (const Drive::Break& b : drive_.breaks(t)) {
+          observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+        }
       } else if (t >= settings_.stop) {
         break;
       }
@@ -291,8 +292,7 @@ class Run {
     if (until - t <= grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
-    int chatter = 0;
-    double last = t;
+    headway_.reset();
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
         throw SimulationError(fmt::format("interrupted at t = {:.6g} s", system_->integrator.time()));
@@ -305,6 +305,8 @@ class Run {
         t = system_->integrator.time();
         system_->consistency.project(t, y_);
         system_->consistency.derivative(t, y_, yp_);
+        leave(t);
+        if (gets_nowhere(t, {solver()})) fail(outcome);
         restart(t, until, shrink);
         continue;
       }
@@ -327,19 +329,39 @@ class Run {
         shrink = 1;
         continue;
       }
-      chatter = t - last < chatter_share * (settings_.stop - settings_.start) ? chatter + 1 : 0;
-      last = t;
       switch_memories(t);
-      if (chatter > chatter_restarts) {
-        throw SimulationError(
-            fmt::format("at t = {:.6g} s element `{}` changes its direction over and over without getting anywhere; a "
-                        "dashpot beside "
-                        "it, a mass at its ends or a looser accuracy would end it",
-                        t, element_name(last_fired_)));
-      }
+      if (gets_nowhere(t, fired_)) report_chatter(t);
       if (t >= until) return until;
       restart(t, until, shrink);
     }
+  }
+
+  /// A cause of restarts that is no element.
+  int solver() const { return static_cast<int>(network_.scene->elements.size()); }
+
+  /// Causes that fire over and over while nothing changes, in less time than the network or its drive takes for anything.
+  bool gets_nowhere(double t, const std::vector<int>& causes) {
+    if (!headway_.lost(t, causes, state_)) return false;
+    const double rate = std::max(system_->consistency.fastest_rate(t, y_, yp_), drive_.fastest());
+    if (rate > 0 ? (t - headway_.since()) * rate < 1 : t - headway_.since() < lookahead * horizon(t)) return true;
+    headway_.reset();
+    return false;
+  }
+
+  [[noreturn]] void report_chatter(double t) const {
+    constexpr std::size_t most = 3;
+    std::vector<int> busy = headway_.busiest();
+    std::erase(busy, solver());
+    std::string names;
+    for (std::size_t k = 0; k < std::min(most, busy.size()); ++k) {
+      names += fmt::format("{}`{}`", k ? ", " : "", element_name(busy[k]));
+    }
+    if (busy.size() > most) names += fmt::format(" and {} more", busy.size() - most);
+    throw SimulationError(fmt::format(
+        "at t = {:.6g} s element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a "
+        "dashpot beside {}, a mass at {} ends or a looser accuracy would end it",
+        t, busy.size() > 1 ? "s" : "", names, busy.size() > 1 ? "" : "es", Headway::enough, t - headway_.since(),
+        busy.size() > 1 ? "them" : "it", busy.size() > 1 ? "their" : "its"));
   }
 
   void switch_memories(double t) {
@@ -350,13 +372,14 @@ class Run {
     const Dae::View view = dae.view(t, y_.data(), yp_.data());
     const std::vector<int> fired = system_->integrator.events();
     std::vector<int> switched;
+    fired_.clear();
     Instant::Fired sudden;
     for (std::size_t k = 0; k < fired.size(); ++k) {
       if (fired[k] == 0) continue;
       const auto [branch, which] = system_->events[k];
       if (which < 0) {
         sudden.sliders.push_back(branch);
-        last_fired_ = network_.sliders[at(branch)].branch.element;
+        fired_.push_back(network_.sliders[at(branch)].branch.element);
         continue;
       }
       // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
@@ -366,7 +389,7 @@ class Run {
       const bool held = batch.holds(i);
       const int direction = batch.direction(i);
       switched.push_back(branch);
-      last_fired_ = network_.deflections[at(branch)].element;
+      fired_.push_back(network_.deflections[at(branch)].element);
       batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
       if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
       if (held) {
@@ -446,7 +469,8 @@ class Run {
   Integrator::Statistics past_;  ///< of systems that are remembered no more
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
-  int last_fired_ = 0;  ///< element of the last event
+  Headway headway_;
+  std::vector<int> fired_;  ///< elements at the last event
 };
 
 }  // namespace

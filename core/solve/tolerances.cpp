@@ -87,13 +87,16 @@ void Tolerances::find_rounding(const Dae::View& view) {
       if (const double B = laws.batch->impulse(i); std::isfinite(B)) add(damping, structure.rates[r], B);
     }
   }
-  for (std::size_t k = 0; k < structure.sliders.size(); ++k) add(force, structure.sliders[k], std::abs(view.slider_force[k]));
+  for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
+    add(force, structure.sliders[k], std::abs(view.slider_force[k]));
+  }
   for (std::size_t n = 0; n < force.size(); ++n) {
     const int unknown = dae_->velocity_unknown(static_cast<NodeId>(n));
     if (unknown < 0) continue;
     const double impedance = std::sqrt(stiffness[n] * structure.mass[n]) + damping[n];
     if (impedance == 0) continue;
-    rounding_[at(unknown)] = force_grains * std::numeric_limits<double>::epsilon() * (force[n] + std::abs(view.applied[n])) / impedance;
+    const double unbalanced = force_grains * std::numeric_limits<double>::epsilon() * (force[n] + std::abs(view.applied[n]));
+    rounding_[at(unknown)] = unbalanced / impedance;
   }
 }
 

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "core/dae/convex.hpp"
+#include "core/dae/steady.hpp"
+
+namespace rheonet {
+
+/// Sets of nodes that something joins.
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : leader_(n) { std::iota(leader_.begin(), leader_.end(), 0); }
+  NodeId find(NodeId node) {
+    while (up(node) != node) node = up(node) = up(up(node));
+    return node;
+  }
+  void join(const Branch& b) { up(find(b.a)) = find(b.b); }
+
+ private:
+  NodeId& up(NodeId node) { return leader_[static_cast<std::size_t>(node)]; }
+  std::vector<NodeId> leader_;
+};
+
+/// How `settle` goes about it. In steady motion each law is a function of velocity alone: springs are rigid, friction slides
+/// at its full force, what creeps has the force of its creep. The velocities are those of least dissipation, a convex
+/// problem; with their forces, what is left is how far springs and the friction that sticks give way, another one.
+class Settling {
+ public:
+  Settling(const Network& network, const Structure& classified, double t, Start& begin);
+  SteadyStart go();
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  /// Forces that balance, and values that agree, but for this share of their magnitudes do so.
+  static constexpr double rounding = 1e-12;
+
+  struct Law {
+    DeflectionBatch* batch;
+    std::size_t i;
+    DeflectionBatch::Steady steady;
+    int direction;
+    bool rigid() const { return std::isinf(steady.rest); }
+    /// Its force follows from its deflection: a spring, or friction that sticks.
+    bool elastic() const { return steady.rest > 0 && direction == 0; }
+    double force(double w) const {
+      return std::clamp(steady.rest * direction + steady.slope * w, -steady.bound, steady.bound);
+    }
+  };
+
+  std::string kind() const { return resting_ ? "no state of rest to start from" : "no steady state to start from"; }
+  std::string with_unit(double x, Quantity quantity) const {
+    return fmt::format("{:.6g} {}", x, unit_of(quantity, network_.scene->domain));
+  }
+  std::string name(const Branch& b) const { return network_.name_of(b); }
+  static std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 5;
+    std::string text;
+    for (std::size_t k = 0; k < std::min(most, names.size()); ++k) text += fmt::format("{}`{}`", k ? ", " : "", names[k]);
+    return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
+  }
+  void note(const std::string& text) {
+    result_.notes.push_back((resting_ ? "start from rest: " : "steady start: ") + text);
+  }
+
+  bool known(NodeId node) const { return structure_.kind[at(node)] == Kind::known; }
+  double difference(const Branch& b) const {
+    const double va = velocity_[at(b.a)], vb = velocity_[at(b.b)], w = va - vb;
+    return std::abs(w) <= rounding * std::max(std::abs(va), std::abs(vb)) ? 0 : w;
+  }
+  int slot(NodeId node) const { return structure_.rank[at(node)]; }
+  /// Of the node that speaks for all that move with this one.
+  int leader(NodeId node) const { return slot(leader_[at(node)]); }
+  bool together(const Branch& b) const { return leader_[at(b.a)] == leader_[at(b.b)]; }
+  bool held(NodeId node) const {
+    return known(node) || std::find(pinned_.begin(), pinned_.end(), node) != pinned_.end();
+  }
+
+  bool rigid(std::size_t slider) const { return std::isinf(network_.sliders[slider].law.breakaway); }
+
+  template <class Visit>
+  void for_each_rigid(Visit visit) const {
+    for (std::size_t j = 0; j < laws_.size(); ++j) {
+      if (laws_[j].rigid()) visit(network_.deflections[j]);
+    }
+    for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+      if (rigid(k)) visit(network_.sliders[k].branch);
+    }
+  }
+
+  // steady.cpp: what is given, and what is said.
+  void enter_drive();
+  void refuse_stretching() const;
+  [[noreturn]] void report_stretching(NodeId first, NodeId last, const std::vector<const Branch*>& from) const;
+  [[noreturn]] void report_acceleration(const std::vector<NodeId>& nodes) const;
+  void hold_what_is_free();
+  void note_what_gave_way();
+
+  // steady_velocities.cpp
+  void lead(Sets& sets);
+  bool find_velocities();
+  ConvexNetwork velocity_problem() const;
+  void add_rates(ConvexNetwork& problem, double scale) const;
+  void solve(ConvexNetwork& problem) const;
+  void take_velocities(const ConvexNetwork& problem);
+  void refine_velocities(double scale);
+  void refuse_motion() const;
+
+  // steady_places.cpp
+  void find_places();
+  void fix_places(ConvexNetwork& problem, Sets& hang);
+
+  const Network& network_;
+  const Structure& structure_;
+  Drive& drive_;
+  State& state_;
+  const bool resting_;
+  const double t_;
+  std::vector<Law> laws_;         ///< one for each deflection branch
+  std::vector<double> velocity_;  ///< of each node
+  std::vector<double> load_, load_magnitude_;  ///< applied at each node
+  std::vector<NodeId> leader_;    ///< of each node: the one that speaks for all that move as it does
+  std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else gives one
+  std::vector<char> broken_;      ///< of each slider: it has broken away
+  std::vector<int> slip_;         ///< of each slider: its direction
+  SteadyStart result_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,116 @@
+#include "core/dae/settling.hpp"
+
+namespace rheonet {
+
+/// Displacements from the start values to where the forces balance that go with the velocities.
+void Settling::find_places() {
+  std::vector<double> load = load_;
+  const auto push = [&](const Branch& b, double f) {
+    load[at(b.a)] -= f;
+    load[at(b.b)] += f;
+  };
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      push(b, laws.batch->force_at(i, difference(b)));
+    }
+  }
+  Sets hang(velocity_.size());
+  std::vector<std::string> sticking;
+  std::vector<double> f(laws_.size(), 0);
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    Law& law = laws_[j];
+    const Branch& b = network_.deflections[j];
+    if (law.elastic()) {
+      double slope = 0;
+      f[j] = law.batch->force_along(law.i, state_.p[j], 0, slope);
+      hang.join(b);
+      if (!law.rigid()) sticking.push_back(name(b));
+    } else {
+      f[j] = law.force(difference(b));
+      state_.p[j] = law.batch->settle(law.i, state_.p[j], f[j], law.direction);
+    }
+    push(b, f[j]);
+  }
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    const Network::Slider& s = network_.sliders[k];
+    if (slip_[k] == 0) {
+      hang.join(s.branch);
+      if (!rigid(k)) sticking.push_back(name(s.branch));
+    } else {
+      result_.slider_force[k] = slip_[k] * s.law.coulomb;
+      push(s.branch, result_.slider_force[k]);
+    }
+  }
+  if (!sticking.empty()) {
+    note(listed(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
+         " what slow loading from the start values leaves");
+  }
+
+  ConvexNetwork problem(static_cast<int>(velocity_.size()));
+  fix_places(problem, hang);
+  for (std::size_t n = 0; n < load.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), load[n]);
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const Law& law = laws_[j];
+    if (!law.elastic()) continue;
+    const double p = state_.p[j], f0 = f[j];
+    problem.add(slot(network_.deflections[j].a), slot(network_.deflections[j].b),
+                {.backward = law.batch->slope(law.i, p, -1),
+                 .forward = law.batch->slope(law.i, p, 1),
+                 .rounding = std::abs(f0),
+                 .beyond = [batch = law.batch, i = law.i, p, f0](double step, double& slope) {
+                   return batch->force_along(i, p, step, slope) - f0;
+                 }});
+  }
+  std::vector<int> slider_branch(slip_.size(), -1);
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    const Network::Slider& s = network_.sliders[k];
+    if (slip_[k] != 0) continue;
+    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b), {.low = -s.law.breakaway, .high = s.law.breakaway});
+  }
+  solve(problem);
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    if (slip_[k] == 0) result_.slider_force[k] = problem.force(slider_branch[k]);
+  }
+  const auto moved = [&](NodeId node) { return problem.value(slot(node)); };
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const Branch& b = network_.deflections[j];
+    const double step = moved(b.a) - moved(b.b);
+    if (laws_[j].elastic()) {
+      laws_[j].batch->jump(laws_[j].i, state_.p[j], step);
+      state_.p[j] += step;
+    } else {
+      state_.offset[j] += step;
+    }
+  }
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    state_.position[n] += moved(static_cast<NodeId>(n));
+  }
+}
+
+/// Of nodes that hang together, but on nothing whose place is given, one keeps its own.
+void Settling::fix_places(ConvexNetwork& problem, Sets& hang) {
+  std::vector<char> placed(velocity_.size(), 0);
+  const auto fix = [&](NodeId node) {
+    problem.fix(slot(node), 0);
+    placed[at(hang.find(node))] = 1;
+  };
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    if (known(static_cast<NodeId>(n))) fix(static_cast<NodeId>(n));
+  }
+  std::vector<std::string> open;
+  // One that the user has placed goes before any other.
+  for (const bool given : {true, false}) {
+    for (std::size_t n = 0; n < velocity_.size(); ++n) {
+      const NodeId node = static_cast<NodeId>(n);
+      if (placed[at(hang.find(node))] || std::isnan(network_.scene->nodes[n].position) == given) continue;
+      fix(node);
+      open.push_back(network_.node_name(node));
+    }
+  }
+  if (open.empty()) return;
+  note(fmt::format("no force says where {} {}: {} in the position of the start values", listed(open),
+                   open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
+}
+
+}  // namespace rheonet

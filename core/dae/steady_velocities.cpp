@@ -1,0 +1,172 @@
+#include "core/dae/rate_law.hpp"
+#include "core/dae/settling.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// A law at its bound has this share of its slope below: it is let go in the direction in which its force stays.
+constexpr double slope_at_bound = 1e-6;
+
+}  // namespace
+
+/// One node of each set speaks for it: one whose velocity is given if there is one.
+void Settling::lead(Sets& sets) {
+  std::vector<NodeId> first(velocity_.size(), -1);
+  for (const bool given : {true, false}) {
+    for (std::size_t n = 0; n < velocity_.size(); ++n) {
+      NodeId& leader = first[at(sets.find(static_cast<NodeId>(n)))];
+      if (leader < 0 && held(static_cast<NodeId>(n)) == given) leader = static_cast<NodeId>(n);
+    }
+  }
+  leader_.resize(velocity_.size());
+  for (std::size_t n = 0; n < velocity_.size(); ++n) leader_[n] = first[at(sets.find(static_cast<NodeId>(n)))];
+}
+
+/// Velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
+/// accelerates. True if sliders have broken away under more than their force of sliding: then it is to be done again.
+bool Settling::find_velocities() {
+  ConvexNetwork problem = velocity_problem();
+  std::vector<int> law_branch(laws_.size(), -1), slider_branch(network_.sliders.size(), -1);
+  double scale = 0;
+  for (double f : load_magnitude_) scale = std::max(scale, f);
+  for (const Law& law : laws_) {
+    for (double f : {law.steady.rest, law.steady.bound}) scale = std::isfinite(f) ? std::max(scale, f) : scale;
+  }
+  if (scale == 0) scale = 1;
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const Branch& b = network_.deflections[j];
+    const DeflectionBatch::Steady& s = laws_[j].steady;
+    if (together(b)) continue;
+    ConvexNetwork::Law law{.low = -s.rest, .high = s.rest, .backward = s.slope, .forward = s.slope};
+    if (s.slope > 0 && std::isfinite(s.bound)) {
+      law.beyond = [s](double w, double& slope) {
+        const double f = s.slope * w;
+        slope = std::abs(f) < s.bound ? s.slope : slope_at_bound * s.slope;
+        return std::clamp(f, -s.bound, s.bound);
+      };
+    }
+    law_branch[j] = problem.add(leader(b.a), leader(b.b), law);
+  }
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Network::Slider& s = network_.sliders[k];
+    const double limit = broken_[k] ? s.law.coulomb : s.law.breakaway;
+    if (!together(s.branch)) {
+      slider_branch[k] = problem.add(leader(s.branch.a), leader(s.branch.b), {.low = -limit, .high = limit});
+    }
+  }
+  add_rates(problem, scale);
+  solve(problem);
+
+  bool again = false;
+  slip_.assign(network_.sliders.size(), 0);
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    slip_[k] = slider_branch[k] < 0 ? 0 : problem.direction(slider_branch[k]);
+    const Slip& law = network_.sliders[k].law;
+    if (slip_[k] == 0 || broken_[k] || law.breakaway == law.coulomb) continue;
+    broken_[k] = again = true;
+  }
+  if (again) return true;
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    laws_[j].direction = laws_[j].steady.rest > 0 && law_branch[j] >= 0 ? problem.direction(law_branch[j]) : 0;
+  }
+  take_velocities(problem);
+  refine_velocities(scale);
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const double w = difference(network_.deflections[j]);
+    if (laws_[j].steady.rest == 0) laws_[j].direction = w > 0 ? 1 : w < 0 ? -1 : 0;
+  }
+  for (std::size_t k = 0; k < slip_.size(); ++k) result_.modes.slider[k] = static_cast<signed char>(slip_[k]);
+  return false;
+}
+
+ConvexNetwork Settling::velocity_problem() const {
+  ConvexNetwork problem(static_cast<int>(velocity_.size()));
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    const NodeId node = static_cast<NodeId>(n);
+    if (leader_[n] != node) {
+      problem.fix(slot(node), 0);  // its leader speaks for it
+    } else if (held(node)) {
+      problem.fix(slot(node), velocity_[n]);
+    }
+    if (load_[n] != 0) problem.load(leader(node), load_[n]);
+  }
+  return problem;
+}
+
+void Settling::add_rates(ConvexNetwork& problem, double scale) const {
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      if (!together(b)) problem.add(leader(b.a), leader(b.b), rate_law(*laws.batch, i, scale));
+    }
+  }
+}
+
+void Settling::solve(ConvexNetwork& problem) const {
+  const ConvexNetwork::Outcome outcome = problem.solve();
+  if (outcome == ConvexNetwork::Outcome::solved) return;
+  if (outcome == ConvexNetwork::Outcome::unbounded) {
+    std::vector<NodeId> nodes;
+    for (int runaway : problem.runaways()) {
+      const auto found = std::find(structure_.rank.begin(), structure_.rank.end(), runaway);
+      nodes.push_back(static_cast<NodeId>(found - structure_.rank.begin()));
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    report_acceleration(nodes);
+  }
+  throw SimulationError(kind() + " was found: forces on what sticks or slips differ by rounding only");
+}
+
+void Settling::take_velocities(const ConvexNetwork& problem) {
+  for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(leader(static_cast<NodeId>(n)));
+}
+
+/// The same once more, with all that sticks rigid and all that slips a force: nothing is left of what has decided among
+/// equals. Where velocities are open without that, they stay as they are.
+void Settling::refine_velocities(double scale) {
+  Sets joined(velocity_.size());
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    if (laws_[j].elastic()) joined.join(network_.deflections[j]);
+  }
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    if (slip_[k] == 0) joined.join(network_.sliders[k].branch);
+  }
+  lead(joined);
+  ConvexNetwork problem = velocity_problem();
+  const auto push = [&](const Branch& b, double f) {
+    problem.load(leader(b.a), -f);
+    problem.load(leader(b.b), f);
+  };
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const Branch& b = network_.deflections[j];
+    const DeflectionBatch::Steady& s = laws_[j].steady;
+    const double w = difference(b);
+    if (together(b)) continue;
+    if (s.rest > 0) {
+      push(b, s.rest * laws_[j].direction);
+    } else if (std::abs(s.slope * w) >= s.bound) {
+      push(b, std::copysign(s.bound, w));
+    } else {
+      problem.add(leader(b.a), leader(b.b), {.backward = s.slope, .forward = s.slope});
+    }
+  }
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    if (slip_[k] != 0) push(network_.sliders[k].branch, slip_[k] * network_.sliders[k].law.coulomb);
+  }
+  add_rates(problem, scale);
+  if (problem.solve() == ConvexNetwork::Outcome::solved) take_velocities(problem);
+}
+
+void Settling::refuse_motion() const {
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    if (velocity_[n] == 0) continue;
+    throw SimulationError(fmt::format(
+        "{}: the forces are more than holds node `{}`, which goes on at {} under them; start from \"steady\", or apply "
+        "less force",
+        kind(), network_.node_name(static_cast<NodeId>(n)), with_unit(velocity_[n], Quantity::velocity)));
+  }
+}
+
+}  // namespace rheonet

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/dae/state.hpp"
+
+namespace rheonet {
+
+/// Whether events bring a run on, or come over and over at one place (chattering) or ever faster (accumulating).
+class Headway {
+ public:
+  /// So many events of one element are looked at.
+  static constexpr int enough = 500;
+
+  /// `accuracy` is that of the run: a change by less, of the largest velocity or deflection so far, is none.
+  Headway(std::size_t causes, double accuracy);
+
+  /// What comes is counted from here on.
+  void reset();
+  /// These causes (elements, say) have fired at t, and left the network in this state. True when one of them has had
+  /// `enough` events while nothing has changed: whether there is something wrong depends on how long that took.
+  bool lost(double t, const std::vector<int>& causes, const State& state);
+  /// Time at which the count began [s].
+  double since() const { return since_; }
+  /// What has fired since then, the busiest first.
+  std::vector<int> busiest() const;
+
+ private:
+  struct Watched {
+    double largest = 0;          ///< magnitude in the run
+    std::vector<double> before;  ///< at `since`
+    bool changed(const std::vector<double>& now, double accuracy);
+  };
+
+  double accuracy_;
+  double since_ = 0;
+  bool begun_ = false;
+  Watched velocity_, deflection_;
+  std::vector<int> count_;  ///< of each cause
+  std::vector<int> fired_;  ///< causes with a count above 0
+};
+
+}  // namespace rheonet
