@@ -82,6 +82,10 @@ class Settling {
     return known(node) || std::find(pinned_.begin(), pinned_.end(), node) != pinned_.end();
   }
 
+  double bound(std::size_t slider) const {
+    const Slip& law = network_.sliders[slider].law;
+    return broken_[slider] ? law.coulomb : law.breakaway;
+  }
   bool rigid(std::size_t slider) const { return std::isinf(network_.sliders[slider].law.breakaway); }
 
   template <class Visit>
@@ -105,16 +109,18 @@ class Settling {
   // steady_velocities.cpp
   void lead(Sets& sets);
   bool find_velocities();
+  bool break_away(const std::vector<int>& direction);
   ConvexNetwork velocity_problem() const;
   void add_rates(ConvexNetwork& problem, double scale) const;
-  void solve(ConvexNetwork& problem) const;
+  double natural_speed(double force) const;
+  void solve(ConvexNetwork& problem, double far) const;
   void take_velocities(const ConvexNetwork& problem);
   void refine_velocities(double scale);
   void refuse_motion() const;
 
   // steady_places.cpp
-  void find_places();
-  void fix_places(ConvexNetwork& problem, Sets& hang);
+  bool find_places();
+  std::vector<std::string> fix_places(ConvexNetwork& problem, Sets& hang) const;
 
   const Network& network_;
   const Structure& structure_;

@@ -28,13 +28,12 @@ SteadyStart Settling::go() {
   enter_drive();
   refuse_stretching();
   hold_what_is_free();
-  Sets rigid(velocity_.size());
-  for_each_rigid([&](const Branch& b) { rigid.join(b); });
-  lead(rigid);
-  while (find_velocities()) {
-  }
+  // What breaks away lets go of the difference to its force of sliding: then all is to be found anew.
+  do {
+    while (!find_velocities()) {
+    }
+  } while (!find_places());
   if (resting_) refuse_motion();
-  find_places();
   note_what_gave_way();
   return std::move(result_);
 }

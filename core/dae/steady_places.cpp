@@ -1,9 +1,12 @@
 #include "core/dae/settling.hpp"
 
+#include <limits>
+
 namespace rheonet {
 
-/// Displacements from the start values to where the forces balance that go with the velocities.
-void Settling::find_places() {
+/// Displacements from the start values to where the forces balance that go with the velocities. False if sliders have
+/// broken away on the way there.
+bool Settling::find_places() {
   std::vector<double> load = load_;
   const auto push = [&](const Branch& b, double f) {
     load[at(b.a)] -= f;
@@ -42,13 +45,8 @@ void Settling::find_places() {
       push(s.branch, result_.slider_force[k]);
     }
   }
-  if (!sticking.empty()) {
-    note(listed(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
-         " what slow loading from the start values leaves");
-  }
-
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
-  fix_places(problem, hang);
+  const std::vector<std::string> open = fix_places(problem, hang);
   for (std::size_t n = 0; n < load.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), load[n]);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Law& law = laws_[j];
@@ -66,12 +64,16 @@ void Settling::find_places() {
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] != 0) continue;
-    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b), {.low = -s.law.breakaway, .high = s.law.breakaway});
+    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b), {.low = -bound(k), .high = bound(k)});
   }
-  solve(problem);
+  solve(problem, std::numeric_limits<double>::infinity());
+  std::vector<int> direction(slip_.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] == 0) result_.slider_force[k] = problem.force(slider_branch[k]);
+    if (slip_[k] != 0) continue;
+    direction[k] = problem.direction(slider_branch[k]);
+    result_.slider_force[k] = problem.force(slider_branch[k]);
   }
+  if (break_away(direction)) return false;
   const auto moved = [&](NodeId node) { return problem.value(slot(node)); };
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
@@ -86,10 +88,19 @@ void Settling::find_places() {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     state_.position[n] += moved(static_cast<NodeId>(n));
   }
+  if (!sticking.empty()) {
+    note(listed(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
+         " what slow loading from the start values leaves");
+  }
+  if (!open.empty()) {
+    note(fmt::format("no force says where {} {}: {} in the position of the start values", listed(open),
+                     open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
+  }
+  return true;
 }
 
-/// Of nodes that hang together, but on nothing whose place is given, one keeps its own.
-void Settling::fix_places(ConvexNetwork& problem, Sets& hang) {
+/// Of nodes that hang together, but on nothing whose place is given, one keeps its own. Returns their names.
+std::vector<std::string> Settling::fix_places(ConvexNetwork& problem, Sets& hang) const {
   std::vector<char> placed(velocity_.size(), 0);
   const auto fix = [&](NodeId node) {
     problem.fix(slot(node), 0);
@@ -108,9 +119,7 @@ void Settling::fix_places(ConvexNetwork& problem, Sets& hang) {
       open.push_back(network_.node_name(node));
     }
   }
-  if (open.empty()) return;
-  note(fmt::format("no force says where {} {}: {} in the position of the start values", listed(open),
-                   open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
+  return open;
 }
 
 }  // namespace rheonet

@@ -7,6 +7,8 @@ namespace {
 
 // A law at its bound has this share of its slope below: it is let go in the direction in which its force stays.
 constexpr double slope_at_bound = 1e-6;
+// So many times what the forces would do to any one element that resists: nothing resists there.
+constexpr double far_share = 1e5;
 
 }  // namespace
 
@@ -24,8 +26,11 @@ void Settling::lead(Sets& sets) {
 }
 
 /// Velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
-/// accelerates. True if sliders have broken away under more than their force of sliding: then it is to be done again.
+/// accelerates. False if sliders have broken away under more than their force of sliding.
 bool Settling::find_velocities() {
+  Sets rigid(velocity_.size());
+  for_each_rigid([&](const Branch& b) { rigid.join(b); });
+  lead(rigid);
   ConvexNetwork problem = velocity_problem();
   std::vector<int> law_branch(laws_.size(), -1), slider_branch(network_.sliders.size(), -1);
   double scale = 0;
@@ -50,23 +55,18 @@ bool Settling::find_velocities() {
   }
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
-    const double limit = broken_[k] ? s.law.coulomb : s.law.breakaway;
     if (!together(s.branch)) {
-      slider_branch[k] = problem.add(leader(s.branch.a), leader(s.branch.b), {.low = -limit, .high = limit});
+      slider_branch[k] = problem.add(leader(s.branch.a), leader(s.branch.b), {.low = -bound(k), .high = bound(k)});
     }
   }
   add_rates(problem, scale);
-  solve(problem);
+  solve(problem, far_share * natural_speed(scale));
 
-  bool again = false;
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     slip_[k] = slider_branch[k] < 0 ? 0 : problem.direction(slider_branch[k]);
-    const Slip& law = network_.sliders[k].law;
-    if (slip_[k] == 0 || broken_[k] || law.breakaway == law.coulomb) continue;
-    broken_[k] = again = true;
   }
-  if (again) return true;
+  if (break_away(slip_)) return false;
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     laws_[j].direction = laws_[j].steady.rest > 0 && law_branch[j] >= 0 ? problem.direction(law_branch[j]) : 0;
   }
@@ -77,7 +77,18 @@ bool Settling::find_velocities() {
     if (laws_[j].steady.rest == 0) laws_[j].direction = w > 0 ? 1 : w < 0 ? -1 : 0;
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) result_.modes.slider[k] = static_cast<signed char>(slip_[k]);
-  return false;
+  return true;
+}
+
+/// True if any of the sliders that go in these directions had held more than their force of sliding until now.
+bool Settling::break_away(const std::vector<int>& direction) {
+  bool any = false;
+  for (std::size_t k = 0; k < direction.size(); ++k) {
+    const Slip& law = network_.sliders[k].law;
+    if (direction[k] == 0 || broken_[k] || law.breakaway == law.coulomb) continue;
+    broken_[k] = any = true;
+  }
+  return any;
 }
 
 ConvexNetwork Settling::velocity_problem() const {
@@ -103,19 +114,30 @@ void Settling::add_rates(ConvexNetwork& problem, double scale) const {
   }
 }
 
-void Settling::solve(ConvexNetwork& problem) const {
+/// The largest velocity at which a force takes any element that resists motion, or that is given.
+double Settling::natural_speed(double force) const {
+  double speed = 0;
+  for (double v : velocity_) speed = std::max(speed, std::abs(v));
+  for (const Law& law : laws_) {
+    if (law.steady.slope > 0) speed = std::max(speed, force / law.steady.slope);
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) speed = std::max(speed, laws.batch->velocity_at(i, force));
+  }
+  return speed;
+}
+
+/// Values beyond `far` have run away.
+void Settling::solve(ConvexNetwork& problem, double far) const {
   const ConvexNetwork::Outcome outcome = problem.solve();
   if (outcome == ConvexNetwork::Outcome::solved) return;
-  if (outcome == ConvexNetwork::Outcome::unbounded) {
-    std::vector<NodeId> nodes;
-    for (int runaway : problem.runaways()) {
-      const auto found = std::find(structure_.rank.begin(), structure_.rank.end(), runaway);
-      nodes.push_back(static_cast<NodeId>(found - structure_.rank.begin()));
-    }
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-    report_acceleration(nodes);
+  std::vector<NodeId> nodes;
+  for (std::size_t n = 0; n < structure_.rank.size(); ++n) {
+    const int own = structure_.rank[n];
+    const bool ran = std::find(problem.runaways().begin(), problem.runaways().end(), own) != problem.runaways().end();
+    if (ran || std::abs(problem.value(own)) > far) nodes.push_back(static_cast<NodeId>(n));
   }
+  if (!nodes.empty()) report_acceleration(nodes);
   throw SimulationError(kind() + " was found: forces on what sticks or slips differ by rounding only");
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace rheonet {
 
@@ -63,40 +64,96 @@ void Tolerances::attach(Dae& dae) {
   }
   tolerance_.assign(n, relative_);
   rounding_.assign(n, 0);
+  drift_.assign(n, {});
+  find_parts();
 }
 
-/// Forces F that balance do so but for their rounding, and what that leaves of a velocity is noise: eps F/sqrt(k m) at a
-/// mass, eps F/B at a node that only dashpots hold. Without this a network in equilibrium would be followed into its
-/// rounding.
-void Tolerances::find_rounding(const Dae::View& view) {
+/// The parts of the network that known nodes keep from each other: the noise of one does not reach the others.
+void Tolerances::find_parts() {
   const Structure& structure = dae_->structure();
-  std::vector<double> force(structure.kind.size(), 0), stiffness(force), damping(force);
+  std::vector<NodeId> up(structure.kind.size());
+  std::iota(up.begin(), up.end(), 0);
+  const auto find = [&](NodeId node) {
+    while (up[at(node)] != node) node = up[at(node)] = up[at(up[at(node)])];
+    return node;
+  };
+  const auto join = [&](const Branch& b) {
+    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) up[at(find(b.a))] = find(b.b);
+  };
+  for (const Branch& b : structure.deflections) join(b);
+  for (const Branch& b : structure.rates) join(b);
+  for (const Branch& b : structure.sliders) join(b);
+  part_.clear();
+  for (std::size_t n = 0; n < up.size(); ++n) part_.push_back(find(static_cast<NodeId>(n)));
+}
+
+/// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
+/// eps (V + F/sqrt(k m)) at a mass, eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and what comes of
+/// eps V until it has crept away. Without this a network in equilibrium would be followed into its rounding.
+void Tolerances::find_rounding(const Dae::View& view) {
+  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  const Structure& structure = dae_->structure();
+  const std::size_t nodes = structure.kind.size();
+  std::vector<double> force(nodes, 0), speed(nodes, 0), stiffness(nodes, 0), damping(nodes, 0);
   const auto add = [](std::vector<double>& sum, const Branch& b, double x) {
     sum[at(b.a)] += x;
     sum[at(b.b)] += x;
   };
-  const std::vector<double>& slope = dae_->slopes();
-  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    add(force, structure.deflections[j], std::abs(view.f[j]));
-    add(stiffness, structure.deflections[j], std::abs(slope[j]));
+  const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
+  const auto speed_of = [&](const Branch& b) {
+    return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+  };
+  const auto meet = [&](const Branch& b, double f) {
+    if (known(b.a) && known(b.b)) return;
+    const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
+    force[part] = std::max(force[part], std::abs(f));
+    speed[part] = std::max(speed[part], speed_of(b));
+  };
+  const std::size_t count = structure.deflections.size();
+  std::vector<double> f(count), df(count), c(count), dc(count);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&view.p[k], &f[k], &df[k], &c[k], &dc[k]);
+  }
+  for (std::size_t j = 0; j < count; ++j) {
+    add(stiffness, structure.deflections[j], std::abs(df[j]));
+    meet(structure.deflections[j], f[j]);
   }
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
-      add(force, structure.rates[r], std::abs(view.rate_force[r]));
+      meet(structure.rates[r], view.rate_force[r]);
       if (const double B = laws.batch->impulse(i); std::isfinite(B)) add(damping, structure.rates[r], B);
     }
   }
-  for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
-    add(force, structure.sliders[k], std::abs(view.slider_force[k]));
+  for (std::size_t k = 0; k < structure.sliders.size(); ++k) meet(structure.sliders[k], view.slider_force[k]);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    double& largest = force[at(part_[n])];
+    largest = std::max(largest, std::abs(view.applied[n]));
   }
-  for (std::size_t n = 0; n < force.size(); ++n) {
-    const int unknown = dae_->velocity_unknown(static_cast<NodeId>(n));
-    if (unknown < 0) continue;
-    const double impedance = std::sqrt(stiffness[n] * structure.mass[n]) + damping[n];
-    if (impedance == 0) continue;
-    const double unbalanced = force_grains * std::numeric_limits<double>::epsilon() * (force[n] + std::abs(view.applied[n]));
-    rounding_[at(unknown)] = unbalanced / impedance;
+  restless_.assign(nodes, 0);
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    const auto [sort, k] = quantity_[i];
+    rounding_[i] = 0;
+    drift_[i] = {};
+    if (sort == Sort::velocity) {
+      const double impedance = std::sqrt(stiffness[k] * structure.mass[k]) + damping[k];
+      const std::size_t part = at(part_[k]);
+      rounding_[i] = eps * (speed[part] + (impedance > 0 ? force[part] / impedance : 0));
+      restless_[part] = std::max(restless_[part], rounding_[i]);
+    } else if (sort == Sort::deflection) {
+      const Branch& b = structure.deflections[k];
+      const bool alone = known(b.a) && known(b.b);
+      const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
+      if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / std::abs(df[k]);
+      if (dc[k] != 0) drift_[i] = {eps * (alone ? speed_of(b) : speed[part]), 1 / std::abs(dc[k])};
+    } else if (sort == Sort::force) {
+      const Branch& b = structure.rates[k];
+      rounding_[i] = eps * force[at(part_[at(known(b.a) ? b.b : b.a)])];
+    }
+  }
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    if (quantity_[i].sort == Sort::position) drift_[i] = {restless_[at(part_[quantity_[i].index])]};
   }
 }
 
@@ -126,6 +183,7 @@ bool Tolerances::blind() const {
 
 void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                          const std::vector<double>& ypp) {
+  if (std::isnan(begin_)) begin_ = t;
   // What was foreseen a moment ago, before an event perhaps, still holds.
   if (t > forget_) forget();
   if (ahead > 0) {
@@ -156,6 +214,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
 void Tolerances::update(double t, const std::vector<double>& yp) {
   // Time itself is known to half a unit in the last place; what changes meanwhile cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
+  const Structure& structure = dae_->structure();
   const std::vector<double>& slope = dae_->slopes();
   std::array<double, sorts> largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
@@ -185,22 +244,29 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     if (q.sort == Sort::deflection) {
       tolerance_[i] = std::max(tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q));
     }
+    tolerance_[i] = std::max(tolerance_[i], drift_[i].velocity * std::min(t - begin_, drift_[i].lasting));
     // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
     if (q.sort == Sort::deflection || q.sort == Sort::position) {
       const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
       tolerance_[i] = std::max(tolerance_[i], relative_ * velocity * ahead_);
     }
   }
-  unresolved_velocity_ = relative_ * largest[static_cast<std::size_t>(Sort::velocity)];
+  const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
+  unresolved_velocity_ = std::max(relative_ * velocity, *std::max_element(restless_.begin(), restless_.end()));
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
-  const double velocity = unresolved_velocity_ / relative_;
-  const auto noise = [&](bool given, double flow) {
-    const double unresolved = given ? given_noise * flow : noise_share * relative_ * std::max(flow, floor_of_kind * velocity);
+  const auto noise = [&](bool given, double flow, const Branch& b) {
+    const double unresolved =
+        given ? given_noise * flow
+              : std::max(noise_share * relative_ * std::max(flow, floor_of_kind * velocity), restless_[at(part_[at(structure.kind[at(b.a)] == Kind::known ? b.b : b.a)])]);
     // More than nothing: an event function that begins at 0 would never be seen to fall through it.
     return std::max(unresolved, std::numeric_limits<double>::min());
   };
-  for (std::size_t j = 0; j < noise_.size(); ++j) noise_[j] = noise(given_[j] != 0, flow_seen_[j]);
-  for (std::size_t k = 0; k < slider_noise_.size(); ++k) slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k]);
+  for (std::size_t j = 0; j < noise_.size(); ++j) {
+    noise_[j] = noise(given_[j] != 0, flow_seen_[j], structure.deflections[j]);
+  }
+  for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
+    slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k]);
+  }
 }
 
 }  // namespace rheonet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "core/dae/dae.hpp"
@@ -44,11 +45,13 @@ class Tolerances {
   void forget();
   void see(const std::vector<double>& y, const Dae::View& view);
   void update(double t, const std::vector<double>& yp);
+  void find_parts();
   void find_rounding(const Dae::View& view);
 
   const Network& network_;
   Dae* dae_ = nullptr;
   double relative_;
+  double begin_ = not_given;  ///< of the run [s]
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown
@@ -57,7 +60,12 @@ class Tolerances {
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> slide_seen_;                    ///< of each slider
-  std::vector<double> rounding_;                      ///< of each unknown: what is left of forces that balance
+  std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
+  std::vector<double> rounding_;                      ///< of each unknown: what rounding leaves of it where it is 0
+  /// That of a velocity, and how long it adds up in what comes of it [s].
+  struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
+  std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
+  std::vector<double> restless_;                      ///< of each part: the largest of its velocities
   double unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, tolerance_;

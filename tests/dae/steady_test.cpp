@@ -185,6 +185,17 @@ TEST_CASE("steady: a slider holds up to its breakaway, and slides under its Coul
   }
 }
 
+TEST_CASE("steady: a slider that breaks away while the load comes on holds no more than its Coulomb force") {
+  // The spring alone would take F at F/k; friction takes its part of the load, until it lets go.
+  constexpr double F = 4.7 * Fc;
+  SceneBuilder b;
+  b.force("push", "a", constant(F));
+  b.at("m1", "mass", "a", {{"mass", m}});
+  b.between("k1", "spring", "a", "ground", {{"stiffness", k}});
+  b.between("s1", "slider", "a", "ground", {{"coulomb", Fc}, {"breakaway", 1.4 * Fc}});
+  check_stays(b, {{"a.position", (F - Fc) / k}, {"s1.force", Fc}, {"a.velocity", 0}});
+}
+
 TEST_CASE("steady: a bridge of five springs with dashpots, with masses at its nodes") {
   // Conductances of the five, and the velocities of the two nodes in the middle by Cramer's rule.
   constexpr double B1 = 1.3, B2 = 2.9, B3 = 0.7, B4 = 4.1, B5 = 1.9, stiffness[] = {91, 57, 133, 71, 113};
