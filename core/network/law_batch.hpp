@@ -19,6 +19,8 @@ namespace rheonet {
 ///       double stored_energy(double p) const;
 ///       double dissipated_power(double p, double dp, double w) const;
 ///     };
+///
+/// One that creeps also has `steady` and `settle`: see DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
