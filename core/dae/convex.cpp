@@ -45,16 +45,17 @@ class Sets {
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : x_(at(nodes), 0), inertia_(x_), rest_(x_), applied_(x_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
+    : base_(at(nodes), 0), u_(base_), inertia_(base_), applied_(base_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
 
-void ConvexNetwork::fix(int node, double value) {
+void ConvexNetwork::fix(int node, double value, double change) {
   fixed_[at(node)] = 1;
-  x_[at(node)] = value;
+  base_[at(node)] = value;
+  u_[at(node)] = change;
 }
 
 void ConvexNetwork::set_inertia(int node, double inertia, double rest) {
   inertia_[at(node)] = inertia;
-  rest_[at(node)] = x_[at(node)] = rest;
+  base_[at(node)] = rest;
 }
 
 int ConvexNetwork::add(int a, int b, Law law) {
@@ -96,11 +97,11 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
 
 void ConvexNetwork::choose_weak() {
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> least(x_.size(), none);  // slope around each node
+  std::vector<double> least(u_.size(), none);  // slope around each node
   double farthest = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     if (inertia_[k] > 0) least[k] = inertia_[k];
-    farthest = std::max(farthest, std::abs(x_[k]));
+    farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
     const double slope = std::max(b.law.forward, b.law.backward);
@@ -119,53 +120,57 @@ void ConvexNetwork::choose_weak() {
 
 /// Everything that moves alike at first sticks; massless nodes go with what they can stick to.
 void ConvexNetwork::stick_at_first() {
-  const std::size_t n = x_.size();
+  const std::size_t n = u_.size();
   Sets sets(n);
   std::vector<char> heavy(n, 0);  // of each set: its value is given
-  for (std::size_t k = 0; k < n; ++k) heavy[k] = fixed_[k] || inertia_[k] > 0;
-  std::vector<double> value(x_);
+  std::vector<int> head(n);       // the node that gives it
+  for (std::size_t k = 0; k < n; ++k) {
+    heavy[k] = fixed_[k] || inertia_[k] > 0;
+    head[k] = static_cast<int>(k);
+  }
   std::vector<char> fixed(fixed_);
   for (Branch& b : branches_) {
     if (!b.jumps) continue;
     const int sa = sets.find(b.a), sb = sets.find(b.b);
     const bool rigid = std::isinf(b.law.low) && std::isinf(b.law.high);
-    if (!rigid && heavy[at(sa)] && heavy[at(sb)] && value[at(sa)] != value[at(sb)]) {
-      b.side = value[at(sa)] > value[at(sb)] ? 1 : -1;
+    if (const double w = difference(head[at(sa)], head[at(sb)]); !rigid && heavy[at(sa)] && heavy[at(sb)] && w != 0) {
+      b.side = w > 0 ? 1 : -1;
       continue;
     }
     b.stuck = true;
     if (sa == sb) continue;
     const bool given = heavy[at(sa)] || heavy[at(sb)];
     const bool first = fixed[at(sa)] || (!fixed[at(sb)] && heavy[at(sa)]);
-    const double common = value[at(first ? sa : sb)];
+    const int common = head[at(first ? sa : sb)];
     const bool firm = fixed[at(sa)] || fixed[at(sb)];
     sets.join(sa, sb);
     fixed[at(sets.find(sa))] = firm;
     heavy[at(sets.find(sa))] = given;
-    value[at(sets.find(sa))] = common;
+    head[at(sets.find(sa))] = common;
   }
-  for (std::size_t k = 0; k < n; ++k) x_[k] = value[at(sets.find(static_cast<int>(k)))];
+  for (std::size_t k = 0; k < n; ++k) follow(static_cast<int>(k), head[at(sets.find(static_cast<int>(k)))]);
 }
 
 /// Clusters of the nodes that sticking branches join, all at one value.
 void ConvexNetwork::merge() {
-  Sets sets(x_.size());
+  Sets sets(u_.size());
   for (const Branch& b : branches_) {
     if (b.stuck) sets.join(b.a, b.b);
   }
-  std::vector<double> weight(x_.size(), -1), value(x_.size(), 0);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  std::vector<double> weight(u_.size(), -1);
+  head_.assign(u_.size(), -1);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int set = cluster_[k] = sets.find(static_cast<int>(k));
     const double own = fixed_[k] ? std::numeric_limits<double>::infinity() : inertia_[k];
     if (own > weight[at(set)]) {
       weight[at(set)] = own;
-      value[at(set)] = x_[k];
+      head_[at(set)] = static_cast<int>(k);
     }
   }
-  column_.assign(x_.size(), -1);
+  column_.assign(u_.size(), -1);
   columns_ = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    x_[k] = value[at(cluster_[k])];
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    follow(static_cast<int>(k), head_[at(cluster_[k])]);
     int& column = column_[at(cluster_[k])];
     if (std::isfinite(weight[at(cluster_[k])]) && column < 0) column = columns_++;
   }
@@ -193,14 +198,15 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     add(b.b, -f);
     blur(b.a, b.law.rounding, 1);
     blur(b.b, b.law.rounding, 1);
-    for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
+    const double size = std::abs(base_[at(b.a)] - base_[at(b.b)]) + std::abs(u_[at(b.a)]) + std::abs(u_[at(b.b)]);
+    for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), size);
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int node = static_cast<int>(k);
     add(node, -applied_[k]);
     if (inertia_[k] == 0) continue;
-    add(node, inertia_[k] * (x_[k] - rest_[k]));
-    blur(node, inertia_[k], x_[k]);
+    add(node, inertia_[k] * u_[k]);
+    blur(node, inertia_[k], u_[k]);
   }
   bool met = true;
   for (std::size_t c = 0; c < gradient.size(); ++c) met = met && std::abs(gradient[c]) <= rounding[c];
@@ -220,7 +226,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
       entries.emplace_back(c, a, -s);
     }
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];
     if (column >= 0 && inertia_[k] > 0) entries.emplace_back(column, column, inertia_[k]);
   }
@@ -230,8 +236,8 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
   if (factor.info() != Eigen::Success) return false;
   const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), columns_);
   const Eigen::VectorXd step = factor.solve(-g);
-  d.assign(x_.size(), 0);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  d.assign(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];
     if (column >= 0) d[k] = step[column];
     if (!std::isfinite(d[k])) return false;
@@ -250,8 +256,8 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
     if (std::abs(w) <= 4e-16 * std::abs(step * dw)) w = 0;
     sum += force(b, w, dw > 0 ? 1 : -1) * dw;
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    if (d[k] != 0) sum += (inertia_[k] * (x_[k] + step * d[k] - rest_[k]) - applied_[k]) * d[k];
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (d[k] != 0) sum += (inertia_[k] * (u_[k] + step * d[k]) - applied_[k]) * d[k];
   }
   return sum;
 }
@@ -272,7 +278,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
                                           [&](const Break& p) { return slope_along(d, p.step) < 0; });
   double low = first == breaks.begin() ? 0 : (first - 1)->step, high;
   const auto move = [&](double step) {
-    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += step * d[k];
+    for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += step * d[k];
   };
   if (linear && breaks.empty()) {
     move(1);
@@ -317,7 +323,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
 
 /// Forces of least norm in the branches that stick: see bonds.cpp.
 void ConvexNetwork::find_bond_forces() {
-  std::vector<double> left(x_.size(), 0);
+  std::vector<double> left(u_.size(), 0);
   bond_force_.assign(branches_.size(), 0);
   for (const Branch& b : branches_) {
     if (b.stuck) continue;
@@ -325,12 +331,12 @@ void ConvexNetwork::find_bond_forces() {
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
-  std::vector<int> row(x_.size(), -1);
+  std::vector<int> row(u_.size(), -1);
   int rows = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    left[k] += inertia_[k] * (x_[k] - rest_[k]) - applied_[k];
-    // Phi is 0 at fixed nodes, and at one node of each other cluster.
-    const bool reference = column_[at(cluster_[k])] >= 0 && cluster_[k] == static_cast<int>(k);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    left[k] += inertia_[k] * u_[k] - applied_[k];
+    // Phi is 0 at fixed nodes, and at the heaviest node of each other cluster: what rounding leaves stays there.
+    const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
     if (!fixed_[k] && !reference) row[k] = rows++;
   }
   std::vector<Eigen::Triplet<double>> entries;
@@ -352,7 +358,7 @@ void ConvexNetwork::find_bond_forces() {
   for (int r = 0; r < rows; ++r) {
     if (!touched[at(r)]) entries.emplace_back(r, r, 1);
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
   if (rows > 0) {
@@ -395,8 +401,8 @@ double ConvexNetwork::power() const {
   for (const Branch& b : branches_) {
     if (const double w = difference(b); w != 0) sum += std::abs(force(b, w, b.side) * w);
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    sum += std::abs(applied_[k] * x_[k]) + std::abs(inertia_[k] * (x_[k] - rest_[k]) * x_[k]);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    sum += (std::abs(applied_[k]) + std::abs(inertia_[k] * u_[k])) * std::abs(base_[k] + u_[k]);
   }
   return sum;
 }
@@ -404,8 +410,8 @@ double ConvexNetwork::power() const {
 /// True if only what decides among equals has held something back.
 bool ConvexNetwork::run_away() {
   double scale = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * (x_[k] - rest_[k]))});
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
   }
   for (const Branch& b : branches_) {
     for (double f : {b.law.low, b.law.high, force(b, difference(b), b.side)}) {
@@ -413,8 +419,8 @@ bool ConvexNetwork::run_away() {
     }
   }
   // What has inertia does not run away.
-  std::vector<char> heavy(x_.size(), 0);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  std::vector<char> heavy(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
   }
   for (const Branch& b : branches_) {
@@ -457,7 +463,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
     }
     released_.clear();
     if (search(d) == Outcome::unbounded) {
-      for (std::size_t k = 0; k < x_.size(); ++k) {
+      for (std::size_t k = 0; k < u_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));
       }
       return Outcome::unbounded;

@@ -10,6 +10,9 @@ namespace rheonet {
 ///
 ///     inertia_n (x_n - rest_n) + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
 ///
+/// Each x is kept as what it starts from and a change: the change of a heavy node may be far below the rounding of x, and its
+/// force not below that of other forces.
+///
 /// the minimum of a convex function, found by Newton's method on an active set with exact line search. A branch whose law
 /// jumps at 0 joins its ends while its force stays within the jump. x stands for velocities, or for displacements: see
 /// onset.cpp and jump.cpp.
@@ -24,8 +27,9 @@ class ConvexNetwork {
   };
 
   explicit ConvexNetwork(int nodes);
-  void fix(int node, double value);
-  void guess(int node, double value) { x_[at(node)] = value; }
+  /// The node is at value + change.
+  void fix(int node, double value, double change = 0);
+  void guess(int node, double value) { base_[at(node)] = value; }
   void load(int node, double applied) { applied_[at(node)] += applied; }
   void set_inertia(int node, double inertia, double rest);
   /// Returns the index of the branch.
@@ -38,7 +42,8 @@ class ConvexNetwork {
   };
   Outcome solve();
 
-  double value(int node) const { return x_[at(node)]; }
+  double value(int node) const { return base_[at(node)] + u_[at(node)]; }
+  double difference(int a, int b) const { return (base_[at(a)] - base_[at(b)]) + (u_[at(a)] - u_[at(b)]); }
   /// Of a branch, after `solve`.
   double force(int branch) const;
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound where others keep its ends together.
@@ -56,7 +61,8 @@ class ConvexNetwork {
     int side = 1;  ///< where it is free and w is 0
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  double difference(const Branch& b) const { return x_[at(b.a)] - x_[at(b.b)]; }
+  double difference(const Branch& b) const { return difference(b.a, b.b); }
+  void follow(int node, int head) { u_[at(node)] = (base_[at(head)] - base_[at(node)]) + u_[at(head)]; }
   double force(const Branch& b, double w, int side) const;
   double slope(const Branch& b, double w) const;
   double slope_along(const std::vector<double>& d, double step) const;
@@ -71,10 +77,12 @@ class ConvexNetwork {
   double power() const;
   void find_bond_forces();
 
-  std::vector<double> x_, inertia_, rest_, applied_;
+  std::vector<double> base_, u_;  ///< x = base + u; base is where inertia rests
+  std::vector<double> inertia_, applied_;
   std::vector<char> fixed_;
   std::vector<Branch> branches_;
   std::vector<int> cluster_;  ///< of each node: the cluster that sticking branches make
+  std::vector<int> head_;     ///< of each cluster: its fixed or heaviest node
   std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
   int columns_ = 0;
   std::vector<int> released_;  ///< at the last release, the worst first

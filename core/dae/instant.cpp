@@ -220,8 +220,8 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   drive_.evaluate(t + h);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
     // A difference of two near values says nothing; where the rate is 0 it is all there is.
-    problem.fix(slot(network_.motions[m].node),
-                acceleration[m] != 0 ? velocity[m] + h * acceleration[m] : drive_.velocity[m]);
+    problem.fix(slot(network_.motions[m].node), velocity[m],
+                acceleration[m] != 0 ? h * acceleration[m] : drive_.velocity[m] - velocity[m]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
     const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
@@ -313,7 +313,7 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       if (laws.batch->events(i) == 0 || contains(fired.starts, laws.first + static_cast<int>(i))) continue;
       const int j = laws.first + static_cast<int>(i);
       const Branch& b = network_.deflections[at(j)];
-      const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = va - vb;
+      const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = problem.difference(slot(b.a), slot(b.b));
       const int direction =
           std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
