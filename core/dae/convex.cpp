@@ -5,6 +5,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace rheonet {
 
@@ -45,17 +46,18 @@ class Sets {
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : base_(at(nodes), 0), u_(base_), inertia_(base_), applied_(base_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
+    : base_(at(nodes), 0), u_(base_), inertia_(base_), applied_(base_), fixed_(at(nodes), 0), cluster_(at(nodes)) {
+  std::iota(cluster_.begin(), cluster_.end(), 0);
+}
 
-void ConvexNetwork::fix(int node, double value, double change) {
+void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
-  base_[at(node)] = value;
   u_[at(node)] = change;
 }
 
-void ConvexNetwork::set_inertia(int node, double inertia, double rest) {
-  inertia_[at(node)] = inertia;
-  base_[at(node)] = rest;
+// The nodes of a cluster are together: rounding shall not part them.
+double ConvexNetwork::difference(int a, int b) const {
+  return cluster_[at(a)] == cluster_[at(b)] ? 0 : (base_[at(a)] - base_[at(b)]) + (u_[at(a)] - u_[at(b)]);
 }
 
 int ConvexNetwork::add(int a, int b, Law law) {
@@ -198,7 +200,8 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     add(b.b, -f);
     blur(b.a, b.law.rounding, 1);
     blur(b.b, b.law.rounding, 1);
-    const double size = std::abs(base_[at(b.a)] - base_[at(b.b)]) + std::abs(u_[at(b.a)]) + std::abs(u_[at(b.b)]);
+    const double apart = b.law.of_change ? 0 : std::abs(base_[at(b.a)] - base_[at(b.b)]);
+    const double size = apart + std::abs(u_[at(b.a)]) + std::abs(u_[at(b.b)]);
     for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), size);
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {

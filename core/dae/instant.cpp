@@ -195,10 +195,10 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
   return result;
 }
 
-// Over a short time h the network is, with velocities v at its end, forces counted from those at its beginning, and E, c the
-// slope and creep of a law in the direction of w,
+// Over a short time h the network is, with velocities v at its end, all forces counted from those at its beginning, and E, c
+// the slope and creep of a law in the direction of w,
 //
-//     (m/h) (v - v0) + sum of +-[ B w,  h E (w - c),  a slider's within its bounds ] = dF - what is unbalanced now
+//     (m/h) (v - v0) + sum of +-[ B (w - w0),  h E (w - c),  a slider's within its bounds ] = dF - what is unbalanced now
 //
 // Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level at which the velocity of
 // each slider lives.
@@ -206,21 +206,22 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
                                 std::vector<double>& force, Change& change) {
   const std::size_t nodes = structure_.kind.size();
   ConvexNetwork problem(static_cast<int>(nodes));
-  const Nodal now = nodal(state, force, false);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const int node = slot(static_cast<NodeId>(n));
-    problem.guess(node, state.velocity[n]);
-    if (structure_.kind[n] == Kind::massive) problem.set_inertia(node, structure_.mass[n] / h, state.velocity[n]);
-    if (std::abs(now.sum[n]) > balance_rounding * now.magnitude[n]) problem.load(node, -now.sum[n]);
-  }
-  problem.fix(slot(ground), 0);
   drive_.evaluate(t);
   const std::vector<double> velocity = drive_.velocity, acceleration = drive_.acceleration, load = drive_.force,
                             load_rate = drive_.force_rate;
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = velocity[m];
+  const Nodal now = nodal(state, force, true);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const int node = slot(static_cast<NodeId>(n));
+    problem.start(node, state.velocity[n]);
+    if (structure_.kind[n] == Kind::massive) problem.set_inertia(node, structure_.mass[n] / h);
+    if (std::abs(now.sum[n]) > balance_rounding * now.magnitude[n]) problem.load(node, -now.sum[n]);
+  }
+  problem.fix(slot(ground), 0);
   drive_.evaluate(t + h);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
     // A difference of two near values says nothing; where the rate is 0 it is all there is.
-    problem.fix(slot(network_.motions[m].node), velocity[m],
+    problem.fix(slot(network_.motions[m].node),
                 acceleration[m] != 0 ? h * acceleration[m] : drive_.velocity[m] - velocity[m]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
@@ -256,7 +257,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, now));
+      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], now));
     }
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
@@ -290,19 +291,22 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   return broken;
 }
 
-/// A law of velocity alone, and where it has no finite slope at rest one that leads away from there.
-ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, const Nodal& now) {
+/// What a law of velocity alone adds to its force at w0 when the velocity changes from there; where it has no finite slope,
+/// one that leads away.
+ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now) {
   const double impulse = batch.impulse(i);
-  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse};
+  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
   double scale = 0;
   for (double f : now.magnitude) scale = std::max(scale, f);
   if (scale == 0) scale = 1;
-  const double secant = scale / batch.velocity_at(i, scale);
-  return {.backward = secant, .forward = secant, .beyond = [&batch, i](double w, double& slope) {
-            const double f = batch.force_at(i, w);
-            // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
-            slope = f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
-            return f;
+  // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
+  const auto steeper = [&batch, i](double w, double f) { return f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f)); };
+  const double f0 = batch.force_at(i, w0), slope = w0 != 0 ? steeper(w0, f0) : scale / batch.velocity_at(i, scale);
+  return {.backward = slope, .forward = slope, .rounding = std::abs(f0), .of_change = true,
+          .beyond = [&batch, i, w0, f0, slope, steeper](double change, double& tangent) {
+            const double w = w0 + change, f = batch.force_at(i, w);
+            tangent = w != 0 ? steeper(w, f) : slope;
+            return f - f0;
           }};
 }
 

@@ -48,7 +48,7 @@ class Instant {
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
-  static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, const Nodal& now);
+  static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now);
   void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
                        const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
