@@ -5,7 +5,6 @@
 #include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace rheonet {
 
@@ -16,6 +15,7 @@ constexpr double balance_rounding = 1e-13;
 // What a step can still gain, of the power: the square of a rounding, as it is of second order.
 constexpr double power_rounding = 1e-24;
 constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon();
 // So many whole steps of Newton's method where all is linear: what is left is rounding.
 constexpr int enough_full_steps = 3;
 // Forces within a bound by this much of it are within.
@@ -46,18 +46,17 @@ class Sets {
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : base_(at(nodes), 0), u_(base_), inertia_(base_), applied_(base_), fixed_(at(nodes), 0), cluster_(at(nodes)) {
-  std::iota(cluster_.begin(), cluster_.end(), 0);
-}
+    : base_(at(nodes), 0), u_(base_), inertia_(base_), applied_(base_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
 
 void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
   u_[at(node)] = change;
 }
 
-// The nodes of a cluster are together: rounding shall not part them.
+// Nodes that are together, or were until a branch let go of them, shall not be parted by rounding.
 double ConvexNetwork::difference(int a, int b) const {
-  return cluster_[at(a)] == cluster_[at(b)] ? 0 : (base_[at(a)] - base_[at(b)]) + (u_[at(a)] - u_[at(b)]);
+  const double start = base_[at(a)] - base_[at(b)], w = start + (u_[at(a)] - u_[at(b)]);
+  return std::abs(w) <= difference_rounding * (std::abs(start) + std::abs(u_[at(a)]) + std::abs(u_[at(b)])) ? 0 : w;
 }
 
 int ConvexNetwork::add(int a, int b, Law law) {
