@@ -46,14 +46,24 @@ class Sets {
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : base_(at(nodes), 0), u_(base_), inertia_(base_), applied_(base_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
+    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
 
 void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
   u_[at(node)] = change;
 }
 
-// Nodes that are together, or were until a branch let go of them, shall not be parted by rounding.
+// Nodes that are together, or were until a branch let go of them, shall not be parted by rounding: what weighs nothing takes
+// both numbers of the node that it goes with.
+void ConvexNetwork::follow(int node, int head) {
+  if (fixed_[at(node)] || inertia_[at(node)] > 0) {
+    u_[at(node)] = (base_[at(head)] - base_[at(node)]) + u_[at(head)];
+  } else {
+    base_[at(node)] = base_[at(head)];
+    u_[at(node)] = u_[at(head)];
+  }
+}
+
 double ConvexNetwork::difference(int a, int b) const {
   const double start = base_[at(a)] - base_[at(b)], w = start + (u_[at(a)] - u_[at(b)]);
   return std::abs(w) <= difference_rounding * (std::abs(start) + std::abs(u_[at(a)]) + std::abs(u_[at(b)])) ? 0 : w;
@@ -318,7 +328,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   }
   move(step);
   for (Branch& b : branches_) {
-    if (const double w = difference(b); w != 0) b.side = w > 0 ? 1 : -1;
+    if (const double w = difference(b); w != 0 && d[at(b.a)] != d[at(b.b)]) b.side = w > 0 ? 1 : -1;
   }
   return Outcome::solved;
 }

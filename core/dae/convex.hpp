@@ -29,7 +29,7 @@ class ConvexNetwork {
 
   explicit ConvexNetwork(int nodes);
   /// What the node starts from: 0 unless said.
-  void start(int node, double value) { base_[at(node)] = value; }
+  void start(int node, double value) { origin_[at(node)] = base_[at(node)] = value; }
   /// The change of the node is given.
   void fix(int node, double change);
   void load(int node, double applied) { applied_[at(node)] += applied; }
@@ -64,9 +64,10 @@ class ConvexNetwork {
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   double difference(const Branch& b) const {
-    return b.law.of_change ? u_[at(b.a)] - u_[at(b.b)] : difference(b.a, b.b);
+    return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }
-  void follow(int node, int head) { u_[at(node)] = (base_[at(head)] - base_[at(node)]) + u_[at(head)]; }
+  double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }
+  void follow(int node, int head);
   double force(const Branch& b, double w, int side) const;
   double slope(const Branch& b, double w) const;
   double slope_along(const std::vector<double>& d, double step) const;
@@ -81,7 +82,8 @@ class ConvexNetwork {
   double power() const;
   void find_bond_forces();
 
-  std::vector<double> base_, u_;  ///< x = base + u
+  std::vector<double> origin_;    ///< what x starts from
+  std::vector<double> base_, u_;  ///< x = base + u; base is the origin of the node, or of the heavy one that it goes with
   std::vector<double> inertia_, applied_;
   std::vector<char> fixed_;
   std::vector<Branch> branches_;
