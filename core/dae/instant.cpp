@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/dae/convex.hpp"
 
@@ -233,8 +234,8 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   }
   drive_.evaluate(t);
 
-  std::vector<double> f(state.p.size()), c(f);
-  std::vector<int> deflection_branch(state.p.size()), slider_branch(network_.sliders.size());
+  std::vector<double> f(state.p.size()), c(f), at_rest(f);
+  std::vector<int> deflection_branch(state.p.size()), slider_branch(network_.sliders.size()), bound_side(slider_branch);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     const std::size_t k = at(laws.first);
     laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
@@ -246,9 +247,10 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       if (contains(fired.starts, static_cast<int>(k + i))) {
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
+      at_rest[k + i] = -h * laws.batch->slope(i, state.p[k + i], 0) * c[k + i];
       double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
       // What has stopped does not go on as before: again the event knows better.
-      if (contains(fired.turns, static_cast<int>(k + i)) && laws.batch->can_hold(i) && (massless(b.a) || massless(b.b))) {
+      if (contains(fired.turns, static_cast<int>(k + i)) && may_stand(static_cast<int>(k + i))) {
         (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
       }
       deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), {.low = low, .high = high, .backward = backward, .forward = forward});
@@ -270,6 +272,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       (force[k] > 0 ? law.high : law.low) = 0;
     }
     slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);
+    bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
   }
 
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
@@ -287,6 +290,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     modes.slider[k] = static_cast<signed char>(direction);
     const Slip& law = network_.sliders[k].law;
     if (direction != 0 && !broken_[k] && law.breakaway > law.coulomb) broken.push_back(static_cast<int>(k));
+  }
+  for (int k : let_slip(problem, deflection_branch, slider_branch, bound_side, at_rest, fired, modes, change)) {
+    if (!broken_[at(k)] && network_.sliders[at(k)].law.breakaway > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
   }
   return broken;
 }
@@ -321,7 +327,7 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       const int direction =
           std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
-        if (laws.batch->can_hold(i) && (massless(b.a) || massless(b.b))) {
+        if (may_stand(j)) {
           change.standing.push_back(j);
         } else if (!laws.batch->fits(i, 0)) {
           laws.batch->set_direction(i, state.p[at(j)], 0, 0);
@@ -332,6 +338,67 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       }
     }
   }
+}
+
+bool Instant::may_stand(int branch) const {
+  const Branch& b = network_.deflections[at(branch)];
+  if (!massless(b.a) && !massless(b.b)) return false;
+  const auto laws = std::find_if(network_.deflection_laws.begin(), network_.deflection_laws.end(), [&](const auto& l) {
+    return branch < l.first + static_cast<int>(l.batch->size());
+  });
+  return laws->batch->can_hold(at(branch - laws->first));
+}
+
+// Where a slider and friction that relaxes keep the same ends together, the slider is the sharper of the two: the friction
+// rests (s = 0) while the slider has force left. At its bound the slider can take no more, and the friction stands with a
+// mixture of rest and the slider's direction, until it would as well rest.
+std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of,
+                                   const std::vector<int>& slider_of, const std::vector<int>& side,
+                                   const std::vector<double>& at_rest, const Fired& fired, Modes& modes,
+                                   Change& change) const {
+  std::vector<int> slipping, candidates;
+  std::vector<NodeId> firm(structure_.kind.size());
+  std::iota(firm.begin(), firm.end(), 0);
+  const auto find = [&](NodeId node) {
+    while (firm[at(node)] != node) node = firm[at(node)];
+    return node;
+  };
+  for (std::size_t k = 0; k < slider_of.size(); ++k) {
+    if (problem.direction(slider_of[k]) != 0) continue;
+    const Branch& b = network_.sliders[k].branch;
+    if (side[k] != 0) {
+      candidates.push_back(static_cast<int>(k));
+    } else {
+      firm[at(find(b.a))] = find(b.b);
+    }
+  }
+  for (int k : candidates) {
+    const NodeId a = find(network_.sliders[at(k)].branch.a), b = find(network_.sliders[at(k)].branch.b);
+    if (a == b) continue;
+    double beyond_rest = 0;
+    bool eased = false;
+    for (int other : candidates) {
+      const NodeId from = find(network_.sliders[at(other)].branch.a), to = find(network_.sliders[at(other)].branch.b);
+      if (std::minmax(from, to) != std::minmax(a, b)) continue;
+      const int sign = from == a ? 1 : -1;
+      beyond_rest += sign * problem.force(slider_of[at(other)]);
+      eased = eased || sign * side[at(other)] != side[at(k)];  // that one has force left
+    }
+    std::vector<Leaning> beside;
+    for (int j : change.standing) {
+      const NodeId from = find(network_.deflections[at(j)].a), to = find(network_.deflections[at(j)].b);
+      if (std::minmax(from, to) != std::minmax(a, b)) continue;
+      const int sign = from == a ? 1 : -1;
+      beyond_rest += sign * (problem.force(branch_of[at(j)]) - at_rest[at(j)]);
+      beside.push_back({j, sign * side[at(k)]});
+      eased = eased || contains(fired.rests, j);
+    }
+    if (beside.empty() || eased || side[at(k)] * beyond_rest <= 0) continue;
+    modes.slider[at(k)] = static_cast<signed char>(side[at(k)]);
+    slipping.push_back(k);
+    change.leaning.insert(change.leaning.end(), beside.begin(), beside.end());
+  }
+  return slipping;
 }
 
 void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
