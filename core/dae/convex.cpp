@@ -18,6 +18,10 @@ constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon();
 // So many whole steps of Newton's method where all is linear: what is left is rounding.
 constexpr int enough_full_steps = 3;
+// Of the forces around: more than this that is left over where nothing has a slope any more will not be taken up.
+constexpr double flat_share = 1e-9;
+// So many rounds in which the descent does not fall to half: what is left is rounding.
+constexpr int most_stagnant = 20;
 // Forces within a bound by this much of it are within.
 constexpr double bound_rounding = 1e-12;
 // What decides among equals, relative to the smallest of the slopes that count.
@@ -444,18 +448,41 @@ bool ConvexNetwork::run_away() {
   return !runaways_.empty();
 }
 
+/// True if laws that come to a bound only in the limit have done so, and forces are left over.
+bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
+  std::vector<double> slopes(at(columns_), 0), forces(slopes);
+  for (const Branch& b : branches_) {
+    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
+    for (int node : {b.a, b.b}) {
+      const int column = column_[at(cluster_[at(node)])];
+      if (column < 0) continue;
+      slopes[at(column)] += slope(b, difference(b));
+      forces[at(column)] += std::abs(force(b, difference(b), b.side));
+    }
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const int column = column_[at(cluster_[k])];
+    if (column < 0) continue;
+    const bool free = inertia_[k] == 0 && slopes[at(column)] * std::abs(u_[k]) <= negligible * forces[at(column)];
+    if (free && std::abs(gradient[at(column)]) > flat_share * forces[at(column)]) runaways_.push_back(static_cast<int>(k));
+  }
+  return !runaways_.empty();
+}
+
 ConvexNetwork::Outcome ConvexNetwork::solve() {
   choose_weak();
   stick_at_first();
   released_.clear();
   std::vector<double> gradient, d;
   int idle = 0;  // rounds in a row that brought nothing
+  double least = std::numeric_limits<double>::infinity();  // descent since the last release
+  int stagnant = 0;
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
     bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
     if (!settled) {
-      if (!direction_of_descent(gradient, d)) return Outcome::undecided;
+      if (!direction_of_descent(gradient, d)) return flattened(gradient) ? Outcome::unbounded : Outcome::undecided;
       const double descent = slope_along(d, 0);
       if (!(descent < 0) && !released_.empty()) {
         // What was let go together holds itself back: then one at a time. If one alone does, it was rounding.
@@ -467,9 +494,13 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       }
       settled = !(descent < 0);
       idle = -descent <= power_rounding * power() ? idle + 1 : 0;
+      stagnant = -descent < least / 2 ? 0 : stagnant + 1;
+      least = std::min(least, -descent);
+      settled = settled || stagnant >= most_stagnant;
     }
     if (settled) {
-      full_steps_ = idle = 0;
+      full_steps_ = idle = stagnant = 0;
+      least = std::numeric_limits<double>::infinity();
       if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
       continue;
     }

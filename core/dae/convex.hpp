@@ -79,6 +79,7 @@ class ConvexNetwork {
   Outcome search(const std::vector<double>& d);
   bool release();
   bool run_away();
+  bool flattened(const std::vector<double>& gradient);
   double power() const;
   void find_bond_forces();
 
