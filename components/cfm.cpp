@@ -6,6 +6,7 @@
 namespace rheonet {
 namespace {
 
+constexpr double at_bound = 1e-12;
 constexpr double any = -std::numeric_limits<double>::infinity();
 
 // Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
@@ -100,6 +101,7 @@ struct Cfm : SolidFriction {
   }
   bool holds() const { return standing; }
   double slope_along(double p, int direction) const { return slope(force(p), direction).value; }
+  double release_slope(double p) const { return i == 0 && std::abs(force(p)) >= Fc * (1 - at_bound) ? sigma : 0; }
   bool constant() const { return held && !along_sigma; }
   double jump(double p, double jump) {
     if (jump == 0) return 0;

@@ -144,8 +144,15 @@ void ConvexNetwork::stick_at_first() {
     head[k] = static_cast<int>(k);
   }
   std::vector<char> fixed(fixed_);
-  for (Branch& b : branches_) {
-    if (!b.jumps) continue;
+  // One that must not go to one side at all comes before the others.
+  std::vector<Branch*> order;
+  for (const bool strict : {true, false}) {
+    for (Branch& b : branches_) {
+      if (b.jumps && (std::isinf(b.law.low) || std::isinf(b.law.high)) == strict) order.push_back(&b);
+    }
+  }
+  for (Branch* branch : order) {
+    Branch& b = *branch;
     const int sa = sets.find(b.a), sb = sets.find(b.b);
     const bool rigid = std::isinf(b.law.low) && std::isinf(b.law.high);
     if (const double w = difference(head[at(sa)], head[at(sb)]); !rigid && heavy[at(sa)] && heavy[at(sb)] && w != 0) {

@@ -243,8 +243,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       const Branch& b = network_.deflections[k + i];
       double forward = h * laws.batch->slope(i, state.p[k + i], 1);
       double backward = h * laws.batch->slope(i, state.p[k + i], -1);
-      // What stood still does so no longer: the event knows better than this first-order look at both its sides.
-      if (contains(fired.starts, static_cast<int>(k + i))) {
+      // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
+      // look at both sides.
+      if (contains(fired.starts, static_cast<int>(k + i)) || reversed(fired, static_cast<int>(k + i))) {
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
       at_rest[k + i] = -h * laws.batch->slope(i, state.p[k + i], 0) * c[k + i];
@@ -253,7 +254,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       if (contains(fired.turns, static_cast<int>(k + i)) && may_stand(static_cast<int>(k + i))) {
         (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
       }
-      deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), {.low = low, .high = high, .backward = backward, .forward = forward});
+      ConvexNetwork::Law law{.low = low, .high = high, .backward = backward, .forward = forward};
+      if (const double slope = h * laws.batch->release_slope(i, state.p[k + i]); slope > 0) law = released(law, slope, c[k + i]);
+      deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), law);
     }
   }
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
@@ -297,6 +300,23 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   return broken;
 }
 
+/// Friction at its bound, which it leaves with this slope where the velocity is below that of its creep, and keeps above.
+ConvexNetwork::Law Instant::released(ConvexNetwork::Law law, double slope, double creep) {
+  const double side = creep > 0 ? 1 : -1;
+  (side > 0 ? law.high : law.low) = -slope * creep;
+  (side > 0 ? law.forward : law.backward) = slope;
+  const ConvexNetwork::Law other = law;
+  law.beyond = [=](double w, double& tangent) {
+    if (w * side < 0) {
+      tangent = side > 0 ? other.backward : other.forward;
+      return (side > 0 ? other.low : other.high) + tangent * w;
+    }
+    tangent = std::abs(w) < std::abs(creep) ? slope : 0;
+    return side * slope * std::min(0.0, std::abs(w) - std::abs(creep));
+  };
+  return law;
+}
+
 /// What a law of velocity alone adds to its force at w0 when the velocity changes from there; where it has no finite slope,
 /// one that leads away.
 ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now) {
@@ -321,6 +341,7 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       if (laws.batch->events(i) == 0 || contains(fired.starts, laws.first + static_cast<int>(i))) continue;
+      if (reversed(fired, laws.first + static_cast<int>(i))) continue;
       const int j = laws.first + static_cast<int>(i);
       const Branch& b = network_.deflections[at(j)];
       const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = problem.difference(slot(b.a), slot(b.b));
@@ -338,6 +359,11 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       }
     }
   }
+}
+
+bool Instant::reversed(const Fired& fired, int branch) const {
+  const Branch& b = network_.deflections[at(branch)];
+  return contains(fired.turns, branch) && (massless(b.a) || massless(b.b)) && !may_stand(branch);
 }
 
 bool Instant::may_stand(int branch) const {

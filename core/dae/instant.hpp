@@ -52,12 +52,15 @@ class Instant {
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
+  static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now);
   /// Sliders that slip no way: what stands beside them takes up all that they cannot.
   std::vector<int> let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
                             const std::vector<int>& side, const std::vector<double>& at_rest, const Fired& fired,
                             Modes& modes, Change& change) const;
   bool may_stand(int branch) const;
+  /// A branch that cannot stand has turned.
+  bool reversed(const Fired& fired, int branch) const;
   void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
                        const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;

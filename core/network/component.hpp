@@ -76,6 +76,8 @@ class DeflectionBatch {
 
   /// Slope df/dp with which a motion in `direction` begins at deflection p; 0 for rest.
   virtual double slope(std::size_t i, double p, int direction) const = 0;
+  /// At its bound, where a deflection that grows no more lets the force leave it: the slope with which it does; else 0.
+  virtual double release_slope(std::size_t i, double p) const = 0;
   /// Force after the deflection has gone from p to p + step along the law, and its slope there. The memory stays.
   virtual double force_along(std::size_t i, double p, double step, double& slope) const = 0;
   /// The force does not depend on the deflection until an event: friction that has come to its bound.

@@ -92,6 +92,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
     if constexpr (requires { laws_[i].slope_along(p, direction); }) return laws_[i].slope_along(p, direction);
     return laws_[i].force(Dual(p, 1)).derivative;
   }
+  double release_slope(std::size_t i, double p) const override {
+    if constexpr (requires { laws_[i].release_slope(p); }) return laws_[i].release_slope(p);
+    return 0;
+  }
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     Law law = laws_[i];
     if (step != 0) law.set_direction(p, step, step < 0 ? -1 : 1);
