@@ -34,11 +34,12 @@ bool contains(const std::vector<int>& list, int x) { return std::find(list.begin
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
-    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0) {}
+    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), slipping_(network.sliders.size(), 0) {}
 
-double Instant::bound(std::size_t k) const {
+// What slips one way must come to rest, and break away, before it slips the other way.
+double Instant::bound(std::size_t k, int side) const {
   const Slip& law = network_.sliders[k].law;
-  return broken_[k] ? law.coulomb : law.breakaway;
+  return broken_[k] || slipping_[k] == side ? law.coulomb : law.breakaway;
 }
 
 Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
@@ -52,7 +53,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   change.heat += halt(fired.sliders, modes, state);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
-    broken_[k] = modes.slider[k] != Modes::stuck && !event;
+    broken_[k] = 0;
+    slipping_[k] = event ? 0 : modes.slider[k];
   }
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
   for (bool again = true; again;) {
@@ -267,9 +269,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    const double limit = bound(k);
-    ConvexNetwork::Law law{.low = -limit - force[k], .high = limit - force[k]};
+    ConvexNetwork::Law law{.low = -bound(k, -1) - force[k], .high = bound(k, 1) - force[k]};
     // At its bound the rate alone decides, not the rounding of the event.
+    const double limit = bound(k, force[k] > 0 ? 1 : -1);
     const bool at_bound = std::abs(std::abs(force[k]) - limit) <= balance_rounding * limit;
     if (modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || contains(fired.sliders, static_cast<int>(k)))) {
       (force[k] > 0 ? law.high : law.low) = 0;
@@ -292,10 +294,10 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     const int direction = problem.direction(slider_branch[k]);
     modes.slider[k] = static_cast<signed char>(direction);
     const Slip& law = network_.sliders[k].law;
-    if (direction != 0 && !broken_[k] && law.breakaway > law.coulomb) broken.push_back(static_cast<int>(k));
+    if (direction != 0 && bound(k, direction) > law.coulomb) broken.push_back(static_cast<int>(k));
   }
   for (int k : let_slip(problem, deflection_branch, slider_branch, bound_side, at_rest, fired, modes, change)) {
-    if (!broken_[at(k)] && network_.sliders[at(k)].law.breakaway > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
+    if (bound(at(k), modes.slider[at(k)]) > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
   }
   return broken;
 }

@@ -64,7 +64,7 @@ class Instant {
   void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
                        const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
-  double bound(std::size_t slider) const;
+  double bound(std::size_t slider, int side) const;
   bool massless(NodeId node) const {
     const Kind kind = structure_.kind[static_cast<std::size_t>(node)];
     return kind == Kind::viscous || kind == Kind::floating;
@@ -77,7 +77,8 @@ class Instant {
   const Structure& structure_;
   Drive& drive_;
   bool stepped_ = false;      ///< the forces of the sliders are those before a step of the drive
-  std::vector<char> broken_;  ///< of each slider: its bound is that of sliding
+  std::vector<char> broken_;           ///< of each slider: its bounds are those of sliding
+  std::vector<signed char> slipping_;  ///< the direction in which it slips already
 };
 
 }  // namespace rheonet
