@@ -6,6 +6,7 @@
 namespace rheonet {
 namespace {
 
+constexpr double at_bound = 1e-12;
 constexpr double any = -std::numeric_limits<double>::infinity();
 
 // Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
@@ -35,9 +36,9 @@ struct Cfm : SolidFriction {
       // Beyond what the two directions give, df/dt = -E f/B, the motion begins.
       Dual forward, backward;
       hold_rates(p, forward, backward);
-      const double margin = 1e-7 * (forward.value - backward.value);
-      g[0] = forward.value + margin - dp;
-      g[1] = dp - backward.value + margin;
+      const double margin = 1e-7 * (forward.value - backward.value), rest = -creep(force(p));
+      g[0] = (lean < 0 ? rest : forward.value) + margin - dp;
+      g[1] = dp - (lean > 0 ? rest : backward.value) + margin;
     } else if (s == 0) {
       g[0] = noise > 0 ? noise - std::abs(w) : 1;  // leaving rest
     } else {
@@ -47,7 +48,8 @@ struct Cfm : SolidFriction {
   }
   void switch_memory(int which, double p, double w) {
     if (standing) {
-      go(p, which == 0 ? 1 : -1);
+      const int direction = which == 0 ? 1 : -1;
+      lean == -direction ? rest(p) : go(p, direction);
     } else if (s == 0) {
       go(p, w < 0 ? -1 : 1);
     } else if (which == 0) {
@@ -87,13 +89,15 @@ struct Cfm : SolidFriction {
     forward = -slope(f, 1) * f / (sigma * B);
     backward = -slope(f, -1) * f / (sigma * B);
   }
-  bool hold(double p) {
-    rest(p);
+  bool hold(double p, int leaning) {
+    if (!standing) rest(p);
     standing = true;
+    lean = leaning;
     return true;
   }
   bool holds() const { return standing; }
   double slope_along(double p, int direction) const { return slope(force(p), direction).value; }
+  double release_slope(double p) const { return i == 0 && std::abs(force(p)) >= Fc * (1 - at_bound) ? sigma : 0; }
   bool constant() const { return held && !along_sigma; }
   double jump(double p, double jump) {
     if (jump == 0) return 0;
@@ -114,6 +118,7 @@ struct Cfm : SolidFriction {
  private:
   bool along_sigma = false;  // s = 0: df/dp = sigma
   bool standing = false;     // held at w = 0 by both directions
+  int lean = 0;              // or by one of them and a slider
 
   Dual slope(const Dual& f, double direction) const {
     const Dual u = 1 - direction / Fc * f;

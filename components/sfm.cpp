@@ -49,7 +49,7 @@ struct Sfm : SolidFriction {
   }
   static constexpr bool can_hold = false;
   void hold_rates(const Dual&, Dual&, Dual&) const {}
-  bool hold(double) { return false; }
+  bool hold(double, int) { return false; }
   bool holds() const { return false; }
   double dissipated_power(double p, double, double w) const { return heating(p, w); }
 };

@@ -30,11 +30,12 @@ void Dae::find_bundles() {
   }
 }
 
-void Dae::hold_bundle(int branch) {
+void Dae::hold_bundle(int branch, int lean) {
+  const NodeId first = structure_->deflections[at(branch)].a;
   const auto hold = [&](int j) {
     std::size_t i = 0;
     DeflectionBatch& batch = batch_of(j, i);
-    if (!batch.holds(i)) batch.hold(i, view_.p[at(j)]);
+    batch.hold(i, view_.p[at(j)], structure_->deflections[at(j)].a == first ? lean : -lean);
   };
   hold(branch);
   for (const Bundle& bundle : bundles_) {

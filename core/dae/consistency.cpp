@@ -20,6 +20,7 @@ constexpr double balance_rounding = 1e-14;
 // What Newton's method may leave where it gets no further.
 constexpr double loose_balance = 1e-10;
 constexpr int most_whole_steps = 20;
+constexpr int most_idle = 3;  // of them in a row that do not halve what is left
 // Of the velocities that there are: less is nothing.
 constexpr double velocity_rounding = 1e-14;
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
@@ -251,7 +252,9 @@ void Consistency::project(double t, std::vector<double>& y) {
     y = trial;
     return;
   }
+  std::vector<double> best = y;
   double least = std::numeric_limits<double>::infinity();
+  int idle = 0;
   for (int iteration = 0; iteration < most_whole_steps; ++iteration) {
     factorise(t, y);
     if (within_rounding(y)) return finish();
@@ -259,13 +262,17 @@ void Consistency::project(double t, std::vector<double>& y) {
     for (std::size_t i = 0; i < n; ++i) {
       if (!dae_.differential(static_cast<int>(i)) && defect[i] != 0) error = std::max(error, std::abs(defect[i]) / r1_[i]);
     }
-    if (!(error < least / 2)) {
+    // One balance may have got so small that its own rounding shows, while another gains much.
+    idle = error < least / 2 ? 0 : idle + 1;
+    if (error < least) {
+      least = error;
+      best = y;
+    }
+    if (idle == most_idle || !std::isfinite(error)) {
       if (!(least <= loose_balance)) break;
-      y = trial;
+      y = best;
       return finish();
     }
-    least = error;
-    trial = y;
     for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
     solve(change);
     for (std::size_t i = 0; i < n; ++i) y[i] += change[i];

@@ -15,8 +15,13 @@ constexpr double balance_rounding = 1e-13;
 // What a step can still gain, of the power: the square of a rounding, as it is of second order.
 constexpr double power_rounding = 1e-24;
 constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
+constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon();
 // So many whole steps of Newton's method where all is linear: what is left is rounding.
 constexpr int enough_full_steps = 3;
+// Of the forces around: more than this that is left over where nothing has a slope any more will not be taken up.
+constexpr double flat_share = 1e-9;
+// So many rounds in which the descent does not fall to half: what is left is rounding.
+constexpr int most_stagnant = 20;
 // Forces within a bound by this much of it are within.
 constexpr double bound_rounding = 1e-12;
 // What decides among equals, relative to the smallest of the slopes that count.
@@ -45,16 +50,27 @@ class Sets {
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : x_(at(nodes), 0), inertia_(x_), rest_(x_), applied_(x_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
+    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
 
-void ConvexNetwork::fix(int node, double value) {
+void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
-  x_[at(node)] = value;
+  u_[at(node)] = change;
 }
 
-void ConvexNetwork::set_inertia(int node, double inertia, double rest) {
-  inertia_[at(node)] = inertia;
-  rest_[at(node)] = x_[at(node)] = rest;
+// Nodes that are together, or were until a branch let go of them, shall not be parted by rounding: what weighs nothing takes
+// both numbers of the node that it goes with.
+void ConvexNetwork::follow(int node, int head) {
+  if (fixed_[at(node)] || inertia_[at(node)] > 0) {
+    u_[at(node)] = (base_[at(head)] - base_[at(node)]) + u_[at(head)];
+  } else {
+    base_[at(node)] = base_[at(head)];
+    u_[at(node)] = u_[at(head)];
+  }
+}
+
+double ConvexNetwork::difference(int a, int b) const {
+  const double start = base_[at(a)] - base_[at(b)], w = start + (u_[at(a)] - u_[at(b)]);
+  return std::abs(w) <= difference_rounding * (std::abs(start) + std::abs(u_[at(a)]) + std::abs(u_[at(b)])) ? 0 : w;
 }
 
 int ConvexNetwork::add(int a, int b, Law law) {
@@ -96,11 +112,11 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
 
 void ConvexNetwork::choose_weak() {
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> least(x_.size(), none);  // slope around each node
+  std::vector<double> least(u_.size(), none);  // slope around each node
   double farthest = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     if (inertia_[k] > 0) least[k] = inertia_[k];
-    farthest = std::max(farthest, std::abs(x_[k]));
+    farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
     const double slope = std::max(b.law.forward, b.law.backward);
@@ -119,53 +135,64 @@ void ConvexNetwork::choose_weak() {
 
 /// Everything that moves alike at first sticks; massless nodes go with what they can stick to.
 void ConvexNetwork::stick_at_first() {
-  const std::size_t n = x_.size();
+  const std::size_t n = u_.size();
   Sets sets(n);
   std::vector<char> heavy(n, 0);  // of each set: its value is given
-  for (std::size_t k = 0; k < n; ++k) heavy[k] = fixed_[k] || inertia_[k] > 0;
-  std::vector<double> value(x_);
+  std::vector<int> head(n);       // the node that gives it
+  for (std::size_t k = 0; k < n; ++k) {
+    heavy[k] = fixed_[k] || inertia_[k] > 0;
+    head[k] = static_cast<int>(k);
+  }
   std::vector<char> fixed(fixed_);
-  for (Branch& b : branches_) {
-    if (!b.jumps) continue;
+  // One that must not go to one side at all comes before the others.
+  std::vector<Branch*> order;
+  for (const bool strict : {true, false}) {
+    for (Branch& b : branches_) {
+      if (b.jumps && (std::isinf(b.law.low) || std::isinf(b.law.high)) == strict) order.push_back(&b);
+    }
+  }
+  for (Branch* branch : order) {
+    Branch& b = *branch;
     const int sa = sets.find(b.a), sb = sets.find(b.b);
     const bool rigid = std::isinf(b.law.low) && std::isinf(b.law.high);
-    if (!rigid && heavy[at(sa)] && heavy[at(sb)] && value[at(sa)] != value[at(sb)]) {
-      b.side = value[at(sa)] > value[at(sb)] ? 1 : -1;
+    if (const double w = difference(head[at(sa)], head[at(sb)]); !rigid && heavy[at(sa)] && heavy[at(sb)] && w != 0) {
+      b.side = w > 0 ? 1 : -1;
       continue;
     }
     b.stuck = true;
     if (sa == sb) continue;
     const bool given = heavy[at(sa)] || heavy[at(sb)];
     const bool first = fixed[at(sa)] || (!fixed[at(sb)] && heavy[at(sa)]);
-    const double common = value[at(first ? sa : sb)];
+    const int common = head[at(first ? sa : sb)];
     const bool firm = fixed[at(sa)] || fixed[at(sb)];
     sets.join(sa, sb);
     fixed[at(sets.find(sa))] = firm;
     heavy[at(sets.find(sa))] = given;
-    value[at(sets.find(sa))] = common;
+    head[at(sets.find(sa))] = common;
   }
-  for (std::size_t k = 0; k < n; ++k) x_[k] = value[at(sets.find(static_cast<int>(k)))];
+  for (std::size_t k = 0; k < n; ++k) follow(static_cast<int>(k), head[at(sets.find(static_cast<int>(k)))]);
 }
 
 /// Clusters of the nodes that sticking branches join, all at one value.
 void ConvexNetwork::merge() {
-  Sets sets(x_.size());
+  Sets sets(u_.size());
   for (const Branch& b : branches_) {
     if (b.stuck) sets.join(b.a, b.b);
   }
-  std::vector<double> weight(x_.size(), -1), value(x_.size(), 0);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  std::vector<double> weight(u_.size(), -1);
+  head_.assign(u_.size(), -1);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int set = cluster_[k] = sets.find(static_cast<int>(k));
     const double own = fixed_[k] ? std::numeric_limits<double>::infinity() : inertia_[k];
     if (own > weight[at(set)]) {
       weight[at(set)] = own;
-      value[at(set)] = x_[k];
+      head_[at(set)] = static_cast<int>(k);
     }
   }
-  column_.assign(x_.size(), -1);
+  column_.assign(u_.size(), -1);
   columns_ = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    x_[k] = value[at(cluster_[k])];
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    follow(static_cast<int>(k), head_[at(cluster_[k])]);
     int& column = column_[at(cluster_[k])];
     if (std::isfinite(weight[at(cluster_[k])]) && column < 0) column = columns_++;
   }
@@ -193,14 +220,16 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     add(b.b, -f);
     blur(b.a, b.law.rounding, 1);
     blur(b.b, b.law.rounding, 1);
-    for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
+    const double apart = b.law.of_change ? 0 : std::abs(base_[at(b.a)] - base_[at(b.b)]);
+    const double size = apart + std::abs(u_[at(b.a)]) + std::abs(u_[at(b.b)]);
+    for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), size);
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int node = static_cast<int>(k);
     add(node, -applied_[k]);
     if (inertia_[k] == 0) continue;
-    add(node, inertia_[k] * (x_[k] - rest_[k]));
-    blur(node, inertia_[k], x_[k]);
+    add(node, inertia_[k] * u_[k]);
+    blur(node, inertia_[k], u_[k]);
   }
   bool met = true;
   for (std::size_t c = 0; c < gradient.size(); ++c) met = met && std::abs(gradient[c]) <= rounding[c];
@@ -220,7 +249,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
       entries.emplace_back(c, a, -s);
     }
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];
     if (column >= 0 && inertia_[k] > 0) entries.emplace_back(column, column, inertia_[k]);
   }
@@ -230,8 +259,8 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
   if (factor.info() != Eigen::Success) return false;
   const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), columns_);
   const Eigen::VectorXd step = factor.solve(-g);
-  d.assign(x_.size(), 0);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  d.assign(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];
     if (column >= 0) d[k] = step[column];
     if (!std::isfinite(d[k])) return false;
@@ -250,8 +279,8 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
     if (std::abs(w) <= 4e-16 * std::abs(step * dw)) w = 0;
     sum += force(b, w, dw > 0 ? 1 : -1) * dw;
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    if (d[k] != 0) sum += (inertia_[k] * (x_[k] + step * d[k] - rest_[k]) - applied_[k]) * d[k];
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (d[k] != 0) sum += (inertia_[k] * (u_[k] + step * d[k]) - applied_[k]) * d[k];
   }
   return sum;
 }
@@ -272,7 +301,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
                                           [&](const Break& p) { return slope_along(d, p.step) < 0; });
   double low = first == breaks.begin() ? 0 : (first - 1)->step, high;
   const auto move = [&](double step) {
-    for (std::size_t k = 0; k < x_.size(); ++k) x_[k] += step * d[k];
+    for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += step * d[k];
   };
   if (linear && breaks.empty()) {
     move(1);
@@ -310,14 +339,14 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   }
   move(step);
   for (Branch& b : branches_) {
-    if (const double w = difference(b); w != 0) b.side = w > 0 ? 1 : -1;
+    if (const double w = difference(b); w != 0 && d[at(b.a)] != d[at(b.b)]) b.side = w > 0 ? 1 : -1;
   }
   return Outcome::solved;
 }
 
 /// Forces of least norm in the branches that stick: see bonds.cpp.
 void ConvexNetwork::find_bond_forces() {
-  std::vector<double> left(x_.size(), 0);
+  std::vector<double> left(u_.size(), 0);
   bond_force_.assign(branches_.size(), 0);
   for (const Branch& b : branches_) {
     if (b.stuck) continue;
@@ -325,12 +354,12 @@ void ConvexNetwork::find_bond_forces() {
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
-  std::vector<int> row(x_.size(), -1);
+  std::vector<int> row(u_.size(), -1);
   int rows = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    left[k] += inertia_[k] * (x_[k] - rest_[k]) - applied_[k];
-    // Phi is 0 at fixed nodes, and at one node of each other cluster.
-    const bool reference = column_[at(cluster_[k])] >= 0 && cluster_[k] == static_cast<int>(k);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    left[k] += inertia_[k] * u_[k] - applied_[k];
+    // Phi is 0 at fixed nodes, and at the heaviest node of each other cluster: what rounding leaves stays there.
+    const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
     if (!fixed_[k] && !reference) row[k] = rows++;
   }
   std::vector<Eigen::Triplet<double>> entries;
@@ -352,7 +381,7 @@ void ConvexNetwork::find_bond_forces() {
   for (int r = 0; r < rows; ++r) {
     if (!touched[at(r)]) entries.emplace_back(r, r, 1);
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
   if (rows > 0) {
@@ -395,8 +424,8 @@ double ConvexNetwork::power() const {
   for (const Branch& b : branches_) {
     if (const double w = difference(b); w != 0) sum += std::abs(force(b, w, b.side) * w);
   }
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    sum += std::abs(applied_[k] * x_[k]) + std::abs(inertia_[k] * (x_[k] - rest_[k]) * x_[k]);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    sum += (std::abs(applied_[k]) + std::abs(inertia_[k] * u_[k])) * std::abs(base_[k] + u_[k]);
   }
   return sum;
 }
@@ -404,8 +433,8 @@ double ConvexNetwork::power() const {
 /// True if only what decides among equals has held something back.
 bool ConvexNetwork::run_away() {
   double scale = 0;
-  for (std::size_t k = 0; k < x_.size(); ++k) {
-    scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * (x_[k] - rest_[k]))});
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
   }
   for (const Branch& b : branches_) {
     for (double f : {b.law.low, b.law.high, force(b, difference(b), b.side)}) {
@@ -413,8 +442,8 @@ bool ConvexNetwork::run_away() {
     }
   }
   // What has inertia does not run away.
-  std::vector<char> heavy(x_.size(), 0);
-  for (std::size_t k = 0; k < x_.size(); ++k) {
+  std::vector<char> heavy(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
     if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
   }
   for (const Branch& b : branches_) {
@@ -426,18 +455,41 @@ bool ConvexNetwork::run_away() {
   return !runaways_.empty();
 }
 
+/// True if laws that come to a bound only in the limit have done so, and forces are left over.
+bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
+  std::vector<double> slopes(at(columns_), 0), forces(slopes);
+  for (const Branch& b : branches_) {
+    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
+    for (int node : {b.a, b.b}) {
+      const int column = column_[at(cluster_[at(node)])];
+      if (column < 0) continue;
+      slopes[at(column)] += slope(b, difference(b));
+      forces[at(column)] += std::abs(force(b, difference(b), b.side));
+    }
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const int column = column_[at(cluster_[k])];
+    if (column < 0) continue;
+    const bool free = inertia_[k] == 0 && slopes[at(column)] * std::abs(u_[k]) <= negligible * forces[at(column)];
+    if (free && std::abs(gradient[at(column)]) > flat_share * forces[at(column)]) runaways_.push_back(static_cast<int>(k));
+  }
+  return !runaways_.empty();
+}
+
 ConvexNetwork::Outcome ConvexNetwork::solve() {
   choose_weak();
   stick_at_first();
   released_.clear();
   std::vector<double> gradient, d;
   int idle = 0;  // rounds in a row that brought nothing
+  double least = std::numeric_limits<double>::infinity();  // descent since the last release
+  int stagnant = 0;
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
     bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
     if (!settled) {
-      if (!direction_of_descent(gradient, d)) return Outcome::undecided;
+      if (!direction_of_descent(gradient, d)) return flattened(gradient) ? Outcome::unbounded : Outcome::undecided;
       const double descent = slope_along(d, 0);
       if (!(descent < 0) && !released_.empty()) {
         // What was let go together holds itself back: then one at a time. If one alone does, it was rounding.
@@ -449,15 +501,19 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       }
       settled = !(descent < 0);
       idle = -descent <= power_rounding * power() ? idle + 1 : 0;
+      stagnant = -descent < least / 2 ? 0 : stagnant + 1;
+      least = std::min(least, -descent);
+      settled = settled || stagnant >= most_stagnant;
     }
     if (settled) {
-      full_steps_ = idle = 0;
+      full_steps_ = idle = stagnant = 0;
+      least = std::numeric_limits<double>::infinity();
       if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
       continue;
     }
     released_.clear();
     if (search(d) == Outcome::unbounded) {
-      for (std::size_t k = 0; k < x_.size(); ++k) {
+      for (std::size_t k = 0; k < u_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));
       }
       return Outcome::unbounded;

@@ -8,7 +8,10 @@ namespace rheonet {
 
 /// A network of set-valued monotone laws, and the values x of its nodes at which everything balances:
 ///
-///     inertia_n (x_n - rest_n) + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
+///     inertia_n u_n + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
+///
+/// where u is the change of x from what it starts from. The change of a heavy node may be far below the rounding of x, and its
+/// force not below that of others: so they are kept apart.
 ///
 /// the minimum of a convex function, found by Newton's method on an active set with exact line search. A branch whose law
 /// jumps at 0 joins its ends while its force stays within the jump. x stands for velocities, or for displacements: see
@@ -19,15 +22,18 @@ class ConvexNetwork {
     double low = 0, high = 0;          ///< force at w = 0 lies between them
     double backward = 0, forward = 0;  ///< slopes for w < 0 and w > 0
     double rounding = 0;               ///< what the force is known to
+    bool of_change = false;            ///< w is the change alone, not counted from 0
     /// If given: force and slope for w != 0, in place of low + backward w and high + forward w.
     std::function<double(double w, double& slope)> beyond = {};
   };
 
   explicit ConvexNetwork(int nodes);
-  void fix(int node, double value);
-  void guess(int node, double value) { x_[at(node)] = value; }
+  /// What the node starts from: 0 unless said.
+  void start(int node, double value) { origin_[at(node)] = base_[at(node)] = value; }
+  /// The change of the node is given.
+  void fix(int node, double change);
   void load(int node, double applied) { applied_[at(node)] += applied; }
-  void set_inertia(int node, double inertia, double rest);
+  void set_inertia(int node, double inertia) { inertia_[at(node)] = inertia; }
   /// Returns the index of the branch.
   int add(int a, int b, Law law);
 
@@ -38,7 +44,8 @@ class ConvexNetwork {
   };
   Outcome solve();
 
-  double value(int node) const { return x_[at(node)]; }
+  double value(int node) const { return base_[at(node)] + u_[at(node)]; }
+  double difference(int a, int b) const;
   /// Of a branch, after `solve`.
   double force(int branch) const;
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound where others keep its ends together.
@@ -50,13 +57,17 @@ class ConvexNetwork {
   struct Branch {
     int a, b;
     Law law;
-    bool jumps;           ///< low < high
+    bool jumps;           ///< low < high; never a law of the change
     double weak = 0;      ///< slope that decides among equals, where there is no other
     bool stuck = false;
     int side = 1;  ///< where it is free and w is 0
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  double difference(const Branch& b) const { return x_[at(b.a)] - x_[at(b.b)]; }
+  double difference(const Branch& b) const {
+    return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
+  }
+  double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }
+  void follow(int node, int head);
   double force(const Branch& b, double w, int side) const;
   double slope(const Branch& b, double w) const;
   double slope_along(const std::vector<double>& d, double step) const;
@@ -68,13 +79,17 @@ class ConvexNetwork {
   Outcome search(const std::vector<double>& d);
   bool release();
   bool run_away();
+  bool flattened(const std::vector<double>& gradient);
   double power() const;
   void find_bond_forces();
 
-  std::vector<double> x_, inertia_, rest_, applied_;
+  std::vector<double> origin_;    ///< what x starts from
+  std::vector<double> base_, u_;  ///< x = base + u; base is the origin of the node, or of the heavy one that it goes with
+  std::vector<double> inertia_, applied_;
   std::vector<char> fixed_;
   std::vector<Branch> branches_;
   std::vector<int> cluster_;  ///< of each node: the cluster that sticking branches make
+  std::vector<int> head_;     ///< of each cluster: its fixed or heaviest node
   std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
   int columns_ = 0;
   std::vector<int> released_;  ///< at the last release, the worst first

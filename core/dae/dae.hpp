@@ -106,8 +106,9 @@ class Dae {
 
   /// To be called when a law has begun or ceased to hold its branch still (DeflectionBatch::holds).
   void update_holds();
-  /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends.
-  void hold_bundle(int branch);
+  /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends. `lean` as
+  /// for DeflectionBatch::hold.
+  void hold_bundle(int branch, int lean);
   /// All that are held still between the ends of this branch are let go as it has been: in the direction of its law.
   /// Returns them.
   std::vector<int> release_bundle(int branch, double w);

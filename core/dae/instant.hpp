@@ -17,16 +17,20 @@ class Instant {
   /// `classified` is the network's structure with every slider slipping. All must outlive this.
   Instant(const Network& network, const Structure& classified, Drive& drive);
 
+  /// A deflection branch that stands beside a slider whose bound lies to this side of the branch.
+  struct Leaning { int branch, side; };
   struct Change {
     double heat = 0;                 ///< turned into heat within the instant [J]
     std::vector<std::string> notes;  ///< impulses
     std::vector<int> standing;       ///< deflection branches that both directions hold at rest
+    std::vector<Leaning> leaning;    ///< those of them beside a slider at its bound
   };
   /// What has come to an event.
   struct Fired {
     std::vector<int> sliders;
     std::vector<int> starts;  ///< deflection branches that stood and begin to move in their law's direction
     std::vector<int> turns;   ///< deflection branches that have stopped: they stand, or go on in their law's direction
+    std::vector<int> rests;   ///< deflection branches that stood beside a slider at its bound, which sticks now
   };
   /// Takes the state over the instant t, just after Drive::enter if `stepped`, and finds the modes that hold from there on.
   /// `force` are the forces of the sliders before, `fired` those whose event it is; `horizon` is a time until something is
@@ -46,10 +50,19 @@ class Instant {
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
+  static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
+  static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now);
+  /// Sliders that slip no way: what stands beside them takes up all that they cannot.
+  std::vector<int> let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
+                            const std::vector<int>& side, const std::vector<double>& at_rest, const Fired& fired,
+                            Modes& modes, Change& change) const;
+  bool may_stand(int branch) const;
+  /// A branch that cannot stand has turned.
+  bool reversed(const Fired& fired, int branch) const;
   void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
                        const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
-  double bound(std::size_t slider) const;
+  double bound(std::size_t slider, int side) const;
   bool massless(NodeId node) const {
     const Kind kind = structure_.kind[static_cast<std::size_t>(node)];
     return kind == Kind::viscous || kind == Kind::floating;
@@ -62,7 +75,8 @@ class Instant {
   const Structure& structure_;
   Drive& drive_;
   bool stepped_ = false;      ///< the forces of the sliders are those before a step of the drive
-  std::vector<char> broken_;  ///< of each slider: its bound is that of sliding
+  std::vector<char> broken_;           ///< of each slider: its bounds are those of sliding
+  std::vector<signed char> slipping_;  ///< the direction in which it slips already
 };
 
 }  // namespace rheonet

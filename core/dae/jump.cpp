@@ -119,7 +119,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   const auto light = [&](const Branch& b) { return structure_.group[at(b.a)] >= 0 || structure_.group[at(b.b)] >= 0; };
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    needed = needed || (light(b) && std::abs(force[k]) > bound(k) * (1 + balance_rounding));
+    needed = needed || (light(b) && std::abs(force[k]) > bound(k, force[k] > 0 ? 1 : -1) * (1 + balance_rounding));
   }
   if (!needed) return false;
 
@@ -142,7 +142,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const NodeId a = node_of(network_.sliders[k].branch.a), b = node_of(network_.sliders[k].branch.b);
     if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
-    slider_branch[k] = problem.add(slot(a), slot(b), {.low = -bound(k) - force[k], .high = bound(k) - force[k]});
+    slider_branch[k] = problem.add(slot(a), slot(b), {.low = -bound(k, -1) - force[k], .high = bound(k, 1) - force[k]});
   }
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());

@@ -62,8 +62,9 @@ class DeflectionBatch {
   virtual bool fits(std::size_t i, double w) const = 0;
   /// Both directions drive the velocity back to 0: the branch stands still while its force follows from its neighbours
   /// (a sliding mode in the sense of Filippov). Its velocity is then 0 in place of p' + creep, until an event or
-  /// `set_direction`. False if the law does not know this.
-  virtual bool hold(std::size_t i, double p) = 0;
+  /// `set_direction`. False if the law does not know this. A slider beside it that is at its bound, in the direction
+  /// `lean` (0: there is none), sticks again as soon as the branch would as well rest: an event.
+  virtual bool hold(std::size_t i, double p, int lean) = 0;
   virtual bool holds(std::size_t i) const = 0;
   /// The direction that its memory stands for: -1, 1, or 0 for rest and laws that know none.
   virtual int direction(std::size_t i) const = 0;
@@ -72,8 +73,10 @@ class DeflectionBatch {
   /// While it is held: the rates p' that motion to either side would begin with; the true one lies between them.
   virtual void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const = 0;
 
-  /// Slope df/dp with which a motion in `direction` (-1 or 1) begins at deflection p.
+  /// Slope df/dp with which a motion in `direction` begins at deflection p; 0 for rest.
   virtual double slope(std::size_t i, double p, int direction) const = 0;
+  /// At its bound, where a deflection that grows no more lets the force leave it: the slope with which it does; else 0.
+  virtual double release_slope(std::size_t i, double p) const = 0;
   /// Force after the deflection has gone from p to p + step along the law, and its slope there. The memory stays.
   virtual double force_along(std::size_t i, double p, double step, double& slope) const = 0;
   /// The force does not depend on the deflection until an event: friction that has come to its bound.

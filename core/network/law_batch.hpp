@@ -34,7 +34,7 @@ struct MemorylessLaw {
   bool set_direction(double, double, int) { return false; }
   static constexpr bool can_hold = false;
   bool fits(double) const { return true; }
-  bool hold(double) { return false; }
+  bool hold(double, int) { return false; }
   bool holds() const { return false; }
   int direction() const { return 0; }
   void hold_rates(const Dual&, Dual&, Dual&) const {}
@@ -89,7 +89,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
     return laws_[i].set_direction(p, w, direction);
   }
   bool fits(std::size_t i, double w) const override { return laws_[i].fits(w); }
-  bool hold(std::size_t i, double p) override { return laws_[i].hold(p); }
+  bool hold(std::size_t i, double p, int lean) override { return laws_[i].hold(p, lean); }
   bool holds(std::size_t i) const override { return laws_[i].holds(); }
   int direction(std::size_t i) const override { return laws_[i].direction(); }
   bool can_hold(std::size_t) const override { return Law::can_hold; }
@@ -99,6 +99,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
   double slope(std::size_t i, double p, int direction) const override {
     if constexpr (requires { laws_[i].slope_along(p, direction); }) return laws_[i].slope_along(p, direction);
     return laws_[i].force(Dual(p, 1)).derivative;
+  }
+  double release_slope(std::size_t i, double p) const override {
+    if constexpr (requires { laws_[i].release_slope(p); }) return laws_[i].release_slope(p);
+    return 0;
   }
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     Law law = laws_[i];

@@ -30,6 +30,7 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
       for (int k = 0; k < laws.batch->events(i); ++k) events_.push_back({branch, k});
     }
   }
+  law_margin_.assign(events_.size(), 0);
   margin_.assign(structure.sliders.size(), 0);
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
     // What slips within a cluster is held at its bound by the others: it has no event of its own.
@@ -51,10 +52,12 @@ double NetworkEvents::slider_function(int k, const Dae::View& view) const {
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(margin_.begin(), margin_.end(), 0.0);
-  const Dae::View& view = dae_.view(t, y, yp);
-  for (int k : sliders_) {
-    if (const double g = slider_function(k, view); g <= 0) margin_[at(k)] = -g * (1 + force_rounding);
-  }
+  std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
+  at_begin_.resize(events_.size());
+  evaluate(t, y, yp, at_begin_.data());
+  const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) : 0; };
+  for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = margin(at_begin_[k]);
+  for (std::size_t i = 0; i < sliders_.size(); ++i) margin_[at(sliders_[i])] = margin(at_begin_[law_margin_.size() + i]);
 }
 
 bool NetworkEvents::sticks() const {
@@ -126,10 +129,11 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
     }
   }
   const Dae::View& view = dae_.view(t, y, yp);
+  const double* margin = law_margin_.data();
   for (const Watched& w : watched_) {
     const std::size_t j = at(w.branch);
     w.batch->event_functions(w.i, view.p[j], view.dp[j], view.flow[j], tolerances_.noise(w.branch), g);
-    g += w.batch->events(w.i);
+    for (int k = 0; k < w.batch->events(w.i); ++k) *g++ += *margin++;
   }
   for (int k : sliders_) *g++ = slider_function(k, view);
 }

@@ -55,6 +55,7 @@ class NetworkEvents final : public EventFunctions {
   std::vector<int> sliders_;
   std::vector<double> left_, middle_, right_;  ///< event functions of the sliders over a step
   std::vector<double> margin_;  ///< of each slider
+  std::vector<double> law_margin_, at_begin_;  ///< of each event of the laws; event functions
   std::vector<Which> events_;
 };
 

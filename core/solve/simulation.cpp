@@ -181,7 +181,7 @@ class Run {
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);
     yp_.assign(y_.size(), 0);
-    stand(t, change.standing);
+    stand(t, change);
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
     dae.view(t, y_.data(), yp_.data());
@@ -194,7 +194,8 @@ class Run {
 
   /// Branches that both directions hold at rest: between massless nodes their force follows from their neighbours. Where
   /// others hold the ends together already, they rest.
-  void stand(double t, const std::vector<int>& standing) {
+  void stand(double t, const Instant::Change& change) {
+    const std::vector<int>& standing = change.standing;
     if (standing.empty()) return;
     Dae& dae = system_->dae;
     const Structure& structure = system_->structure;
@@ -214,7 +215,9 @@ class Run {
       DeflectionBatch& batch = dae.batch_of(j, i);
       const bool together = a == b || (heavy(a) && heavy(b));
       if (!together && dae.view(t, y_.data(), yp_.data()).f[at(j)] != 0) {
-        dae.hold_bundle(j);
+        const auto lean = std::find_if(change.leaning.begin(), change.leaning.end(),
+                                       [&](const Instant::Leaning& one) { return one.branch == j; });
+        dae.hold_bundle(j, lean == change.leaning.end() ? 0 : lean->side);
         (heavy(a) ? leader[at(b)] : leader[at(a)]) = heavy(a) ? a : b;
       } else if (!batch.holds(i) || !bundled_with_held(j, standing)) {
         if (!batch.fits(i, 0)) batch.set_direction(i, state_.p[at(j)], 0, 0);
@@ -395,8 +398,9 @@ class Run {
       if (held) {
         const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
         switched.insert(switched.end(), released.begin(), released.end());
-        sudden.starts.push_back(branch);
-        sudden.starts.insert(sudden.starts.end(), released.begin(), released.end());
+        std::vector<int>& list = batch.direction(i) == 0 ? sudden.rests : sudden.starts;
+        list.push_back(branch);
+        list.insert(list.end(), released.begin(), released.end());
       }
     }
     cross(t, false, sudden);

@@ -15,7 +15,10 @@ void check_between(const std::string& toml, const Expectations& expected, const 
 
 /// Checks that the run has an event at each of `changes`, and none but at these and where the drive jumps (`drive`), to
 /// the accuracy times the run's length. The netlist is to ask for `output.events`.
-void check_events(const std::string& toml, const std::vector<double>& changes, const std::vector<double>& drive = {});
+/// Where `creeps` holds at an accuracy the exact motion is one that comes to rest in the limit only, with a velocity that the
+/// accuracy does not tell from none: there it may stop.
+void check_events(const std::string& toml, const std::vector<double>& changes, const std::vector<double>& drive = {},
+                  const std::function<bool(double t, double accuracy)>& creeps = {});
 
 /// Checks that a column has this value to the last bit in every row from `since` to `until`.
 void check_exactly(const Trajectory& rows, const std::string& column, double value, double since = 0,
