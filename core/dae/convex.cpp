@@ -487,6 +487,16 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
+    // Several may come together in one step.
+    for (bool met = true; met;) {
+      met = false;
+      for (Branch& b : branches_) {
+        if (!b.apart || b.stuck || difference(b) != 0) continue;
+        b.apart = false;
+        met = b.stuck = true;
+      }
+      if (met) merge();
+    }
     bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d)) return flattened(gradient) ? Outcome::unbounded : Outcome::undecided;
@@ -512,6 +522,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       continue;
     }
     released_.clear();
+    for (Branch& b : branches_) b.apart = b.jumps && !b.stuck && difference(b) != 0;
     if (search(d) == Outcome::unbounded) {
       for (std::size_t k = 0; k < u_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));
