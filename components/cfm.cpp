@@ -87,7 +87,8 @@ struct Cfm : SolidFriction {
     }
     return changed;
   }
-  static constexpr bool can_hold = true;
+  // Without shape both directions have the same slope, and nothing drives the velocity back to 0.
+  bool can_hold() const { return i > 0; }
   void hold_rates(const Dual& p, Dual& forward, Dual& backward) const {
     const Dual f = force(p);
     forward = -slope(f, 1) * f / (sigma * B);

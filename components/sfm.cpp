@@ -43,7 +43,7 @@ struct Sfm : SolidFriction {
     turn(p, direction);
     return true;
   }
-  static constexpr bool can_hold = false;
+  bool can_hold() const { return false; }
   void hold_rates(const Dual&, Dual&, Dual&) const {}
   bool hold(double, int) { return false; }
   bool holds() const { return false; }

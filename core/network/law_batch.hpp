@@ -29,7 +29,7 @@ struct MemorylessLaw {
   const char* switch_memory(int, double, double) { return ""; }
   double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
-  static constexpr bool can_hold = false;
+  bool can_hold() const { return false; }
   bool fits(double) const { return true; }
   bool hold(double, int) { return false; }
   bool holds() const { return false; }
@@ -84,7 +84,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
   bool hold(std::size_t i, double p, int lean) override { return laws_[i].hold(p, lean); }
   bool holds(std::size_t i) const override { return laws_[i].holds(); }
   int direction(std::size_t i) const override { return laws_[i].direction(); }
-  bool can_hold(std::size_t) const override { return Law::can_hold; }
+  bool can_hold(std::size_t i) const override { return laws_[i].can_hold(); }
   void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const override {
     laws_[i].hold_rates(p, forward, backward);
   }
