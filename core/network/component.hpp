@@ -94,8 +94,8 @@ class RateBatch {
   /// rest.
   virtual bool by_force(std::size_t i) const = 0;
   virtual void set_by_force(std::size_t i, bool by_force) = 0;
-  /// Below the velocity `w` element i may be taken as linear, where its slope would be infinite at rest: a mass that it
-  /// brings to rest could not be followed otherwise.
+  /// `w` is a velocity that nothing resolves: about as far element i may be taken as linear where its slope would be
+  /// infinite at rest. A mass that it brings to rest could not be followed otherwise.
   virtual void soften(std::size_t i, double w) = 0;
   /// Impulse that a displacement step of 1 at infinite rate needs: the damping of a linear dashpot, infinite or 0 for
   /// others.

@@ -29,13 +29,13 @@ class Recorder final : public Observer {
     // Only now is it known that the scene can be simulated at all.
     if (unknowns_ < 0) csv_.header(names_);
     unknowns_ = std::max(unknowns_, dae.unknowns());
-    energy_.attach(dae);
+    energy_.attach(dae, consistency);
     channels_.attach(dae, consistency);
     energy_.begin(t, y, yp, heat);
-    if (pending_event_) write(t, channels_.read(t, y, yp, true));
+    if (pending_event_) write(t, channels_.read(t, y, yp));
     pending_event_ = false;
     for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack(); ++next_) {
-      write(row_time(next_), channels_.read(t, y, yp, true));
+      write(row_time(next_), channels_.read(t, y, yp));
     }
   }
 
@@ -47,10 +47,10 @@ class Recorder final : public Observer {
       const double t = std::max(row_time(next_), integrator.previous_time());
       integrator.interpolate(t, 0, y_);
       integrator.interpolate(t, 1, yp_);
-      write(row_time(next_), channels_.read(t, y_, yp_, false));
+      write(row_time(next_), channels_.read(t, y_, yp_, rate(integrator)));
     }
     last_ = &integrator;
-    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), false);
+    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator));
   }
 
   void event(double t, int, const char*) override {
@@ -61,7 +61,7 @@ class Recorder final : public Observer {
 
   void end(double) override {
     for (; next_ <= scene_.output_intervals; ++next_) {
-      write(row_time(next_), channels_.read(last_->time(), last_->y(), last_->yp(), false));
+      write(row_time(next_), channels_.read(last_->time(), last_->y(), last_->yp(), rate(*last_)));
     }
   }
 
@@ -77,6 +77,8 @@ class Recorder final : public Observer {
   }
   /// An event this close to an output time is at it.
   double slack() const { return 1e-9 * scene_.output_every; }
+
+  static double rate(const Integrator& integrator) { return 1 / (integrator.time() - integrator.previous_time()); }
 
   void write(double t, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
