@@ -161,9 +161,9 @@ void Consistency::report_singular(double t) const {
     nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network.node_name(static_cast<NodeId>(n)));
   }
   throw SimulationError(
-      fmt::format("at t = {:.6g} s nothing determines the motion of a massless node (one of {}): every element there has "
+      fmt::format("{} nothing determines the motion of a massless node (one of {}): every element there has "
                   "come to a constant force; give the node a mass, a dashpot or a spring",
-                  t, nodes.empty() ? "none" : nodes));
+                  at_time(*network.scene, t), nodes.empty() ? "none" : nodes));
 }
 
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {

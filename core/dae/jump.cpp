@@ -81,9 +81,9 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
     if (structure.kind[at(b.a)] == Kind::massive) state.velocity[at(b.a)] -= damping[r] * step / structure.mass[at(b.a)];
     if (structure.kind[at(b.b)] == Kind::massive) state.velocity[at(b.b)] += damping[r] * step / structure.mass[at(b.b)];
     notes.push_back(fmt::format(
-        "at t = {:.6g} s a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which "
+        "{} a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which "
         "no row shows and the energy account leaves out",
-        t, network.name_of(b), step));
+        at_time(*network.scene, t), network.name_of(b), step));
   }
 }
 
@@ -146,7 +146,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
-    throw SimulationError(fmt::format("at t = {:.6g} s the forces at the massless nodes cannot be balanced", t));
+    throw SimulationError(at_time(*network_.scene, t) + " the forces at the massless nodes cannot be balanced");
   }
 
   const auto moved = [&](NodeId node) { return problem.value(slot(node_of(node))); };

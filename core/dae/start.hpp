@@ -13,6 +13,6 @@ struct Start {
 };
 
 /// From the start values of nodes and elements. Throws SimulationError for those that contradict each other.
-Start start(const Network& network, double t);
+Start start(const Network& network);
 
 }  // namespace rheonet

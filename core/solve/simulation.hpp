@@ -28,8 +28,7 @@ class Observer {
 };
 
 struct SimulationSettings {
-  double start = 0;
-  double stop = 1;
+  double stop = 1;  ///< s; the start is at 0
   double accuracy = 1e-6;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress;

@@ -273,6 +273,28 @@ TEST_CASE("start values that contradict each other are refused, with both named"
   CHECK(refusal(placed).find("node `a` cannot start at position 0.6: motion `drive` puts it at 0.7") == 0);
 }
 
+TEST_CASE("a given start position of a driven node is where it was before: it does not step from 0") {
+  constexpr double x0 = 0.71;
+  SceneBuilder b;
+  b.motion("drive", "end", "position", Signal(Signal::Sine{x0, 1.3, std::acos(-1.0) / 2, 0, 0}));
+  b.between("c", "dashpot", "end", "mass", {{"damping", B}});
+  b.between("k", "spring", "end", "mass", {{"stiffness", k}});
+  b.at("m", "mass", "mass", {{"mass", m}});
+  const Started stepped(b);
+  CHECK_EQ(stepped.velocity("mass"), exactly(B * x0 / m));
+  CHECK_EQ(stepped.jump.notes.size(), 1);
+  // In decimals, as a netlist has it: equal but for rounding.
+  for (const double given : {x0, x0 * (1 + 1e-13)}) {
+    b.start("end", given);
+    b.start("mass", x0);
+    const Started s(b);
+    CHECK_EQ(s.velocity("mass"), 0);
+    CHECK_EQ(s.position("end"), exactly(x0));
+    CHECK(std::abs(s.force("k")) < digits * k * x0);
+    CHECK(s.jump.notes.empty());
+  }
+}
+
 TEST_CASE("an initial displacement places a node that nothing else places") {
   SceneBuilder b;
   b.at("m", "mass", "a", {{"mass", m}});

@@ -104,7 +104,7 @@ ExitStatus check_scene(const Arguments& arguments) {
   try {
     for (const std::string& note : check(scene)) fmt::print("note: {}\n", note);
   } catch (const SimulationError& error) {
-    say("error: {}\n", error.what());
+    report(error, read.sources);
     return not_simulated;
   }
   fmt::print("{}: no mistake found ({}, {})\n", printable(arguments.scene),
