@@ -17,7 +17,7 @@ struct Dashpot {
 
   // Below n = 1 the slope df/dw is infinite at rest, but dw/df is not.
   bool by_force() const { return n < 1; }
-  double impulse() const { return n == 1 ? B : n < 1 ? 0 : std::numeric_limits<double>::infinity(); }
+  Growth growth() const { return {B, n}; }
 
   void soften(double w) {
     constexpr double share = 20;  // of what a step may be wrong by: 0.013 of the accuracy promised

@@ -114,7 +114,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
 ///     struct Law {
 ///       explicit Law(std::span<const double> values);
 ///       bool by_force() const;
-///       double impulse() const;
+///       Growth growth() const;
 ///       void soften(double w);                          // see RateBatch::soften
 ///       template <class T> T force(const T& w) const;   // f = force(w)
 ///       template <class T> T rate(const T& f) const;    // its inverse
@@ -134,7 +134,7 @@ class RateBatchOf final : public RateBatch {
   bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
   void set_by_force(std::size_t i, bool by_force) override { by_force_[i] = by_force; }
   void soften(std::size_t i, double w) override { laws_[i].soften(w); }
-  double impulse(std::size_t i) const override { return laws_[i].impulse(); }
+  Growth growth(std::size_t i) const override { return laws_[i].growth(); }
 
   void evaluate(const double* in, double* out) const override {
     for (std::size_t i = 0; i < laws_.size(); ++i) {

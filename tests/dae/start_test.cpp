@@ -159,17 +159,6 @@ TEST_CASE("massless nodes between dashpots go where the impulses balance") {
   CHECK_EQ(s.velocity("mid"), exactly(v));
 }
 
-TEST_CASE("power laws at a step: none below the linear one takes an impulse") {
-  SceneBuilder b;
-  b.motion("drive", "end", "position", step(dx));
-  b.between("thin", "dashpot", "end", "mass", {{"damping", B}, {"flow_index", 0.37}});
-  b.between("c2", "dashpot", "end", "mass", {{"damping", B2}});
-  b.at("m", "mass", "mass", {{"mass", m}});
-  b.start("mass", 0, 0.29);
-  const Started s(b);
-  CHECK_EQ(s.velocity("mass"), doctest::Approx(0.29 + B2 * dx / m).epsilon(1e-7));
-}
-
 TEST_CASE("a step of force stretches what floats at once, and accelerates what is heavy") {
   SceneBuilder b;
   b.force("push", "n1", step(F));
