@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/dae/start_balance.hpp"
 
 namespace rheonet {
 
@@ -67,7 +68,7 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
 
 }  // namespace
 
-Start start(const Network& network) {
+Start start(const Network& network, const Structure& classified) {
   const Scene& scene = *network.scene;
   const std::size_t nodes = scene.nodes.size();
   std::vector<double> x(nodes, 0);
@@ -105,7 +106,7 @@ Start start(const Network& network) {
   }
   follow_displacements(network, x, fixed);
 
-  Start result{.state = {}, .drive = Drive(network, 0, x)};
+  Start result{.state = {}, .drive = Drive(network, 0, x), .chosen = {}};
   State& state = result.state;
   state.position = x;
   state.velocity.assign(nodes, 0);
@@ -121,7 +122,32 @@ Start start(const Network& network) {
       state.offset.push_back(d - state.p.back());
     }
   }
+  result.chosen = balance_start(network, classified, fixed, state);
   return result;
+}
+
+StartWords describe_start(const Start& start, const Network& network, const Structure& classified,
+                          const std::vector<double>& velocity) {
+  StartWords words{.notes = {}, .chosen = start.chosen};
+  const Scene& scene = *network.scene;
+  for (std::size_t n = 1; n < scene.nodes.size(); ++n) {
+    const SceneNode& node = scene.nodes[n];
+    const bool floating = classified.kind[n] == Kind::floating;
+    if (!floating && classified.kind[n] != Kind::viscous) continue;
+    if (std::abs(velocity[n] - node.velocity) > scene.accuracy * std::abs(node.velocity)) {
+      words.notes.push_back(
+          fmt::format("node `{}` starts with a velocity of {:.6g} {}, not with the {:.6g} that is given: it has "
+                      "no mass, and the elements there decide",
+                      node.name, velocity[n], unit_of(Quantity::velocity, scene.domain), node.velocity));
+    }
+    const double x = start.state.position[n];
+    if (floating && std::isnan(node.position) && x != 0) {
+      words.chosen.push_back(
+          fmt::format("node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance", node.name,
+                      x, unit_of(Quantity::position, scene.domain)));
+    }
+  }
+  return words;
 }
 
 }  // namespace rheonet

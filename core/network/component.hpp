@@ -45,6 +45,8 @@ class DeflectionBatch {
   /// The deflection of element i at the start, when the relative displacement of its ends is d: a spring's follows from
   /// d, that of a law with a memory from its initial force.
   virtual double start(std::size_t i, double d) = 0;
+  /// The same where its neighbours demand an initial force of it; NaN if the law knows none.
+  virtual double start_with(std::size_t i, double force) = 0;
 
   /// How many event functions element i has (0 for laws without memory).
   virtual int events(std::size_t i) const = 0;

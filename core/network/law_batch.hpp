@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace rheonet {
 ///       template <class T> T force(const T& p) const;                // f = force(p)
 ///       template <class T> T creep(const T& f) const;                // p' = w - creep(f)
 ///       double start(double d);                                      // p at the start
+///       double start_with(double f);                                 // the same for a law with an initial force
 ///       double stored_energy(double p) const;
 ///       double dissipated_power(double p, double dp, double w) const;
 ///     };
@@ -69,6 +71,13 @@ class DeflectionBatchOf final : public DeflectionBatch {
 
   bool creeps(std::size_t) const override { return Law::creeping; }
   double start(std::size_t i, double d) override { return laws_[i].start(d); }
+  double start_with(std::size_t i, double force) override {
+    if constexpr (requires(Law law) { law.start_with(force); }) {
+      return laws_[i].start_with(force);
+    } else {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
   int events(std::size_t i) const override { return laws_[i].event_count(); }
   void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const override {
     laws_[i].event_functions(p, dp, w, noise, g);

@@ -172,15 +172,15 @@ class Blind final : public Observer {
 
 }  // namespace
 
-std::vector<std::string> check(const Scene& scene) {
+StartReport check(const Scene& scene) {
   const Network network = build_network(scene);
   Blind blind;
   const SimulationSettings settings{
       .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}};
   const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, blind);
-  std::vector<std::string> notes = network.notes;
-  notes.insert(notes.end(), statistics.notes.begin(), statistics.notes.end());
-  return notes;
+  StartReport report{.notes = network.notes, .chosen = statistics.chosen};
+  report.notes.insert(report.notes.end(), statistics.notes.begin(), statistics.notes.end());
+  return report;
 }
 
 }  // namespace rheonet

@@ -66,7 +66,7 @@ class Run {
         settings_(settings),
         observer_(observer),
         classified_(classify(network)),
-        begin_(start(network)),
+        begin_(start(network, classified_)),
         drive_(begin_.drive),
         state_(begin_.state),
         instant_(network, classified_, drive_),
@@ -113,6 +113,9 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
+    const StartWords words = describe_start(begin_, network_, classified_, system_->dae.view(0, y_.data(), yp_.data()).velocity);
+    statistics_.notes.insert(statistics_.notes.end(), words.notes.begin(), words.notes.end());
+    statistics_.chosen = words.chosen;
   }
 
   const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }

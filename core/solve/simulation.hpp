@@ -38,6 +38,7 @@ struct SimulationStatistics {
   Integrator::Statistics integrator;
   long events = 0;
   std::vector<std::string> notes;
+  std::vector<std::string> chosen;  ///< see StartReport
 };
 
 /// Integrates from start to stop. `needed` marks the nodes whose positions are asked for. Throws SimulationError, with the

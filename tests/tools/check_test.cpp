@@ -106,6 +106,31 @@ TEST_CASE("what is wrong with a network has its place in the netlist, and what w
   }
 }
 
+TEST_CASE("check -v lists what was not given and had to be chosen") {
+  const Folder folder;
+  folder.write("scene.toml", R"([elements]
+drive = { type = "motion", at = "a", velocity = 1 }
+v1 = { type = "vfm", between = ["a", "m"], damping = 2, stiffness = 10, f0 = 3 }
+v2 = { type = "vfm", between = ["n", "m"], damping = 2, stiffness = 10 }
+k = { type = "spring", between = ["n", "ground"], stiffness = 10 }
+[simulate]
+stop = 1
+)");
+  const Finished verbose = folder.shell("rheonet check -v scene.toml");
+  CHECK(verbose.status == 0);
+  CHECK(contains(verbose.out,
+                 "chosen at the start:\n"
+                 "  element `v2` starts with a force of -3 N: it has no f0, and has to balance what is given at node `m`\n"
+                 "  node `n` starts at position 0.3 m: it has no mass, and there the forces balance\n"));
+  CHECK_FALSE(contains(folder.shell("rheonet check scene.toml").out, "starts"));
+  const Finished noted = folder.shell("rheonet check scene.toml --set nodes.n.velocity=7");
+  CHECK(contains(noted.out, "note: node `n` starts with a velocity of "));
+  CHECK(contains(noted.out, ", not with the 7 that is given: it has no mass, and the elements there decide"));
+  const Finished refused = folder.shell("rheonet check scene.toml --set v2.f0=3");
+  CHECK(refused.status == 1);
+  CHECK(contains(refused.err, "scene.toml:3:1: error: the initial forces at node `m` do not balance"));
+}
+
 TEST_CASE("models are included from the library: the one named by RHEONET_LIBRARY, or the one that comes along") {
   const Folder folder;
   folder.write("scene.toml", R"(include = ["library/rheology.toml"]
