@@ -97,7 +97,8 @@ class Recorder final : public Observer {
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::isfinite(values[k])) continue;
       throw SimulationError(
-          fmt::format("{} `{}` has no finite value; check the elements around it", at_time(scene_, t), scene_.records[k].path));
+          fmt::format("{} `{}` has no finite value; check the elements around it", at_time(scene_, t),
+                      scene_.records[k].path));
     }
     csv_.row(t == length_ ? scene_.stop : scene_.start + t, values);
   }

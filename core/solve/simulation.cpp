@@ -113,7 +113,8 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
-    const StartWords words = describe_start(begin_, network_, classified_, system_->dae.view(0, y_.data(), yp_.data()).velocity);
+    const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
+    const StartWords words = describe_start(begin_, network_, classified_, view.velocity);
     statistics_.notes.insert(statistics_.notes.end(), words.notes.begin(), words.notes.end());
     statistics_.chosen = words.chosen;
   }
@@ -249,8 +250,8 @@ class Run {
         throw SimulationError(fmt::format(
             "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass "
             "or a dashpot, or apply less force",
-            at_time(*network_.scene, t), tie.nodes.size() > 1 ? "s" : "", nodes, elements, tie.elements.size() > 1 ? "are" : "is",
-            tie.elements.size() > 1 ? "they" : "it"));
+            at_time(*network_.scene, t), tie.nodes.size() > 1 ? "s" : "", nodes, elements,
+            tie.elements.size() > 1 ? "are" : "is", tie.elements.size() > 1 ? "they" : "it"));
       }
       std::string names;
       for (int e : tie.elements) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", element_name(e));

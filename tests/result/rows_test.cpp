@@ -85,7 +85,9 @@ TEST_CASE("a late start gives the same results: only the column of time is later
     CHECK_EQ(later.events, at_once.events);
     CHECK(at_once.events > 10);
     REQUIRE_EQ(then.time().size(), first.time().size());
-    for (std::size_t row = 0; row < first.time().size(); ++row) CHECK(std::abs(then.time()[row] - late - first.time()[row]) <= 2e-8);
+    for (std::size_t row = 0; row < first.time().size(); ++row) {
+      CHECK(std::abs(then.time()[row] - late - first.time()[row]) <= 2e-8);
+    }
     for (const std::string& name : first.header) {
       CAPTURE(name);
       if (name == "time") continue;

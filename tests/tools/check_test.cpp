@@ -90,7 +90,8 @@ TEST_CASE("what is wrong with a network has its place in the netlist, and what w
        "scene.toml:4:1: error: rigid link `link` joins nodes that are made to move at different velocities; leave it out"},
       {spring + inertia + "s = { type = \"slider\", between = [\"a\", \"ground\"], coulomb = 2, breakaway = 1 }\n",
        "scene.toml:4:1: error: element `s`: `breakaway` is less than `coulomb`"},
-      {inertia + "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3, d0 = 1 }\n[nodes]\na = { position = 2 }\n",
+      {inertia + "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3, d0 = 1 }\n"
+                 "[nodes]\na = { position = 2 }\n",
        "scene.toml:3:1: error: element `k` cannot start with the displacement d0 = 1"},
       {spring + "d = { type = \"motion\", at = \"a\", velocity = 1 }\n[nodes]\na = { velocity = 2 }\n",
        "scene.toml:5:1: error: node `a` cannot start with velocity 2: motion `d` gives it 1"},
