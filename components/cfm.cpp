@@ -28,6 +28,10 @@ struct Cfm : SolidFriction {
     return f / B;
   }
   double start(double) const { return 0; }
+  double start_with(double f) {
+    begin(0, f, 1);
+    return 0;
+  }
 
   int event_count() const { return 2; }
   void event_functions(double p, double dp, double w, double noise, double* g) const {

@@ -23,6 +23,10 @@ struct Sfm : SolidFriction {
     return T(0.0);
   }
   double start(double) const { return 0; }
+  double start_with(double f) {
+    begin(0, f, 1);
+    return 0;
+  }
 
   int event_count() const { return i < 1 ? 2 : 1; }
   void event_functions(double p, double, double w, double noise, double* g) const {

@@ -66,7 +66,7 @@ class Run {
         settings_(settings),
         observer_(observer),
         classified_(classify(network)),
-        begin_(start(network, settings.start)),
+        begin_(start(network, classified_)),
         drive_(begin_.drive),
         state_(begin_.state),
         instant_(network, classified_, drive_),
@@ -78,8 +78,8 @@ class Run {
   }
 
   SimulationStatistics go() {
-    double t = settings_.start;
-    cross(t, true, {});
+    double t = 0;
+    begin();
     while (t < settings_.stop) {
       t = stretch(t);
       const bool discontinuity = t >= drive_.next_break();
@@ -99,12 +99,26 @@ class Run {
 
   /// The start alone.
   SimulationStatistics check() {
-    cross(settings_.start, true, {});
+    begin();
     statistics_.integrator = statistics();
     return std::move(statistics_);
   }
 
  private:
+  void begin() {
+    try {
+      cross(0, true, {});
+    } catch (const SimulationError&) {
+      // Where nothing determines the motion of a node, however sliders stick, that is the reason.
+      analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
+      throw;
+    }
+    const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
+    const StartWords words = describe_start(begin_, network_, classified_, view.velocity);
+    statistics_.notes.insert(statistics_.notes.end(), words.notes.begin(), words.notes.end());
+    statistics_.chosen = words.chosen;
+  }
+
   const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
   const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
 
@@ -175,7 +189,7 @@ class Run {
     system_->consistency.derivative(t, y_, yp_);
     dae.view(t, y_.data(), yp_.data());
     check_ties(t);
-    if (t > settings_.start) {
+    if (t > 0) {
       for (int branch : change.turned) note_event(t, network_.deflections[at(branch)].element, "reversal");
       for (int k : change.switched) {
         note_event(t, network_.sliders[at(k)].branch.element, modes_.slider[at(k)] == Modes::stuck ? "stick" : "slip");
@@ -237,10 +251,10 @@ class Run {
         for (int e : tie.elements) elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", element_name(e));
         for (NodeId n : tie.nodes) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network_.node_name(n));
         throw SimulationError(fmt::format(
-            "at t = {:.9g} s nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the "
-            "node a mass or a dashpot, or apply less force",
-            t, tie.nodes.size() > 1 ? "s" : "", nodes, elements, tie.elements.size() > 1 ? "are" : "is",
-            tie.elements.size() > 1 ? "they" : "it"));
+            "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass "
+            "or a dashpot, or apply less force",
+            at_time(*network_.scene, t), tie.nodes.size() > 1 ? "s" : "", nodes, elements,
+            tie.elements.size() > 1 ? "are" : "is", tie.elements.size() > 1 ? "they" : "it"));
       }
       std::string names;
       for (int e : tie.elements) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", element_name(e));
@@ -269,7 +283,7 @@ class Run {
   double horizon(double t) const {
     double h = std::min(drive_.next_break(), settings_.stop) - t;
     if (const double omega = drive_.fastest(); omega > 0) h = std::min(h, 1 / omega);
-    return h > 0 ? h : settings_.stop - settings_.start;
+    return h > 0 ? h : settings_.stop;
   }
 
   void note_event(double t, int element, const char* what) {
@@ -297,7 +311,7 @@ class Run {
     double last = t;
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
-        throw SimulationError(fmt::format("interrupted at t = {:.6g} s", system_->integrator.time()));
+        throw SimulationError("interrupted " + at_time(*network_.scene, system_->integrator.time()));
       }
       Integrator::Outcome outcome = system_->integrator.step();
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
@@ -319,7 +333,7 @@ class Run {
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(),
                          system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data()));
       soften_laws();
-      if (settings_.progress) settings_.progress((t - settings_.start) / (settings_.stop - settings_.start));
+      if (settings_.progress) settings_.progress(t / settings_.stop);
       if (outcome == Integrator::Outcome::stop) {
         y_ = system_->integrator.y();
         return until;
@@ -328,15 +342,14 @@ class Run {
         shrink = 1;
         continue;
       }
-      chatter = t - last < chatter_share * (settings_.stop - settings_.start) ? chatter + 1 : 0;
+      chatter = t - last < chatter_share * settings_.stop ? chatter + 1 : 0;
       last = t;
       switch_memories(t);
       if (chatter > chatter_restarts) {
         throw SimulationError(
-            fmt::format("at t = {:.6g} s element `{}` changes its direction over and over without getting anywhere; a "
-                        "dashpot beside "
+            fmt::format("{} element `{}` changes its direction over and over without getting anywhere; a dashpot beside "
                         "it, a mass at its ends or a looser accuracy would end it",
-                        t, last_switched_));
+                        at_time(*network_.scene, t), last_switched_));
       }
       if (t >= until) return until;
       restart(t, until, shrink);
@@ -419,7 +432,7 @@ class Run {
     const double t = system_->integrator.time();
     const int worst = system_->integrator.worst_unknown();
     throw SimulationError(fmt::format(
-        "at t = {:.6g} s {} {}; check the values of the elements there, or ask for a looser accuracy", t,
+        "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
         worst < 0 ? "a quantity" : system_->dae.describe(worst),
         outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"
                                                  : "changes faster than double precision can follow at this accuracy"));

@@ -89,7 +89,8 @@ ExitStatus run_scene(const Arguments& arguments) {
   } catch (const SimulationError& error) {
     progress.erase();
     if (const int write_error = output->close(); write_error != 0) return cannot_write(*output, write_error);
-    say("error: {}\n  {}\n", error.what(), rows_kept(*output));
+    report(error, read.sources);
+    say("  {}\n", rows_kept(*output));
     return not_simulated;
   }
 }
