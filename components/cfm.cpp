@@ -28,6 +28,10 @@ struct Cfm : SolidFriction {
     return f / B;
   }
   double start(double) const { return 0; }
+  double start_with(double f) {
+    begin(0, f, 1);
+    return 0;
+  }
 
   int event_count() const { return 2; }
   void event_functions(double p, double dp, double w, double noise, double* g) const {
@@ -83,7 +87,8 @@ struct Cfm : SolidFriction {
     if (direction == 0) rest(p);
     return p;
   }
-  static constexpr bool can_hold = true;
+  // Without shape both directions have the same slope, and nothing drives the velocity back to 0.
+  bool can_hold() const { return i > 0; }
   void hold_rates(const Dual& p, Dual& forward, Dual& backward) const {
     const Dual f = force(p);
     forward = -slope(f, 1) * f / (sigma * B);

@@ -23,6 +23,10 @@ struct Sfm : SolidFriction {
     return T(0.0);
   }
   double start(double) const { return 0; }
+  double start_with(double f) {
+    begin(0, f, 1);
+    return 0;
+  }
 
   int event_count() const { return i < 1 ? 2 : 1; }
   void event_functions(double p, double, double w, double noise, double* g) const {
@@ -47,7 +51,7 @@ struct Sfm : SolidFriction {
     begin(p, f, direction);
     return p;
   }
-  static constexpr bool can_hold = false;
+  bool can_hold() const { return false; }
   void hold_rates(const Dual&, Dual&, Dual&) const {}
   bool hold(double, int) { return false; }
   bool holds() const { return false; }

@@ -17,7 +17,8 @@ struct Spring : MemorylessLaw {
   T force(const T& p) const {
     return k * p;
   }
-  double start(double d) const { return std::isnan(preload) ? d - rest : preload / k; }
+  double start(double d) const { return std::isnan(preload) ? d - rest : start_with(preload); }
+  double start_with(double f) const { return f / k; }
   double stored_energy(double p) const { return k * p * p / 2; }
   double dissipated_power(double, double, double) const { return 0; }
 };

@@ -23,7 +23,8 @@ struct Vfm : MemorylessLaw {
   T creep(const T& f) const {
     return f / B;
   }
-  double start(double) const { return f0 / sigma; }
+  double start(double) const { return start_with(f0); }
+  double start_with(double f) const { return f / sigma; }
   DeflectionBatch::Steady steady() const { return {0, B, std::numeric_limits<double>::infinity()}; }
   double settle(double, double f, int) const { return f / sigma; }
   double stored_energy(double p) const { return sigma * p * p / 2; }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace rheonet {
 
@@ -62,11 +63,15 @@ Consistency::Consistency(Dae& dae) : dae_(dae), factor_(std::make_unique<Factor>
 
 Consistency::~Consistency() = default;
 
-/// Rows hold newtons or metres a second: each is divided by its largest entry, so that pivots can be compared.
 void Consistency::factorise(double t, const std::vector<double>& y) {
+  dae_.consistency_matrix(t, y.data(), values_.data());
+  decompose(t);
+}
+
+/// Rows hold newtons or metres a second: each is divided by its largest entry, so that pivots can be compared.
+void Consistency::decompose(double t) {
   const Pattern& pattern = dae_.pattern();
   const int n = dae_.size();
-  dae_.consistency_matrix(t, y.data(), values_.data());
   Factor& f = *factor_;
   f.row_scale.setZero();
   for (std::size_t e = 0; e < values_.size(); ++e) {
@@ -118,6 +123,32 @@ void Consistency::solve(std::vector<double>& b) {
   }
 }
 
+void Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
+  constexpr int most_iterations = 30;  // a law with a corner takes some more than a smooth one
+  const std::size_t n = y.size();
+  std::vector<double> change(n), scale(n, 0);
+  double last = 0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    dae_.jacobian(t, rate, y.data(), yp.data(), values_.data());
+    decompose(t);
+    dae_.residual(t, y.data(), yp.data(), r0_.data());
+    for (std::size_t i = 0; i < n; ++i) change[i] = -r0_[i];
+    solve(change);
+    double size = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      scale[i] = std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
+      if (scale[i] > 0) size = std::max(size, std::abs(change[i]) / scale[i]);
+    }
+    const double damping = iteration > 0 && size > 0.9 * last ? 0.5 : 1;
+    last = size;
+    for (std::size_t i = 0; i < n; ++i) {
+      y[i] += damping * change[i];
+      yp[i] += damping * rate * change[i];
+    }
+    if (size <= 4 * std::numeric_limits<double>::epsilon()) return;
+  }
+}
+
 void Consistency::report_singular(double t) const {
   const Network& network = dae_.network();
   const Structure& structure = dae_.structure();
@@ -131,9 +162,9 @@ void Consistency::report_singular(double t) const {
     nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network.node_name(static_cast<NodeId>(n)));
   }
   throw SimulationError(
-      fmt::format("at t = {:.6g} s nothing determines the motion of a massless node (one of {}): every element there has "
+      fmt::format("{} nothing determines the motion of a massless node (one of {}): every element there has "
                   "come to a constant force; give the node a mass, a dashpot or a spring",
-                  t, nodes.empty() ? "none" : nodes));
+                  at_time(*network.scene, t), nodes.empty() ? "none" : nodes));
 }
 
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {

@@ -18,6 +18,11 @@ class Consistency {
   /// Solves the algebraic equations; integrals keep their values. Throws SimulationError.
   void project(double t, std::vector<double>& y);
 
+  /// Brings a state between two steps of the integrator, which is exact to its tolerance only, onto the equations:
+  /// F(t, y, y') = 0 with y' changed by `rate` times the change of y (the inverse of the step). What a steep law makes of
+  /// a velocity within the tolerance would else be no force at all.
+  void collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp);
+
   /// y' of every unknown, algebraic ones too, from the equations and their derivatives in time. Throws SimulationError.
   void derivative(double t, const std::vector<double>& y, std::vector<double>& yp);
 
@@ -32,6 +37,7 @@ class Consistency {
  private:
   struct Factor;
   void factorise(double t, const std::vector<double>& y);
+  void decompose(double t);
   void solve(std::vector<double>& b);
   [[noreturn]] void report_singular(double t) const;
 

@@ -20,8 +20,8 @@ constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon(
 constexpr int enough_full_steps = 3;
 // Of the forces around: more than this that is left over where nothing has a slope any more will not be taken up.
 constexpr double flat_share = 1e-9;
-// So many rounds in which the descent does not fall to half: what is left is rounding.
-constexpr int most_stagnant = 20;
+// So many rounds in which what is left does not fall to half: it is rounding, or more than the laws can take.
+constexpr int most_stagnant = 60;
 // Forces within a bound by this much of it are within.
 constexpr double bound_rounding = 1e-12;
 // What decides among equals, relative to the smallest of the slopes that count.
@@ -457,21 +457,25 @@ bool ConvexNetwork::run_away() {
 
 /// True if laws that come to a bound only in the limit have done so, and forces are left over.
 bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
-  std::vector<double> slopes(at(columns_), 0), forces(slopes);
+  // What is left when the flat ones are cut: parts of the network that only bounds hold.
+  Sets parts(u_.size());
   for (const Branch& b : branches_) {
-    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
-    for (int node : {b.a, b.b}) {
-      const int column = column_[at(cluster_[at(node)])];
-      if (column < 0) continue;
-      slopes[at(column)] += slope(b, difference(b));
-      forces[at(column)] += std::abs(force(b, difference(b), b.side));
+    const double w = difference(b);
+    if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > flat_share * std::abs(force(b, w, b.side)) || w == 0) {
+      parts.join(b.a, b.b);
     }
   }
+  std::vector<double> left(u_.size(), 0), forces(left);
+  std::vector<char> held(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (fixed_[k] || inertia_[k] > 0) held[at(parts.find(static_cast<int>(k)))] = 1;
+    forces[at(parts.find(static_cast<int>(k)))] += std::abs(applied_[k]);
     const int column = column_[at(cluster_[k])];
-    if (column < 0) continue;
-    const bool free = inertia_[k] == 0 && slopes[at(column)] * std::abs(u_[k]) <= negligible * forces[at(column)];
-    if (free && std::abs(gradient[at(column)]) > flat_share * forces[at(column)]) runaways_.push_back(static_cast<int>(k));
+    if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += gradient[at(column)];
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const std::size_t part = at(parts.find(static_cast<int>(k)));
+    if (!held[part] && std::abs(left[part]) > flat_share * forces[part]) runaways_.push_back(static_cast<int>(k));
   }
   return !runaways_.empty();
 }
@@ -482,11 +486,21 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   released_.clear();
   std::vector<double> gradient, d;
   int idle = 0;  // rounds in a row that brought nothing
-  double least = std::numeric_limits<double>::infinity();  // descent since the last release
+  double least = std::numeric_limits<double>::infinity();  // of what was left, since the last release
   int stagnant = 0;
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
+    // Several may come together in one step.
+    for (bool met = true; met;) {
+      met = false;
+      for (Branch& b : branches_) {
+        if (!b.apart || b.stuck || difference(b) != 0) continue;
+        b.apart = false;
+        met = b.stuck = true;
+      }
+      if (met) merge();
+    }
     bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d)) return flattened(gradient) ? Outcome::unbounded : Outcome::undecided;
@@ -501,9 +515,14 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       }
       settled = !(descent < 0);
       idle = -descent <= power_rounding * power() ? idle + 1 : 0;
-      stagnant = -descent < least / 2 ? 0 : stagnant + 1;
-      least = std::min(least, -descent);
-      settled = settled || stagnant >= most_stagnant;
+      double left = 0;
+      for (double g : gradient) left = std::max(left, std::abs(g));
+      stagnant = left < least / 2 ? 0 : stagnant + 1;
+      least = std::min(least, left);
+      if (stagnant >= most_stagnant) {
+        if (flattened(gradient)) return Outcome::unbounded;
+        settled = true;
+      }
     }
     if (settled) {
       full_steps_ = idle = stagnant = 0;
@@ -512,6 +531,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       continue;
     }
     released_.clear();
+    for (Branch& b : branches_) b.apart = b.jumps && !b.stuck && difference(b) != 0;
     if (search(d) == Outcome::unbounded) {
       for (std::size_t k = 0; k < u_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));

@@ -60,6 +60,7 @@ class ConvexNetwork {
     bool jumps;           ///< low < high; never a law of the change
     double weak = 0;      ///< slope that decides among equals, where there is no other
     bool stuck = false;
+    bool apart = false;  ///< before the last step
     int side = 1;  ///< where it is free and w is 0
   };
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }

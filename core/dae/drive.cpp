@@ -10,7 +10,7 @@ Drive::Drive(const Network& network, double start, const std::vector<double>& po
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
     motion.anchor_time = start;
-    motion.anchor = m.position ? m.signal.before(start) : positions[static_cast<std::size_t>(m.node)];
+    motion.anchor = positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests where it was before the run.
     motion.piece.level = m.position ? motion.anchor : 0;
     motions_.push_back(std::move(motion));

@@ -13,7 +13,7 @@ namespace rheonet {
 /// signal that holds now.
 class Drive {
  public:
-  /// Positions of velocity-driven nodes start from `positions` (one for each node of the scene).
+  /// Before the run nodes are at `positions` (one for each node of the scene).
   Drive(const Network& network, double start, const std::vector<double>& positions);
 
   /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.

@@ -141,8 +141,11 @@ double Instant::halt(const std::vector<int>& events, const Modes& modes, State& 
         const double given = structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
         const Slip& law = network_.sliders[at(k)].law;
         if (!std::isnan(known) && given != known && std::isinf(law.breakaway)) {
-          throw SimulationError(fmt::format("rigid link `{}` joins nodes that are made to move at different velocities",
-                                            network_.name_of(network_.sliders[at(k)].branch)));
+          const Branch& link = network_.sliders[at(k)].branch;
+          throw SimulationError(network_.spot_of(link.element),
+                                fmt::format("rigid link `{}` joins nodes that are made to move at different velocities; "
+                                            "leave it out, or one of the motions",
+                                            network_.name_of(link)));
         }
         known = given;
       }
@@ -279,7 +282,8 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
     throw SimulationError(fmt::format(
-        "at t = {:.6g} s it cannot be decided which sliders begin to slip: the forces on them differ by rounding only", t));
+        "{} it cannot be decided which sliders begin to slip: the forces on them differ by rounding only",
+        at_time(*network_.scene, t)));
   }
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
@@ -445,9 +449,9 @@ void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
   for (const Network::Slider& s : network_.sliders) mention(s.branch);
   for (const Branch& b : network_.deflections) mention(b);
   throw SimulationError(fmt::format(
-      "at t = {:.9g} s nothing resists the force at node{} {}: {} there {} at the largest force that {} can take; give the node "
+      "{} nothing resists the force at node{} {}: {} there {} at the largest force that {} can take; give the node "
       "a mass or a dashpot, or apply less force",
-      t, nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements, count == 1 ? "is" : "are",
+      at_time(*network_.scene, t), nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements, count == 1 ? "is" : "are",
       count == 1 ? "it" : "they"));
 }
 

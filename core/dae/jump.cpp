@@ -1,11 +1,10 @@
 #include <fmt/format.h>
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "core/dae/convex.hpp"
+#include "core/dae/dashpot_steps.hpp"
 #include "core/dae/instant.hpp"
 
 namespace rheonet {
@@ -19,71 +18,25 @@ constexpr double balance_rounding = 1e-12;
 
 }  // namespace
 
-/// Within an instant a linear dashpot turns a step into the impulse B dx; masses stay where they are; massless nodes
-/// between dashpots go where the impulses balance, sum B (dx_a - dx_b) = 0. Laws that know no impulse do not resist.
 void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const {
-  const Network& network = network_;
-  const Structure& structure = structure_;
-  bool any = false;
-  for (std::size_t m = 0; m < network.motions.size(); ++m) {
-    dx[at(network.motions[m].node)] = drive_.steps()[m];
-    any = any || drive_.steps()[m] != 0;
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = drive_.steps()[m];
+  if (!go_with_dashpots(network_, structure_, dx)) {
+    throw SimulationError(at_time(*network_.scene, t) +
+                          " rounding hides how dashpots share a step in position; give it a time to rise in");
   }
-  if (!any || network.rates.empty()) return;
-
-  std::vector<double> damping(network.rates.size());
-  double largest = 0;
-  for (const Laws<RateBatch>& laws : network.rate_laws) {
+  const std::vector<double> momentum = momentum_through_dashpots(network_, structure_, dx, t);
+  for (std::size_t n = 0; n < dx.size(); ++n) {
+    if (structure_.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / structure_.mass[n];
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      damping[at(laws.first) + i] = laws.batch->impulse(i);
-      if (std::isfinite(laws.batch->impulse(i))) largest = std::max(largest, laws.batch->impulse(i));
+      const Branch& b = network_.rates[at(laws.first) + i];
+      if (laws.batch->impulse(i) == 0 || step_together(dx[at(b.a)], dx[at(b.b)])) continue;
+      notes.push_back(fmt::format(
+          "{} a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which no row shows "
+          "and the energy account leaves out",
+          at_time(*network_.scene, t), network_.name_of(b), dx[at(b.a)] - dx[at(b.b)]));
     }
-  }
-  if (largest == 0) largest = 1;
-  for (double& b : damping) {  // shear thickening is rigid to a step, shear thinning no resistance
-    if (!std::isfinite(b)) b = 1e9 * largest;
-    if (b == 0) b = 1e-9 * largest;
-  }
-
-  std::vector<int> unknown(structure.kind.size(), -1);
-  int n = 0;
-  for (std::size_t k = 0; k < unknown.size(); ++k) {
-    if (structure.kind[k] == Kind::viscous) unknown[k] = n++;
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n);
-  for (std::size_t r = 0; r < network.rates.size(); ++r) {
-    const Branch& b = network.rates[r];
-    const double B = damping[r];
-    for (const auto& [node, other] : {std::pair{b.a, b.b}, std::pair{b.b, b.a}}) {
-      const int row = unknown[at(node)];
-      if (row < 0) continue;
-      entries.emplace_back(row, row, B);
-      if (unknown[at(other)] >= 0) {
-        entries.emplace_back(row, unknown[at(other)], -B);
-      } else {
-        rhs[row] += B * dx[at(other)];
-      }
-    }
-  }
-  if (n > 0) {
-    Eigen::SparseMatrix<double> laplacian(n, n);
-    laplacian.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::VectorXd x = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(laplacian).solve(rhs);
-    for (std::size_t k = 0; k < unknown.size(); ++k) {
-      if (unknown[k] >= 0) dx[k] = x[unknown[k]];
-    }
-  }
-  for (std::size_t r = 0; r < network.rates.size(); ++r) {
-    const Branch& b = network.rates[r];
-    const double step = dx[at(b.a)] - dx[at(b.b)];
-    if (std::abs(step) <= 1e-12 * (std::abs(dx[at(b.a)]) + std::abs(dx[at(b.b)]))) continue;
-    if (structure.kind[at(b.a)] == Kind::massive) state.velocity[at(b.a)] -= damping[r] * step / structure.mass[at(b.a)];
-    if (structure.kind[at(b.b)] == Kind::massive) state.velocity[at(b.b)] += damping[r] * step / structure.mass[at(b.b)];
-    notes.push_back(fmt::format(
-        "at t = {:.6g} s a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which "
-        "no row shows and the energy account leaves out",
-        t, network.name_of(b), step));
   }
 }
 
@@ -146,7 +99,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
-    throw SimulationError(fmt::format("at t = {:.6g} s the forces at the massless nodes cannot be balanced", t));
+    throw SimulationError(at_time(*network_.scene, t) + " the forces at the massless nodes cannot be balanced");
   }
 
   const auto moved = [&](NodeId node) { return problem.value(slot(node_of(node))); };

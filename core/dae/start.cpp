@@ -1,9 +1,11 @@
+#include "core/dae/start.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <vector>
 
-#include "core/dae/start.hpp"
+#include "core/dae/start_balance.hpp"
 
 namespace rheonet {
 
@@ -38,10 +40,12 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
       const double d0 = initial_displacement(network, *b);
       if (fixed[a] && fixed[c]) {
         if (std::abs(x[a] - x[c] - d0) > 1e-9 * (std::abs(x[a]) + std::abs(x[c]) + std::abs(d0))) {
-          throw SimulationError(fmt::format(
-              "element `{}` cannot start with the displacement d0 = {:g}: nodes `{}` and `{}` start {:g} apart; leave out "
-              "`d0` or a position",
-              network.name_of(*b), d0, network.node_name(b->a), network.node_name(b->b), x[a] - x[c]));
+          throw SimulationError(
+              network.spot_of(b->element),
+              fmt::format("element `{}` cannot start with the displacement d0 = {:g}: nodes `{}` and `{}` start {:g} "
+                          "apart; leave out "
+                          "`d0` or a position",
+                          network.name_of(*b), d0, network.node_name(b->a), network.node_name(b->b), x[a] - x[c]));
         }
         b = nullptr;
       } else if (fixed[a] || fixed[c]) {
@@ -64,7 +68,7 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
 
 }  // namespace
 
-Start start(const Network& network, double t) {
+Start start(const Network& network, const Structure& classified) {
   const Scene& scene = *network.scene;
   const std::size_t nodes = scene.nodes.size();
   std::vector<double> x(nodes, 0);
@@ -79,27 +83,30 @@ Start start(const Network& network, double t) {
     const std::size_t n = static_cast<std::size_t>(m.node);
     const SceneNode& node = scene.nodes[n];
     const std::string& name = scene.elements[static_cast<std::size_t>(m.element)].name;
-    const double velocity = m.position ? m.signal.piece(t).rate(t) : m.signal.value(t);
+    const double velocity = m.position ? m.signal.piece(0).rate(0) : m.signal.value(0);
     if (m.position) {
-      const double before = m.signal.before(t), after = m.signal.value(t);
+      const double before = m.signal.before(0), after = m.signal.value(0);
       const double tolerance = 1e-9 * (std::abs(before) + std::abs(after));
-      if (fixed[n] && std::abs(x[n] - before) > tolerance && std::abs(x[n] - after) > tolerance) {
-        throw SimulationError(fmt::format(
-            "node `{}` cannot start at position {:g}: motion `{}` puts it at {:g}; leave out one of them", node.name, x[n],
-            name, after));
+      const bool there_already = fixed[n] && std::abs(x[n] - after) <= tolerance;
+      if (fixed[n] && !there_already && std::abs(x[n] - before) > tolerance) {
+        throw SimulationError(
+            node.spot,
+            fmt::format("node `{}` cannot start at position {:g}: motion `{}` puts it at {:g}; leave out one of them",
+                        node.name, x[n], name, after));
       }
-      x[n] = before;
+      x[n] = there_already ? after : before;
     }
     if (!std::isnan(node.velocity) && std::abs(node.velocity - velocity) > 1e-9 * std::abs(velocity)) {
-      throw SimulationError(fmt::format(
-          "node `{}` cannot start with velocity {:g}: motion `{}` gives it {:g}; leave out one of them", node.name,
-          node.velocity, name, velocity));
+      throw SimulationError(
+          node.spot,
+          fmt::format("node `{}` cannot start with velocity {:g}: motion `{}` gives it {:g}; leave out one of them",
+                      node.name, node.velocity, name, velocity));
     }
     fixed[n] = 1;
   }
   follow_displacements(network, x, fixed);
 
-  Start result{.state = {}, .drive = Drive(network, t, x)};
+  Start result{.state = {}, .drive = Drive(network, 0, x), .chosen = {}};
   State& state = result.state;
   state.position = x;
   state.velocity.assign(nodes, 0);
@@ -115,7 +122,32 @@ Start start(const Network& network, double t) {
       state.offset.push_back(d - state.p.back());
     }
   }
+  result.chosen = balance_start(network, classified, fixed, state);
   return result;
+}
+
+StartWords describe_start(const Start& start, const Network& network, const Structure& classified,
+                          const std::vector<double>& velocity) {
+  StartWords words{.notes = {}, .chosen = start.chosen};
+  const Scene& scene = *network.scene;
+  for (std::size_t n = 1; n < scene.nodes.size(); ++n) {
+    const SceneNode& node = scene.nodes[n];
+    const bool floating = classified.kind[n] == Kind::floating;
+    if (!floating && classified.kind[n] != Kind::viscous) continue;
+    if (std::abs(velocity[n] - node.velocity) > scene.accuracy * std::abs(node.velocity)) {
+      words.notes.push_back(
+          fmt::format("node `{}` starts with a velocity of {:.6g} {}, not with the {:.6g} that is given: it has "
+                      "no mass, and the elements there decide",
+                      node.name, velocity[n], unit_of(Quantity::velocity, scene.domain), node.velocity));
+    }
+    const double x = start.state.position[n];
+    if (floating && std::isnan(node.position) && x != 0) {
+      words.chosen.push_back(
+          fmt::format("node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance", node.name,
+                      x, unit_of(Quantity::position, scene.domain)));
+    }
+  }
+  return words;
 }
 
 }  // namespace rheonet

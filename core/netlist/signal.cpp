@@ -181,6 +181,41 @@ struct PieceAt {
   }
 };
 
+/// The time at which a periodic signal may be taken to begin, where in truth it began at `time`: 1 to 2 periods before 0,
+/// if that is later.
+double recent_beginning(double time, double frequency) {
+  const double turns = -time * frequency;
+  if (!(turns > 2)) return time;
+  // What is a quarter of a turn but for the rounding of the frequency is one: an edge at the start belongs there.
+  const double quarters = std::round(4 * turns) / 4;
+  const bool near = std::abs(turns - quarters) <= std::numeric_limits<double>::epsilon() * turns;
+  const double full = std::floor(near ? quarters : turns);
+  const double over = near ? quarters - full : std::fma(-time, frequency, -full);
+  return -(over + 1) / frequency;
+}
+
+struct SeenFrom {
+  double start;
+
+  Signal::Shape operator()(const Signal::Constant& s) const { return s; }
+  Signal::Shape operator()(const Signal::Sine& s) const { return periodic(s); }
+  Signal::Shape operator()(const Signal::Square& s) const { return periodic(s); }
+  Signal::Shape operator()(const Signal::Triangle& s) const { return periodic(s); }
+  Signal::Shape operator()(const Signal::Pulse& s) const { return periodic(s); }
+  template <class Other>
+  Signal::Shape operator()(Other s) const {
+    s.time -= start;
+    return s;
+  }
+
+ private:
+  template <class Periodic>
+  Signal::Shape periodic(Periodic s) const {
+    s.time = recent_beginning(s.time - start, s.frequency);
+    return s;
+  }
+};
+
 }  // namespace
 
 double Piece::value(double t) const {
@@ -235,6 +270,8 @@ double Piece::rounding(double t) const {
                        fastest * (std::abs(t) + std::abs(origin));
   return operations * std::numeric_limits<double>::epsilon() * sizes;
 }
+
+Signal Signal::seen_from(double start) const { return Signal(std::visit(SeenFrom{start}, *shape_)); }
 
 Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }
 

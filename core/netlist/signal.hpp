@@ -70,6 +70,10 @@ class Signal {
   double before(double t) const;
   double value(double t) const { return piece(t).value(t); }
 
+  /// The same signal with time counted from `start`. Whole periods that are over by then are left out, so that a late
+  /// start costs no digits: what is at hand stays as exact as its time.
+  Signal seen_from(double start) const;
+
   const Shape& shape() const { return *shape_; }
 
  private:

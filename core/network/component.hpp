@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -44,6 +45,8 @@ class DeflectionBatch {
   /// The deflection of element i at the start, when the relative displacement of its ends is d: a spring's follows from
   /// d, that of a law with a memory from its initial force.
   virtual double start(std::size_t i, double d) = 0;
+  /// The same where its neighbours demand an initial force of it; NaN if the law knows none.
+  virtual double start_with(std::size_t i, double force) = 0;
 
   /// How many event functions element i has (0 for laws without memory).
   virtual int events(std::size_t i) const = 0;
@@ -96,6 +99,9 @@ class DeflectionBatch {
   virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;
 };
 
+/// f = coefficient abs(w)^exponent sgn(w) for large velocities w.
+struct Growth { double coefficient, exponent; };
+
 /// All elements of one rate law.
 class RateBatch {
  public:
@@ -105,12 +111,17 @@ class RateBatch {
   /// rest.
   virtual bool by_force(std::size_t i) const = 0;
   virtual void set_by_force(std::size_t i, bool by_force) = 0;
-  /// Below the velocity `w` element i may be taken as linear, where its slope would be infinite at rest: a mass that it
-  /// brings to rest could not be followed otherwise.
+  /// `w` is a velocity that nothing resolves: about as far element i may be taken as linear where its slope would be
+  /// infinite at rest. A mass that it brings to rest could not be followed otherwise.
   virtual void soften(std::size_t i, double w) = 0;
+  /// How the force of element i grows with a velocity beyond all bounds.
+  virtual Growth growth(std::size_t i) const = 0;
   /// Impulse that a displacement step of 1 at infinite rate needs: the damping of a linear dashpot, infinite or 0 for
   /// others.
-  virtual double impulse(std::size_t i) const = 0;
+  double impulse(std::size_t i) const {
+    const Growth g = growth(i);
+    return g.exponent == 1 ? g.coefficient : g.exponent < 1 ? 0 : std::numeric_limits<double>::infinity();
+  }
   /// in[i] is w (by_force: f), out[i] is f (by_force: w).
   virtual void evaluate(const double* in, double* out) const = 0;
   virtual void linearise(const double* in, double* out, double* derivative) const = 0;

@@ -1,12 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
+#include <string>
+
+#include "core/netlist/diagnostic.hpp"
 
 namespace rheonet {
 
 /// A scene that can be read but not simulated. `what()` names elements or nodes, and the time where there is one.
 struct SimulationError : std::runtime_error {
   using std::runtime_error::runtime_error;
+  SimulationError(const Spot& where, const std::string& reason) : runtime_error(reason), spot(where) {}
+
+  std::optional<Spot> spot;  ///< in the netlist, where the reason lies in what stands there rather than in what happens
 };
 
 }  // namespace rheonet

@@ -16,6 +16,7 @@ namespace rheonet {
 ///       template <class T> T force(const T& p) const;                // f = force(p)
 ///       template <class T> T creep(const T& f) const;                // p' = w - creep(f)
 ///       double start(double d);                                      // p at the start
+///       double start_with(double f);                                 // the same for a law with an initial force
 ///       double stored_energy(double p) const;
 ///       double dissipated_power(double p, double dp, double w) const;
 ///     };
@@ -32,7 +33,7 @@ struct MemorylessLaw {
   void switch_memory(int, double, double) {}
   double jump(double, double) { return 0; }
   bool set_direction(double, double, int) { return false; }
-  static constexpr bool can_hold = false;
+  bool can_hold() const { return false; }
   bool fits(double) const { return true; }
   bool hold(double, int) { return false; }
   bool holds() const { return false; }
@@ -77,6 +78,13 @@ class DeflectionBatchOf final : public DeflectionBatch {
 
   bool creeps(std::size_t) const override { return Law::creeping; }
   double start(std::size_t i, double d) override { return laws_[i].start(d); }
+  double start_with(std::size_t i, double force) override {
+    if constexpr (requires(Law law) { law.start_with(force); }) {
+      return laws_[i].start_with(force);
+    } else {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
   int events(std::size_t i) const override { return laws_[i].event_count(); }
   void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const override {
     laws_[i].event_functions(p, dp, w, noise, g);
@@ -92,7 +100,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
   bool hold(std::size_t i, double p, int lean) override { return laws_[i].hold(p, lean); }
   bool holds(std::size_t i) const override { return laws_[i].holds(); }
   int direction(std::size_t i) const override { return laws_[i].direction(); }
-  bool can_hold(std::size_t) const override { return Law::can_hold; }
+  bool can_hold(std::size_t i) const override { return laws_[i].can_hold(); }
   void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const override {
     laws_[i].hold_rates(p, forward, backward);
   }
@@ -128,7 +136,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
 ///     struct Law {
 ///       explicit Law(std::span<const double> values);
 ///       bool by_force() const;
-///       double impulse() const;
+///       Growth growth() const;
 ///       void soften(double w);                          // see RateBatch::soften
 ///       template <class T> T force(const T& w) const;   // f = force(w)
 ///       template <class T> T rate(const T& f) const;    // its inverse
@@ -148,7 +156,7 @@ class RateBatchOf final : public RateBatch {
   bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
   void set_by_force(std::size_t i, bool by_force) override { by_force_[i] = by_force; }
   void soften(std::size_t i, double w) override { laws_[i].soften(w); }
-  double impulse(std::size_t i) const override { return laws_[i].impulse(); }
+  Growth growth(std::size_t i) const override { return laws_[i].growth(); }
 
   void evaluate(const double* in, double* out) const override {
     for (std::size_t i = 0; i < laws_.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace rheonet {
@@ -55,6 +56,13 @@ void batch_up(ByComponent& sorted, Role role, std::vector<Branch>& branches, std
 
 }  // namespace
 
+std::string at_time(const Scene& scene, double t) {
+  // A late start leaves fewer digits to what has passed since: more are shown.
+  const double elapsed = std::max(std::abs(t), 1e-3 * (scene.stop - scene.start));
+  const int digits = 9 + static_cast<int>(std::ceil(std::max(0.0, std::log10(std::abs(scene.start) / elapsed))));
+  return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, 16));
+}
+
 Network build_network(const Scene& scene) {
   Network network;
   network.scene = &scene;
@@ -74,14 +82,14 @@ Network build_network(const Scene& scene) {
     const Component* declared = components()[static_cast<std::size_t>(element.declaration)];
     if (declared->check) {
       if (const std::string wrong = declared->check(element.values); !wrong.empty()) {
-        throw SimulationError(describe("element", element.name, wrong));
+        throw SimulationError(element.spot, describe("element", element.name, wrong));
       }
     }
     if (!element.at && element.a == element.b) {
-      throw SimulationError(describe("element", element.name,
-                                     fmt::format("both ends are at node `{}`, so that it can do nothing; connect one end "
-                                                 "elsewhere or leave it out",
-                                                 network.node_name(element.a))));
+      throw SimulationError(element.spot, describe("element", element.name,
+                                                   fmt::format("both ends are at node `{}`, so that it can do nothing; "
+                                                               "connect one end elsewhere or leave it out",
+                                                               network.node_name(element.a))));
     }
     Reduced law = take_limits(declared, element.values);
     const Role role = law.component ? law.component->role : Role::nothing;
@@ -108,12 +116,12 @@ Network build_network(const Scene& scene) {
       case Role::motion: {
         place = {role, static_cast<int>(network.motions.size())};
         const bool position = element.signal_parameters.at(0) == 0;
-        network.motions.push_back({index, element.a, element.signals.at(0), position});
+        network.motions.push_back({index, element.a, element.signals.at(0).seen_from(scene.start), position});
         break;
       }
       case Role::force:
         place = {role, static_cast<int>(network.forces.size())};
-        network.forces.push_back({index, element.a, element.at ? -1 : element.b, element.signals.at(0)});
+        network.forces.push_back({index, element.a, element.at ? -1 : element.b, element.signals.at(0).seen_from(scene.start)});
         break;
     }
   }

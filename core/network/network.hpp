@@ -25,7 +25,7 @@ struct Laws {
 };
 
 /// A scene's elements by what they are to the structure; laws sorted by type, so that each type is one contiguous batch.
-/// Elements at a limit of their parameters have become the law of the limit.
+/// Elements at a limit of their parameters have become the law of the limit. Time counts from the scene's start.
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Motion { int element; NodeId node; Signal signal; bool position; };
@@ -53,8 +53,14 @@ struct Network {
   const std::string& name_of(const Branch& branch) const {
     return scene->elements[static_cast<std::size_t>(branch.element)].name;
   }
+  /// Where an element and a node stand in the netlist.
+  const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }
+  const Spot& spot_of_node(NodeId node) const { return scene->nodes[static_cast<std::size_t>(node)].spot; }
   const std::string& node_name(NodeId node) const { return scene->nodes[static_cast<std::size_t>(node)].name; }
 };
+
+/// "at t = 1.3 s", for messages: t counts from the scene's start, what is shown does not.
+std::string at_time(const Scene& scene, double t);
 
 /// The scene must outlive the network. Throws SimulationError for elements that no network can have.
 Network build_network(const Scene& scene);

@@ -63,11 +63,13 @@ void assign_known_and_massive(const Network& network, Structure& s) {
   for (std::size_t i = 0; i < network.motions.size(); ++i) {
     const NodeId node = network.motions[i].node;
     if (node == ground) {
-      throw SimulationError(fmt::format("motion `{}` moves `ground`, which never moves; prescribe another node",
+      throw SimulationError(network.spot_of(network.motions[i].element),
+                            fmt::format("motion `{}` moves `ground`, which never moves; prescribe another node",
                                         name(static_cast<int>(i))));
     }
     if (s.motion[at(node)] >= 0) {
-      throw SimulationError(fmt::format("motions `{}` and `{}` both prescribe node `{}`; leave one out",
+      throw SimulationError(network.spot_of(network.motions[i].element),
+                            fmt::format("motions `{}` and `{}` both prescribe node `{}`; leave one out",
                                         name(s.motion[at(node)]), name(static_cast<int>(i)), network.node_name(node)));
     }
     s.motion[at(node)] = static_cast<int>(i);
@@ -114,13 +116,15 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
 [[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<int>& lost) {
   std::string names;
   int count = 0;
+  NodeId first = ground;
   for (int g : lost) {
     for (NodeId node : s.groups[at(g)].nodes) {
+      if (first == ground || s.rank[at(node)] < s.rank[at(first)]) first = node;
       if (++count <= 5) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", network.node_name(node));
     }
   }
   if (count > 5) names += fmt::format(" and {} more", count - 5);
-  throw SimulationError(fmt::format(
+  throw SimulationError(network.spot_of_node(first), fmt::format(
       "nothing determines the motion of node{} {}: no mass there, and no element that resists motion leads from there to "
       "ground, to a mass or to a prescribed motion; add one, or a mass",
       count > 1 ? "s" : "", names));

@@ -113,13 +113,14 @@ double Channels::velocity(const Record& record, const Dae::View& view) const {
 }
 
 const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
-                                          bool exact) {
-  if (dae_->rough() && !exact) {
+                                          double rate) {
+  if (dae_->rough() && rate > 0) {
     y_ = y;
-    consistency_->project(t, y_);
-    return read_state(t, y_, yp, exact);
+    slope_ = yp;
+    consistency_->collocate(t, rate, y_, slope_);
+    return read_state(t, y_, slope_, false);
   }
-  return read_state(t, y, yp, exact);
+  return read_state(t, y, yp, rate == 0);
 }
 
 const std::vector<double>& Channels::read_state(double t, const std::vector<double>& y, const std::vector<double>& yp,

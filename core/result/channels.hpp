@@ -18,9 +18,10 @@ class Channels {
   /// Goes over to these equations.
   void attach(Dae& dae, Consistency& consistency);
 
-  /// One value a record, SI. `exact` says that yp is the derivative of a consistent state; else it comes from the
-  /// integrator's polynomial, and velocities of massless nodes that follow from it are computed anew.
-  const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
+  /// One value a record, SI, of a consistent state. One within a step of the integrator is consistent to its tolerance
+  /// only: with `rate`, the inverse of that step, it is brought onto the equations where that matters.
+  const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp,
+                                  double rate = 0);
 
  private:
   const std::vector<double>& read_state(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
@@ -33,7 +34,7 @@ class Channels {
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
   bool rates_needed_ = false;  ///< a record needs y' of a floating node
-  std::vector<double> y_, yp_, row_;
+  std::vector<double> y_, slope_, yp_, row_;
 };
 
 }  // namespace rheonet

@@ -7,8 +7,9 @@ namespace rheonet {
 
 EnergyAccount::EnergyAccount(double tolerance) : tolerance_(tolerance) {}
 
-void EnergyAccount::attach(Dae& dae) {
+void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
+  consistency_ = &consistency;
   const Network& network = dae.network();
   const Structure& structure = dae.structure();
   const std::vector<char>& driven = structure.driven;
@@ -42,6 +43,7 @@ void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vec
 EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t) {
   integrator.interpolate(t, 0, y_);
   integrator.interpolate(t, 1, yp_);
+  if (dae_->rough()) consistency_->collocate(t, 1 / (integrator.time() - integrator.previous_time()), y_, yp_);
   dae_->view(t, y_.data(), yp_.data());
   return {dae_->supplied_power(), dae_->dissipated_power()};
 }
@@ -77,8 +79,7 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
 void EnergyAccount::step(const Integrator& integrator) {
   const double a = integrator.previous_time(), b = integrator.time();
   if (!(b > a)) return;
-  dae_->view(b, integrator.y().data(), integrator.yp().data());
-  const Power pa = last_, pb{dae_->supplied_power(), dae_->dissipated_power()};
+  const Power pa = last_, pb = power(integrator, b);
   stored_ = dae_->stored_energy();
   last_ = pb;
   const Power added = lobatto(integrator, a, b, pa, pb, 0);

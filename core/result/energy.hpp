@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/solve/integrator.hpp"
 
@@ -15,7 +16,7 @@ class EnergyAccount {
   /// `tolerance` is relative to the largest energy so far.
   explicit EnergyAccount(double tolerance);
   /// Goes over to these equations.
-  void attach(Dae& dae);
+  void attach(Dae& dae, Consistency& consistency);
 
   /// Just after the start or an event. What is stored more than before was supplied in that instant, with the heat.
   void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat);
@@ -33,6 +34,7 @@ class EnergyAccount {
   Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
 
   Dae* dae_ = nullptr;
+  Consistency* consistency_ = nullptr;
   double tolerance_;
   bool adaptive_ = false;
   bool begun_ = false;

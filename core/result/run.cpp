@@ -17,11 +17,13 @@ namespace rheonet {
 
 namespace {
 
-/// Writes the rows: at output times by interpolation; where an event falls on one, the state just after it.
+/// Writes the rows: at output times by interpolation; where an event falls on one, the state just after it. Time counts
+/// from the start but for what is written.
 class Recorder final : public Observer {
  public:
   Recorder(const Network& network, const RunSettings& settings)
       : scene_(*network.scene),
+        length_(scene_.stop - scene_.start),
         channels_(network),
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
@@ -38,14 +40,17 @@ class Recorder final : public Observer {
       events_.header({"element", "event", "direction"});
     }
     unknowns_ = std::max(unknowns_, dae.unknowns());
-    energy_.attach(dae);
+    energy_.attach(dae, consistency);
     channels_.attach(dae, consistency);
     energy_.begin(t, y, yp, heat);
-    if (pending_event_) write(t, channels_.read(t, y, yp, true));
-    pending_event_ = false;
+    // At an output time its row is also the one after the event.
+    bool written = false;
     for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack(); ++next_) {
-      write(row_time(next_), channels_.read(t, y, yp, true));
+      write(row_time(next_), channels_.read(t, y, yp));
+      written = true;
     }
+    if (pending_event_ && !written) write(event_time(t), channels_.read(t, y, yp));
+    pending_event_ = false;
   }
 
   void step(const Integrator& integrator) override {
@@ -56,24 +61,24 @@ class Recorder final : public Observer {
       const double t = std::max(row_time(next_), integrator.previous_time());
       integrator.interpolate(t, 0, y_);
       integrator.interpolate(t, 1, yp_);
-      write(row_time(next_), channels_.read(t, y_, yp_, false));
+      write(row_time(next_), channels_.read(t, y_, yp_, rate(integrator)));
     }
     last_ = &integrator;
-    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), false);
+    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator));
   }
 
   void event(const Event& event) override {
     const std::size_t element = static_cast<std::size_t>(event.element);
     ++switched_[element];
-    events_.text_row(event.t, {scene_.elements[element].name, event.what, std::to_string(event.direction)});
+    events_.text_row(scene_time(event_time(event.t)), {scene_.elements[element].name, event.what, std::to_string(event.direction)});
     if (!scene_.output_events || pending_event_) return;
-    write(event.t, before_);
+    write(event_time(event.t), before_);
     pending_event_ = true;
   }
 
   void end(double) override {
     for (; next_ <= scene_.output_intervals; ++next_) {
-      write(row_time(next_), channels_.read(last_->time(), last_->y(), last_->yp(), false));
+      write(row_time(next_), channels_.read(last_->time(), last_->y(), last_->yp(), rate(*last_)));
     }
   }
 
@@ -95,22 +100,33 @@ class Recorder final : public Observer {
  private:
   double row_time(std::int64_t k) const {
     // The last row stands at the stop itself, not at its rounding.
-    const double t = scene_.start + static_cast<double>(k) * scene_.output_every;
-    return std::abs(t - scene_.stop) <= 1e-9 * scene_.output_every ? scene_.stop : t;
+    const double t = static_cast<double>(k) * scene_.output_every;
+    return std::abs(t - length_) <= slack() ? length_ : t;
   }
   /// An event this close to an output time is at it.
   double slack() const { return 1e-9 * scene_.output_every; }
+  double event_time(double t) const {
+    const auto nearest = static_cast<std::int64_t>(std::round(t / scene_.output_every));
+    const double row = row_time(std::min(nearest, scene_.output_intervals));
+    return std::abs(t - row) <= slack() ? row : t;
+  }
+
+  static double rate(const Integrator& integrator) { return 1 / (integrator.time() - integrator.previous_time()); }
+
+  double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
 
   void write(double t, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::isfinite(values[k])) continue;
       throw SimulationError(
-          fmt::format("at t = {:.6g} s `{}` has no finite value; check the elements around it", t, scene_.records[k].path));
+          fmt::format("{} `{}` has no finite value; check the elements around it", at_time(scene_, t),
+                      scene_.records[k].path));
     }
-    csv_.row(t, values);
+    csv_.row(scene_time(t), values);
   }
 
   const Scene& scene_;
+  double length_;  ///< of the run [s]
   std::vector<std::string> names_;
   Channels channels_;
   CsvWriter csv_, events_;
@@ -136,8 +152,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   SimulationStatistics statistics;
   try {
     statistics = simulate(network, needed,
-                          {.start = scene.start,
-                           .stop = scene.stop,
+                          {.stop = scene.stop - scene.start,
                            .accuracy = scene.accuracy,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress},
@@ -182,15 +197,15 @@ class Blind final : public Observer {
 
 }  // namespace
 
-std::vector<std::string> check(const Scene& scene) {
+StartReport check(const Scene& scene) {
   const Network network = build_network(scene);
   Blind blind;
   const SimulationSettings settings{
-      .start = scene.start, .stop = scene.stop, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}};
+      .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}};
   const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, blind);
-  std::vector<std::string> notes = network.notes;
-  notes.insert(notes.end(), statistics.notes.begin(), statistics.notes.end());
-  return notes;
+  StartReport report{.notes = network.notes, .chosen = statistics.chosen};
+  report.notes.insert(report.notes.end(), statistics.notes.begin(), statistics.notes.end());
+  return report;
 }
 
 }  // namespace rheonet

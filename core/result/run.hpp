@@ -44,7 +44,13 @@ struct Summary {
 /// Simulates a scene and writes its records. Throws SimulationError; the rows up to there have then been written.
 Summary run(const Scene& scene, const RunSettings& settings = {});
 
-/// Everything that can be said without integrating: structure, consistent start. Throws SimulationError; returns notes.
-std::vector<std::string> check(const Scene& scene);
+/// What there is to say of a scene that can start.
+struct StartReport {
+  std::vector<std::string> notes;   ///< as in Summary
+  std::vector<std::string> chosen;  ///< start values that were not given and follow from nothing, and what they are
+};
+
+/// Everything that can be said without integrating: structure, consistent start. Throws SimulationError.
+StartReport check(const Scene& scene);
 
 }  // namespace rheonet

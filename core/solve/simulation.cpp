@@ -65,7 +65,7 @@ class Run {
         settings_(settings),
         observer_(observer),
         classified_(classify(network)),
-        begin_(start(network, settings.start)),
+        begin_(start(network, classified_)),
         drive_(begin_.drive),
         state_(begin_.state),
         instant_(network, classified_, drive_),
@@ -79,7 +79,7 @@ class Run {
   }
 
   SimulationStatistics go() {
-    double t = settings_.start;
+    double t = 0;
     begin();
     while (t < settings_.stop) {
       t = stretch(t);
@@ -106,18 +106,30 @@ class Run {
   }
 
  private:
-  const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
-  const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
-
   void begin() {
-    if (network_.scene->start_from != Scene::StartFrom::given) {
-      SteadyStart steady = settle(network_, classified_, settings_.start, begin_);
+    const bool given = network_.scene->start_from == Scene::StartFrom::given;
+    if (!given) {
+      SteadyStart steady = settle(network_, classified_, 0, begin_);
       modes_ = steady.modes;
       slider_force_ = steady.slider_force;
       statistics_.notes = steady.notes;
     }
-    cross(settings_.start, true, {});
+    try {
+      cross(0, true, {});
+    } catch (const SimulationError&) {
+      // Where nothing determines the motion of a node, however sliders stick, that is the reason.
+      analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
+      throw;
+    }
+    if (!given) return;
+    const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
+    const StartWords words = describe_start(begin_, network_, classified_, view.velocity);
+    statistics_.notes.insert(statistics_.notes.end(), words.notes.begin(), words.notes.end());
+    statistics_.chosen = words.chosen;
   }
+
+  const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
+  const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
 
   /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
   void find_what_may_tie() {
@@ -187,7 +199,7 @@ class Run {
     dae.view(t, y_.data(), yp_.data());
     check_ties(t);
     for (const Event& event : switches_.follow(t, modes_)) {
-      if (t > settings_.start) observer_.event(event);
+      if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
   }
@@ -245,10 +257,10 @@ class Run {
         for (int e : tie.elements) elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", element_name(e));
         for (NodeId n : tie.nodes) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network_.node_name(n));
         throw SimulationError(fmt::format(
-            "at t = {:.9g} s nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the "
-            "node a mass or a dashpot, or apply less force",
-            t, tie.nodes.size() > 1 ? "s" : "", nodes, elements, tie.elements.size() > 1 ? "are" : "is",
-            tie.elements.size() > 1 ? "they" : "it"));
+            "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass "
+            "or a dashpot, or apply less force",
+            at_time(*network_.scene, t), tie.nodes.size() > 1 ? "s" : "", nodes, elements,
+            tie.elements.size() > 1 ? "are" : "is", tie.elements.size() > 1 ? "they" : "it"));
       }
       std::string names;
       for (int e : tie.elements) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", element_name(e));
@@ -276,7 +288,7 @@ class Run {
   double horizon(double t) const {
     double h = std::min(drive_.next_break(), settings_.stop) - t;
     if (const double omega = drive_.fastest(); omega > 0) h = std::min(h, 1 / omega);
-    return h > 0 ? h : settings_.stop - settings_.start;
+    return h > 0 ? h : settings_.stop;
   }
 
   /// Reversals of laws between prescribed nodes are known beforehand, so that no step can miss them.
@@ -298,7 +310,7 @@ class Run {
     headway_.reset();
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
-        throw SimulationError(fmt::format("interrupted at t = {:.6g} s", system_->integrator.time()));
+        throw SimulationError("interrupted " + at_time(*network_.scene, system_->integrator.time()));
       }
       Integrator::Outcome outcome = system_->integrator.step();
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
@@ -322,7 +334,7 @@ class Run {
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(),
                          system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data()));
       soften_laws();
-      if (settings_.progress) settings_.progress((t - settings_.start) / (settings_.stop - settings_.start));
+      if (settings_.progress) settings_.progress(t / settings_.stop);
       if (outcome == Integrator::Outcome::stop) {
         y_ = system_->integrator.y();
         yp_ = system_->integrator.yp();
@@ -361,9 +373,9 @@ class Run {
     }
     if (busy.size() > most) names += fmt::format(" and {} more", busy.size() - most);
     throw SimulationError(fmt::format(
-        "at t = {:.6g} s element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a "
+        "{} element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a "
         "dashpot beside {}, a mass at {} ends or a looser accuracy would end it",
-        t, busy.size() > 1 ? "s" : "", names, busy.size() > 1 ? "" : "es", Headway::enough, t - headway_.since(),
+        at_time(*network_.scene, t), busy.size() > 1 ? "s" : "", names, busy.size() > 1 ? "" : "es", Headway::enough, t - headway_.since(),
         busy.size() > 1 ? "them" : "it", busy.size() > 1 ? "their" : "its"));
   }
 
@@ -447,7 +459,7 @@ class Run {
     const double t = system_->integrator.time();
     const int worst = system_->integrator.worst_unknown();
     throw SimulationError(fmt::format(
-        "at t = {:.6g} s {} {}; check the values of the elements there, or ask for a looser accuracy", t,
+        "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
         worst < 0 ? "a quantity" : system_->dae.describe(worst),
         outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"
                                                  : "changes faster than double precision can follow at this accuracy"));

@@ -29,8 +29,7 @@ class Observer {
 };
 
 struct SimulationSettings {
-  double start = 0;
-  double stop = 1;
+  double stop = 1;  ///< s; the start is at 0
   double accuracy = 1e-6;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress;
@@ -39,6 +38,7 @@ struct SimulationSettings {
 struct SimulationStatistics {
   Integrator::Statistics integrator;
   std::vector<std::string> notes;
+  std::vector<std::string> chosen;  ///< see StartReport
 };
 
 /// Integrates from start to stop. `needed` marks the nodes whose positions are asked for. Throws SimulationError, with the

@@ -63,7 +63,7 @@ class Surroundings {
       case Wiring::series:
         drive("a");
         spring("a", "mid");
-        begin("mid");
+        begin_mid(values);
         put(values, "mid", far(), "mid");
         if (!ends_) dashpot("mid", far());
         break;
@@ -106,6 +106,19 @@ class Surroundings {
   void begin(const std::string& node) {
     const double x = start();
     builder_.start(node, x, random_.uniform(-1, 1) * scale(Quantity::velocity));
+  }
+
+  /// Where the element's own start says what force is at a massless node, the node's place follows: another would
+  /// contradict it.
+  void begin_mid(const std::vector<double>& values) {
+    const double x = start(), v = random_.uniform(-1, 1) * scale(Quantity::velocity);
+    bool follows = component_.role == Role::force;
+    for (std::size_t k = 0; k < values.size() && component_.role == Role::deflection; ++k) {
+      const Parameter& p = component_.declaration.parameters[k];
+      if (p.kind != Parameter::Kind::initial) continue;
+      follows = follows || p.quantity == Quantity::position || !std::isnan(values[k]);
+    }
+    builder_.start("mid", ends_ && follows ? not_given : x, v);
   }
 
   /// A motion of a node, one half of them by position. The element under test takes its place if it is one.

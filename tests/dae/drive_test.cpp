@@ -23,8 +23,18 @@ struct Driven {
   Drive drive;
 
   Driven(const SceneBuilder& builder, double start, const std::vector<double>& positions)
-      : scene(builder.finish(1, 10, 1e-6)), network(build_network(scene)), drive(network, start, positions) {}
+      : scene(builder.finish(1, 10, 1e-6)),
+        network(build_network(scene)),
+        drive(network, start, before(network, start, positions)) {}
   Driven(const Driven&) = delete;
+
+  /// Nodes that a position drives have followed it so far.
+  static std::vector<double> before(const Network& network, double start, std::vector<double> positions) {
+    for (const Network::Motion& m : network.motions) {
+      if (m.position) positions[static_cast<std::size_t>(m.node)] = m.signal.before(start);
+    }
+    return positions;
+  }
 
   double relative_velocity(int a, int b, double t) {
     drive.evaluate(t);

@@ -159,17 +159,6 @@ TEST_CASE("massless nodes between dashpots go where the impulses balance") {
   CHECK_EQ(s.velocity("mid"), exactly(v));
 }
 
-TEST_CASE("power laws at a step: none below the linear one takes an impulse") {
-  SceneBuilder b;
-  b.motion("drive", "end", "position", step(dx));
-  b.between("thin", "dashpot", "end", "mass", {{"damping", B}, {"flow_index", 0.37}});
-  b.between("c2", "dashpot", "end", "mass", {{"damping", B2}});
-  b.at("m", "mass", "mass", {{"mass", m}});
-  b.start("mass", 0, 0.29);
-  const Started s(b);
-  CHECK_EQ(s.velocity("mass"), doctest::Approx(0.29 + B2 * dx / m).epsilon(1e-7));
-}
-
 TEST_CASE("a step of force stretches what floats at once, and accelerates what is heavy") {
   SceneBuilder b;
   b.force("push", "n1", step(F));
@@ -273,6 +262,28 @@ TEST_CASE("start values that contradict each other are refused, with both named"
   CHECK(refusal(placed).find("node `a` cannot start at position 0.6: motion `drive` puts it at 0.7") == 0);
 }
 
+TEST_CASE("a given start position of a driven node is where it was before: it does not step from 0") {
+  constexpr double x0 = 0.71;
+  SceneBuilder b;
+  b.motion("drive", "end", "position", Signal(Signal::Sine{x0, 1.3, std::acos(-1.0) / 2, 0, 0}));
+  b.between("c", "dashpot", "end", "mass", {{"damping", B}});
+  b.between("k", "spring", "end", "mass", {{"stiffness", k}});
+  b.at("m", "mass", "mass", {{"mass", m}});
+  const Started stepped(b);
+  CHECK_EQ(stepped.velocity("mass"), exactly(B * x0 / m));
+  CHECK_EQ(stepped.jump.notes.size(), 1);
+  // In decimals, as a netlist has it: equal but for rounding.
+  for (const double given : {x0, x0 * (1 + 1e-13)}) {
+    b.start("end", given);
+    b.start("mass", x0);
+    const Started s(b);
+    CHECK_EQ(s.velocity("mass"), 0);
+    CHECK_EQ(s.position("end"), exactly(x0));
+    CHECK(std::abs(s.force("k")) < digits * k * x0);
+    CHECK(s.jump.notes.empty());
+  }
+}
+
 TEST_CASE("an initial displacement places a node that nothing else places") {
   SceneBuilder b;
   b.at("m", "mass", "a", {{"mass", m}});
@@ -294,6 +305,87 @@ TEST_CASE("an initial force goes before the rest length, and the displacement is
   CHECK_EQ(s.force("k"), exactly(-1.3));
   CHECK_EQ(s.position("a"), exactly(0.19));
   CHECK_EQ(s.acceleration("a"), exactly(1.3 / m));
+}
+
+TEST_CASE("an initial force goes on through what stands in series with it") {
+  constexpr double f0 = 1.7, sigma = 193.0;
+  SceneBuilder b;
+  b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
+  b.start("end", 0.23);
+  b.between("v", "vfm", "end", "n1", {{"damping", B}, {"stiffness", sigma}, {"f0", f0}});
+  b.between("f", "sfm", "n2", "n1", {{"stiffness", sigma}, {"coulomb", 2.3}, {"exponent", 0.6}});
+  b.between("c", "cfm", "n2", "n3", {{"damping", B2}, {"stiffness", k2}, {"coulomb", 2.9}, {"exponent", 1.2}});
+  b.between("k", "spring", "n3", "ground", {{"stiffness", k}, {"rest", 0.05}});
+  const Started s(b);
+  CHECK_EQ(s.force("v"), exactly(f0));
+  CHECK_EQ(s.force("f"), exactly(-f0));
+  CHECK_EQ(s.force("c"), exactly(f0));
+  CHECK_EQ(s.force("k"), exactly(f0));
+  // Only the spring's force says where a node is.
+  CHECK_EQ(s.position("n3"), exactly(0.05 + f0 / k));
+}
+
+TEST_CASE("an initial force and a load at a massless node: springs there make up for both") {
+  constexpr double f0 = -0.9, load = 3.1;
+  SceneBuilder b;
+  b.between("v", "vfm", "n", "ground", {{"damping", B}, {"stiffness", k2}, {"f0", f0}});
+  b.between("k", "spring", "n", "ground", {{"stiffness", k}});
+  b.between("k2", "spring", "ground", "n", {{"stiffness", k2}, {"rest", 0.01}});
+  b.force("push", "n", Signal(Signal::Constant{load}));
+  const Started s(b);
+  CHECK_EQ(s.force("v"), exactly(f0));
+  CHECK_EQ(s.force("k") - s.force("k2"), exactly(load - f0));
+  CHECK_EQ(s.position("n"), exactly((load - f0 - k2 * 0.01) / (k + k2)));
+}
+
+TEST_CASE("initial forces that do not balance at a massless node are refused, with all of them named") {
+  const auto refusal = [](double f1, double f2, double load, double before) {
+    SceneBuilder b;
+    b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
+    b.between("one", "vfm", "end", "n", {{"damping", B}, {"stiffness", k}, {"f0", f1}});
+    b.between("two", "sfm", "n", "ground", {{"stiffness", k2}, {"coulomb", 5.1}, {"f0", f2}});
+    b.force("push", "n", Signal(Signal::Step{load - before, 0, before}));
+    try {
+      const Started s(b);
+    } catch (const SimulationError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  // f2 - f1 = load, just before the start or just after.
+  CHECK_EQ(refusal(1.3, 3.8, 2.5, 2.5), "");
+  CHECK_EQ(refusal(1.3, 3.8, 2.5, 0.4), "");
+  CHECK_EQ(refusal(1.3, 3.8, 0.4, 2.5), "");
+  CHECK_EQ(refusal(1.3, 3.8 * (1 + 1e-8), 2.5, 2.5), "");  // less than the accuracy asked for
+  const std::string text = refusal(1.3, 3.8001, 2.5, 2.5);
+  CHECK(text.find("the initial forces at node `n` do not balance, and it has no mass: ") == 0);
+  CHECK(text.find("`one` ") != std::string::npos);
+  CHECK(text.find("with 1.3 N") != std::string::npos);
+  CHECK(text.find("`two` ") != std::string::npos);
+  CHECK(text.find("with 3.8001 N") != std::string::npos);
+  CHECK(refusal(1.3, -3.8, 2.5, 2.5) != "");
+}
+
+TEST_CASE("a place of a massless node between springs at which their forces do not balance is refused") {
+  const auto refused = [](double x) {
+    SceneBuilder b;
+    b.motion("drive", "end", "velocity", Signal());
+    b.start("end", 0.23);
+    b.between("k", "spring", "end", "n", {{"stiffness", k}});
+    b.between("k2", "spring", "n", "ground", {{"stiffness", k2}});
+    b.start("n", x);
+    try {
+      const Started s(b);
+    } catch (const SimulationError&) {
+      return true;
+    }
+    return false;
+  };
+  constexpr double balanced = 0.23 * k / (k + k2);
+  CHECK_FALSE(refused(balanced));
+  CHECK(refused(balanced * 1.001));
+  CHECK(refused(-balanced));
+  CHECK_FALSE(refused(not_given));
 }
 
 }  // namespace rheonet::test

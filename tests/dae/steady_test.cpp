@@ -48,7 +48,7 @@ std::string refusal_of(const SceneBuilder& b, Scene::StartFrom from = Scene::Sta
 }
 
 bool notes(const SceneBuilder& b, const std::string& text) {
-  const std::vector<std::string> all = check(scene_of(b));
+  const std::vector<std::string> all = check(scene_of(b)).notes;
   return std::any_of(all.begin(), all.end(), [&](const std::string& note) { return note.find(text) != std::string::npos; });
 }
 

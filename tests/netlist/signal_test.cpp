@@ -140,6 +140,45 @@ TEST_CASE("every signal has the values of its definition, on both sides of its b
   }
 }
 
+TEST_CASE("seen from a later or an earlier start a signal is the same one") {
+  for (std::size_t n = 0; n < examples().size(); ++n) {
+    CAPTURE(n);
+    const Signal& signal = examples()[n];
+    for (const double start : {-1.37, 0.91, 41.77}) {
+      CAPTURE(start);
+      const Signal seen = signal.seen_from(start);
+      const auto points = breakpoints(seen, -0.01, 5);
+      CHECK_EQ(points.size(), breakpoints(signal, start - 0.01, start + 5).size());
+      for (int i = 0; i < 1000; ++i) {
+        const double t = 0.00499871 * i;
+        if (distance_to(points, t) > 1e-12) REQUIRE(seen.value(t) == Approx(reference(signal, start + t)).epsilon(1e-11));
+      }
+      CHECK(seen.before(0) == Approx(signal.before(start)).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE("seen from 1e8 s a signal has all its digits, whenever it began") {
+  constexpr double late = 1e8;
+  // A multiple of these periods: what began at 0 is where it was then.
+  for (const double frequency : {2.0, 0.1, 12.5}) {
+    const Signal signals[] = {
+        Signal(Signal::Sine{1.9, frequency, 0.6, 0, 0.31}), Signal(Signal::Square{1.4, frequency, 0.7, 0, 0.6}),
+        Signal(Signal::Triangle{1.6, frequency, 1.3, 0, -0.7}), Signal(Signal::Pulse{1.8, 0.03, frequency, 0.61, 0, 0.3})};
+    for (const Signal& signal : signals) {
+      const Signal seen = signal.seen_from(late);
+      for (int i = 0; i < 1000; ++i) {
+        const double t = 0.01 + 0.00499871 * i;
+        CHECK(seen.value(t) == Approx(signal.value(t)).epsilon(1e-12));
+        if (std::isfinite(signal.piece(t).end)) CHECK(seen.piece(t).end == Approx(signal.piece(t).end).epsilon(1e-13));
+      }
+    }
+  }
+  // What begins later keeps its distance from the start.
+  CHECK_EQ(Signal(Signal::Step{2.3, late + 0.75, 0.1}).seen_from(late).piece(0).end, 0.75);
+  CHECK_EQ(Signal(Signal::Table{{0.25, 0.5}, {1, 2}, late, 0}).seen_from(late).piece(0.3).end, 0.5);
+}
+
 TEST_CASE("a jump or a corner is where a breakpoint says, and nowhere else") {
   constexpr double h = 1e-4;
   for (std::size_t n = 0; n < examples().size(); ++n) {

@@ -58,6 +58,58 @@ TEST_CASE("a run that starts later counts from there") {
   CHECK_EQ(run["k.force"].back(), doctest::Approx(k * v * (2.3 - 2.0713)).epsilon(1e-8));
 }
 
+TEST_CASE("a late start gives the same results: only the column of time is later") {
+  constexpr double late = 1e8, length = 1.3;
+  const auto scene = [&](double start, bool begun) {
+    // What began at 0 has gone through whole periods by then, but for those that are still under way.
+    const double time = begun ? 0 : start;
+    SceneBuilder b;
+    b.motion("drive", "a", "velocity", Signal(Signal::Sine{0.37, 2, 0.4, time, 0.013}));
+    b.between("f", "cfm", "a", "b", {{"stiffness", 217.0}, {"coulomb", 1.3}, {"damping", 41.0}, {"exponent", 0.7}});
+    b.at("m", "mass", "b", {{"mass", 0.31}});
+    b.between("k", "spring", "b", "ground", {{"stiffness", k}});
+    b.between("s", "slider", "b", "ground", {{"coulomb", 0.23}, {"breakaway", 0.23}});
+    b.force("push", "b", Signal(Signal::Square{0.71, 4, 0.1, time, 0}));
+    b.force("pull", "b", Signal(Signal::Table{{0, 0.25, 0.75}, {0, 0.6, -0.2}, start + 0.125, 0}));
+    Scene result = b.finish(length, 52, 1e-8);
+    result.start = start;
+    result.stop = start + length;
+    result.output_every = (result.stop - start) / 52;
+    return result;
+  };
+  for (const bool begun : {false, true}) {
+    CAPTURE(begun);
+    Summary at_once, later;
+    const Trajectory first = simulate(scene(0, begun), &at_once);
+    const Trajectory then = simulate(scene(late, begun), &later);
+    CHECK_EQ(later.events, at_once.events);
+    CHECK(at_once.events > 10);
+    REQUIRE_EQ(then.time().size(), first.time().size());
+    for (std::size_t row = 0; row < first.time().size(); ++row) {
+      CHECK(std::abs(then.time()[row] - late - first.time()[row]) <= 2e-8);
+    }
+    for (const std::string& name : first.header) {
+      CAPTURE(name);
+      if (name == "time") continue;
+      // The length of the run itself is rounded: 1.3 s are 1e-8 s more or less there.
+      const double change = name.ends_with("velocity") || name.ends_with("force") ? 1e-5 : 1e-7;
+      for (std::size_t row = 0; row < first.time().size(); ++row) {
+        CHECK(std::abs(then[name][row] - first[name][row]) <= change * first.scale(name));
+      }
+    }
+  }
+}
+
+TEST_CASE("messages of a late run show the scene's time") {
+  SceneBuilder b;
+  b.force("push", "a", Signal(Signal::Ramp{1, 1e8, 0}));
+  b.between("s", "slider", "a", "ground", {{"coulomb", 1.3}, {"breakaway", 1.3}});
+  Scene scene = b.finish(2, 40, 1e-6);
+  scene.start = 1e8;
+  scene.stop = 1e8 + 2;
+  CHECK_THROWS_WITH_AS(run(scene), doctest::Contains("at t = 100000001.3 s nothing resists the force"), SimulationError);
+}
+
 TEST_CASE("output times that do not reach the stop") {
   SceneBuilder b = stepping(0.0713);
   Scene scene = b.finish(0.3, 30, accuracy);
@@ -105,7 +157,9 @@ TEST_CASE("rows at events: the state before and the state after") {
     Summary summary;
     const Trajectory run = simulate(scene, &summary);
     CHECK_EQ(summary.events, 2);
-    REQUIRE_EQ(run.time().size(), 12);
+    // At an output time its row is the one after the event.
+    const std::size_t added = time == 0.1 ? 1 : 2;
+    REQUIRE_EQ(run.time().size(), 10 + added);
     std::size_t first = 0;
     while (run.time()[first] < time) ++first;
     CHECK_EQ(run.time()[first], time);
@@ -116,10 +170,34 @@ TEST_CASE("rows at events: the state before and the state after") {
     CHECK_EQ(run["k2.force"][first + 1], doctest::Approx(k * dx).epsilon(1e-12));
     // The other rows are as without.
     for (std::size_t row = 0, other = 0; row < 10; ++row, ++other) {
-      if (other == first) other += 2;
+      if (other == first) other += added;
       CHECK_EQ(run.time()[other], plain.time()[row]);
       CHECK_EQ(run["k.force"][other], doctest::Approx(plain["k.force"][row]).epsilon(1e-12));
     }
+  }
+}
+
+TEST_CASE("rows at events that all but fall on an output time are in order, and none is double") {
+  constexpr double row = 0.1, stop = 0.3;
+  // Within 1e-9 of an interval an event is at its row; beyond it has a pair of its own.
+  for (const double off : {-3e-10, -5e-11, -2e-11, 0.0, 2e-11, 5e-11, 3e-10}) {
+    CAPTURE(off);
+    const bool at_row = std::abs(off) < 1e-9 * stop / 9;
+    Scene scene = stepping(row + off).finish(stop, 9, accuracy);
+    scene.output_events = true;
+    const Trajectory run = simulate(scene);
+    CHECK_EQ(run.time().size(), at_row ? 11 : 12);
+    int doubles = 0;
+    for (std::size_t k = 1; k < run.time().size(); ++k) {
+      CHECK(run.time()[k] >= run.time()[k - 1]);
+      const bool is_pair = run.time()[k] == run.time()[k - 1];
+      doubles += is_pair;
+      if (!is_pair) continue;
+      CHECK_EQ(run["a.velocity"][k - 1], 0);
+      CHECK_EQ(run["a.velocity"][k], v);
+      if (at_row) CHECK_EQ(run.time()[k], 3 * (stop / 9));
+    }
+    CHECK_EQ(doubles, 1);
   }
 }
 

@@ -50,26 +50,26 @@ Probe::Probe(const Scene& scene)
     : scene_(scene),
       network_(build_network(scene_)),
       classified_(classify(network_)),
-      start_(rheonet::start(network_, scene_.start)) {
+      start_(rheonet::start(network_, classified_)) {
   Instant instant(network_, classified_, start_.drive);
   std::vector<double> force(network_.sliders.size(), 0);
   modes_.slider.assign(network_.sliders.size(), Modes::stuck);
-  start_.drive.enter(scene_.start);
-  change_ = instant.cross(scene_.start, scene_.stop - scene_.start, true, {}, start_.state, modes_, force);
+  start_.drive.enter(0);
+  change_ = instant.cross(0, scene_.stop - scene_.start, true, {}, start_.state, modes_, force);
   structure_ = analyse(network_, modes_);
   dae_ = std::make_unique<Dae>(network_, structure_, start_.drive, needed_positions(network_));
   current_ = dae_.get();
-  dae_->enter(scene_.start, start_.state, modes_, y_);
+  dae_->enter(0, start_.state, modes_, y_);
   Consistency consistency(*dae_);
-  consistency.project(scene_.start, y_);
-  consistency.derivative(scene_.start, y_, yp_);
+  consistency.project(0, y_);
+  consistency.derivative(0, y_, yp_);
 }
 
 void Probe::along(int every, int samples, const Visit& visit) {
   Visitor visitor(current_, every, samples, visit);
   simulate(
       network_, needed_positions(network_),
-      {.start = scene_.start, .stop = scene_.stop, .accuracy = scene_.accuracy, .interrupt = nullptr, .progress = {}},
+      {.stop = scene_.stop - scene_.start, .accuracy = scene_.accuracy, .interrupt = nullptr, .progress = {}},
       visitor);
   current_ = dae_.get();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -58,7 +59,9 @@ Difference difference_at(F f, double x, double h) {
   const double coarse = (far_up - far_down) / (2 * h), fine = (up - down) / h;
   // A second difference over h is f'' h on a smooth curve, and the angle itself on a kink.
   const double kink = 4 * (up - 2 * middle + down) / h - (far_up - 2 * middle + far_down) / h;
-  return {fine + (fine - coarse) / 3, std::max(std::abs(fine - coarse), std::abs(kink))};
+  // Each value is known to some units in its last place.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * (std::abs(up) + std::abs(down)) / h;
+  return {fine + (fine - coarse) / 3, std::max({std::abs(fine - coarse), std::abs(kink), rounding})};
 }
 
 /// The same from h on downwards, until the doubt is no more than `enough`.

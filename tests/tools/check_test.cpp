@@ -72,6 +72,66 @@ TEST_CASE("check finds what run would refuse, with the same status") {
   CHECK(folder.shell("rheonet check contradictory.toml --set right.at=other").status == 0);
 }
 
+TEST_CASE("what is wrong with a network has its place in the netlist, and what would mend it") {
+  const Folder folder;
+  const std::string spring = "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3 }\n";
+  const std::string inertia = "m = { type = \"mass\", at = \"a\", mass = 1 }\n";
+  struct Case { std::string elements, start; };
+  const Case cases[] = {
+      {spring + "d = { type = \"motion\", at = \"ground\", velocity = 1 }\n",
+       "scene.toml:3:1: error: motion `d` moves `ground`, which never moves; prescribe another node\n"},
+      {spring + inertia + "k2 = { type = \"spring\", between = [\"b\", \"c\"], stiffness = 3 }\n",
+       "scene.toml:4:36: error: nothing determines the motion of nodes `b`, `c`: "},
+      {spring + inertia + "push = { type = \"force\", at = \"b\", force = 1 }\n",
+       "scene.toml:4:31: error: nothing determines the motion of node `b`: "},
+      {"one = { type = \"motion\", at = \"a\", velocity = 1 }\n"
+       "two = { type = \"motion\", at = \"b\", velocity = 2 }\n"
+       "link = { type = \"slider\", between = [\"a\", \"b\"], coulomb = \"inf\" }\n",
+       "scene.toml:4:1: error: rigid link `link` joins nodes that are made to move at different velocities; leave it out"},
+      {spring + inertia + "s = { type = \"slider\", between = [\"a\", \"ground\"], coulomb = 2, breakaway = 1 }\n",
+       "scene.toml:4:1: error: element `s`: `breakaway` is less than `coulomb`"},
+      {inertia + "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3, d0 = 1 }\n"
+                 "[nodes]\na = { position = 2 }\n",
+       "scene.toml:3:1: error: element `k` cannot start with the displacement d0 = 1"},
+      {spring + "d = { type = \"motion\", at = \"a\", velocity = 1 }\n[nodes]\na = { velocity = 2 }\n",
+       "scene.toml:5:1: error: node `a` cannot start with velocity 2: motion `d` gives it 1"},
+  };
+  for (const auto& [elements, start] : cases) {
+    CAPTURE(elements);
+    folder.write("scene.toml", "[elements]\n" + elements + "[simulate]\nstop = 1\n");
+    const Finished result = folder.shell("rheonet check scene.toml");
+    CHECK(result.status == 1);
+    CHECK_MESSAGE(result.err.starts_with(start), result.err);
+    CHECK(contains(result.err, "| "));  // the line itself
+    CHECK(contains(folder.shell("rheonet run scene.toml").err, start));
+  }
+}
+
+TEST_CASE("check -v lists what was not given and had to be chosen") {
+  const Folder folder;
+  folder.write("scene.toml", R"([elements]
+drive = { type = "motion", at = "a", velocity = 1 }
+v1 = { type = "vfm", between = ["a", "m"], damping = 2, stiffness = 10, f0 = 3 }
+v2 = { type = "vfm", between = ["n", "m"], damping = 2, stiffness = 10 }
+k = { type = "spring", between = ["n", "ground"], stiffness = 10 }
+[simulate]
+stop = 1
+)");
+  const Finished verbose = folder.shell("rheonet check -v scene.toml");
+  CHECK(verbose.status == 0);
+  CHECK(contains(verbose.out,
+                 "chosen at the start:\n"
+                 "  element `v2` starts with a force of -3 N: it has no f0, and has to balance what is given at node `m`\n"
+                 "  node `n` starts at position 0.3 m: it has no mass, and there the forces balance\n"));
+  CHECK_FALSE(contains(folder.shell("rheonet check scene.toml").out, "starts"));
+  const Finished noted = folder.shell("rheonet check scene.toml --set nodes.n.velocity=7");
+  CHECK(contains(noted.out, "note: node `n` starts with a velocity of "));
+  CHECK(contains(noted.out, ", not with the 7 that is given: it has no mass, and the elements there decide"));
+  const Finished refused = folder.shell("rheonet check scene.toml --set v2.f0=3");
+  CHECK(refused.status == 1);
+  CHECK(contains(refused.err, "scene.toml:3:1: error: the initial forces at node `m` do not balance"));
+}
+
 TEST_CASE("models are included from the library: the one named by RHEONET_LIBRARY, or the one that comes along") {
   const Folder folder;
   folder.write("scene.toml", R"(include = ["library/rheology.toml"]

@@ -162,7 +162,7 @@ TEST_CASE("a scene that cannot be simulated: status 1, elements named, earlier r
   const Finished result = folder.shell("rheonet run scene.toml -o out.csv");
   CAPTURE(result.err);
   CHECK(result.status == 1);
-  CHECK(result.err.starts_with("error: "));
+  CHECK(result.err.starts_with("scene.toml:3:1: error: "));
   CHECK(contains(result.err, "left"));
   CHECK(contains(result.err, "right"));
   CHECK(folder.read("out.csv") == "earlier results\n");

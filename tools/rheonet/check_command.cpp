@@ -102,9 +102,14 @@ ExitStatus check_scene(const Arguments& arguments) {
   const Scene& scene = *read.scene;
   if (arguments.verbose) print_network(scene);
   try {
-    for (const std::string& note : check(scene)) fmt::print("note: {}\n", note);
+    const StartReport start = check(scene);
+    if (arguments.verbose && !start.chosen.empty()) fmt::print("chosen at the start:\n");
+    for (const std::string& value : start.chosen) {
+      if (arguments.verbose) fmt::print("  {}\n", value);
+    }
+    for (const std::string& note : start.notes) fmt::print("note: {}\n", note);
   } catch (const SimulationError& error) {
-    say("error: {}\n", error.what());
+    report(error, read.sources);
     return not_simulated;
   }
   fmt::print("{}: no mistake found ({}, {})\n", printable(arguments.scene),

@@ -21,4 +21,12 @@ ReadResult read_and_report(const Arguments& arguments) {
   return result;
 }
 
+void report(const SimulationError& error, const Sources& sources) {
+  if (error.spot) {
+    say("{}\n", format({.severity = Severity::error, .spot = *error.spot, .message = error.what(), .hint = {}}, sources));
+  } else {
+    say("error: {}\n", error.what());
+  }
+}
+
 }  // namespace rheonet::tool

@@ -124,7 +124,9 @@ ExitStatus run_scene(const Arguments& arguments) {
     return done;
   } catch (const SimulationError& error) {
     progress.erase();
-    if (outputs.close()) say("error: {}\n{}", error.what(), outputs.kept());
+    const bool closed = outputs.close();
+    report(error, read.sources);
+    if (closed) say("{}", outputs.kept());
     return not_simulated;
   }
 }

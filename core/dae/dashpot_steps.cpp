@@ -1,0 +1,232 @@
+#include "core/dae/dashpot_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "core/dae/convex.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+struct Dashpot {
+  NodeId a, b;
+  double coefficient;
+};
+
+/// Dashpots by their exponents, the largest first.
+using ByExponent = std::map<double, std::vector<Dashpot>, std::greater<>>;
+
+ByExponent sorted(const Network& network) {
+  ByExponent result;
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.rates[at(laws.first) + i];
+      const Growth growth = laws.batch->growth(i);
+      result[growth.exponent].push_back({b.a, b.b, growth.coefficient});
+    }
+  }
+  return result;
+}
+
+/// sum of +-coefficient |step|^exponent = 0 at the nodes that are not fixed, in units of the largest step and
+/// coefficient.
+ConvexNetwork::Law law_of(double coefficient, double exponent) {
+  if (exponent == 1) return {.backward = coefficient, .forward = coefficient};
+  return {.backward = coefficient, .forward = coefficient, .beyond = [=](double step, double& slope) {
+            const double secant = coefficient * std::pow(std::abs(step), exponent - 1);
+            slope = secant * std::max(1.0, exponent);  // the larger of secant and tangent never overshoots
+            return secant * step;
+          }};
+}
+
+class Sets {
+ public:
+  explicit Sets(std::size_t n) : rank_(n), parent_(n), sets_(rank_.data(), parent_.data()) {
+    for (std::size_t i = 0; i < n; ++i) sets_.make_set(static_cast<int>(i));
+  }
+  int find(int i) { return sets_.find_set(i); }
+  void join(int i, int j) { sets_.union_set(i, j); }
+
+ private:
+  std::vector<int> rank_, parent_;
+  boost::disjoint_sets<int*, int*> sets_;
+};
+
+/// The steps that are known so far.
+class Steps {
+ public:
+  Steps(const Structure& structure, std::vector<double>& dx)
+      : structure_(structure), dx_(dx), together_(dx.size()), known_(dx.size()) {
+    for (std::size_t n = 0; n < dx.size(); ++n) {
+      known_[n] = structure.kind[n] != Kind::viscous;
+      farthest_ = std::max(farthest_, std::abs(dx[n]));
+    }
+  }
+
+  bool any() const { return farthest_ > 0; }
+
+  /// Settles what dashpots of this exponent lead to from known steps. What they join elsewhere goes as one from there
+  /// on: nothing that is left can move it apart.
+  bool settle(double exponent, const std::vector<Dashpot>& dashpots) {
+    const std::vector<char> led = led_by(dashpots);
+    double stiffest = 0;
+    for (const Dashpot& d : dashpots) stiffest = std::max(stiffest, d.coefficient);
+    ConvexNetwork balance(static_cast<int>(dx_.size()));
+    const auto slot = [&](NodeId node) { return structure_.rank[at(node)]; };
+    for (std::size_t n = 0; n < dx_.size(); ++n) {
+      if (!led[n]) balance.fix(slot(static_cast<NodeId>(n)), dx_[n] / farthest_);
+    }
+    for (const Dashpot& d : dashpots) {
+      const NodeId a = together_.find(d.a), b = together_.find(d.b);
+      if (a != b && (led[at(a)] || led[at(b)]))
+        balance.add(slot(a), slot(b), law_of(d.coefficient / stiffest, exponent));
+    }
+    if (balance.solve() != ConvexNetwork::Outcome::solved) return false;
+    for (std::size_t n = 0; n < dx_.size(); ++n) {
+      if (!led[n]) continue;
+      dx_[n] = balance.value(slot(static_cast<NodeId>(n))) * farthest_;
+      known_[n] = 1;
+    }
+    for (const Dashpot& d : dashpots) {
+      if (!known(d.a) && !known(d.b)) together_.join(d.a, d.b);
+    }
+    return true;
+  }
+
+  void give_to_all() {
+    for (std::size_t n = 0; n < dx_.size(); ++n) dx_[n] = dx_[at(together_.find(static_cast<NodeId>(n)))];
+  }
+
+ private:
+  bool known(NodeId node) { return known_[at(together_.find(node))] != 0; }
+
+  /// The nodes, each standing for those that go with it, that are not known and that a way over such dashpots joins to
+  /// one that is.
+  std::vector<char> led_by(const std::vector<Dashpot>& dashpots) {
+    Sets parts(dx_.size());
+    for (const Dashpot& d : dashpots) {
+      if (!known(d.a) && !known(d.b)) parts.join(together_.find(d.a), together_.find(d.b));
+    }
+    std::vector<char> part_led(dx_.size(), 0), led(part_led);
+    for (const Dashpot& d : dashpots) {
+      if (!known(d.a) && known(d.b)) part_led[at(parts.find(together_.find(d.a)))] = 1;
+      if (!known(d.b) && known(d.a)) part_led[at(parts.find(together_.find(d.b)))] = 1;
+    }
+    for (std::size_t n = 0; n < dx_.size(); ++n) {
+      const auto node = static_cast<NodeId>(n);
+      led[n] = together_.find(node) == node && part_led[at(parts.find(node))];
+    }
+    return led;
+  }
+
+  const Structure& structure_;
+  std::vector<double>& dx_;
+  Sets together_;  ///< nodes that go as one
+  std::vector<char> known_;
+  double farthest_ = 0;  ///< of all steps: the measure of the others
+};
+
+}  // namespace
+
+bool go_with_dashpots(const Network& network, const Structure& structure, std::vector<double>& dx) {
+  Steps steps(structure, dx);
+  if (!steps.any()) return true;
+  for (const auto& [exponent, dashpots] : sorted(network)) {
+    if (!steps.settle(exponent, dashpots)) return false;
+  }
+  steps.give_to_all();
+  return true;
+}
+
+bool step_together(double a, double b) {
+  constexpr double rounding = 1e-12;
+  return std::abs(a - b) <= rounding * (std::abs(a) + std::abs(b));
+}
+
+namespace {
+
+/// Massless nodes that rigid dashpots join, and the nodes beyond that hold them there.
+class RigidParts {
+ public:
+  RigidParts(const Network& network, const Structure& structure, const std::vector<double>& dx)
+      : structure_(structure), parts_(dx.size()), holders_(dx.size()) {
+    std::vector<Branch> rigid;
+    for (const Laws<RateBatch>& laws : network.rate_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const Branch& b = network.rates[at(laws.first) + i];
+        if (laws.batch->growth(i).exponent > 1 && step_together(dx[at(b.a)], dx[at(b.b)])) rigid.push_back(b);
+      }
+    }
+    for (const Branch& b : rigid) {
+      if (light(b.a) && light(b.b)) parts_.join(b.a, b.b);
+    }
+    for (const Branch& b : rigid) {
+      if (light(b.a) != light(b.b)) add_holder(light(b.a) ? b.a : b.b, light(b.a) ? b.b : b.a);
+    }
+  }
+
+  /// Those that take an impulse at a node: itself, or those that hold it.
+  std::vector<NodeId> takers(NodeId node) {
+    return light(node) ? holders_[at(parts_.find(node))] : std::vector<NodeId>{node};
+  }
+
+ private:
+  bool light(NodeId node) const { return structure_.kind[at(node)] == Kind::viscous; }
+  void add_holder(NodeId node, NodeId holder) {
+    std::vector<NodeId>& all = holders_[at(parts_.find(node))];
+    if (std::find(all.begin(), all.end(), holder) == all.end()) all.push_back(holder);
+  }
+
+  const Structure& structure_;
+  Sets parts_;
+  std::vector<std::vector<NodeId>> holders_;  ///< of each part
+};
+
+[[noreturn]] void report(const Network& network, double t, const Branch& dashpot, NodeId mass, const char* why) {
+  throw SimulationError(
+      fmt::format("{} a step in position reaches the mass at node `{}` through dashpot `{}`, {}; give the step a time "
+                  "to rise in, or put "
+                  "a spring between",
+                  at_time(*network.scene, t), network.node_name(mass), network.name_of(dashpot), why));
+}
+
+}  // namespace
+
+std::vector<double> momentum_through_dashpots(const Network& network, const Structure& structure,
+                                              const std::vector<double>& dx, double t) {
+  std::vector<double> momentum(dx.size(), 0);
+  RigidParts parts(network, structure, dx);
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.rates[at(laws.first) + i];
+      const double impulse = laws.batch->impulse(i);
+      if (impulse == 0 || step_together(dx[at(b.a)], dx[at(b.b)])) continue;
+      for (const auto& [node, sign] : {std::pair{b.a, -1.0}, std::pair{b.b, 1.0}}) {
+        const std::vector<NodeId> takers = parts.takers(node);
+        for (NodeId taker : takers) {
+          if (structure.kind[at(taker)] != Kind::massive) continue;
+          if (std::isinf(impulse)) {
+            report(network, t, b, taker,
+                   "whose force grows faster than the velocity (flow_index above 1): an infinite impulse");
+          }
+          if (takers.size() > 1) {
+            report(network, t, b, taker,
+                   "and which share of its impulse the dashpots beyond (flow_index above 1) take is open");
+          }
+          momentum[at(taker)] += sign * impulse * (dx[at(b.a)] - dx[at(b.b)]);
+        }
+      }
+    }
+  }
+  return momentum;
+}
+
+}  // namespace rheonet

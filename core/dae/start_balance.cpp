@@ -1,0 +1,287 @@
+#include "core/dae/start_balance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// The initial value of this quantity that an element was given; NaN if none.
+double initial(const Network& network, const Branch& branch, Quantity quantity) {
+  const SceneElement& element = network.scene->elements[at(branch.element)];
+  const Declaration& declaration = *declarations()[at(element.declaration)];
+  for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
+    const Parameter& p = declaration.parameters[k];
+    if (p.kind == Parameter::Kind::initial && p.quantity == quantity) return element.values[k];
+  }
+  return not_given;
+}
+
+class StartBalance {
+ public:
+  StartBalance(const Network& network, const Structure& structure, std::vector<char> fixed, State& state)
+      : network_(network),
+        structure_(structure),
+        state_(state),
+        fixed_(std::move(fixed)),
+        tolerance_(std::max(1e-9, network.scene->accuracy)),
+        around_(structure.groups.size()),
+        slip_(structure.groups.size(), 0),
+        before_(slip_),
+        after_(slip_) {
+    // The position of what is heavy or held by dashpots is its own: 0 unless given.
+    for (std::size_t n = 0; n < fixed_.size(); ++n) fixed_[n] = fixed_[n] || structure.group[n] < 0;
+    find_branches();
+    find_loads();
+  }
+
+  std::vector<std::string> settle() {
+    bool again = true;
+    const auto sweep = [&](auto&& action) {
+      for (std::size_t g = 0; g < around_.size(); ++g) again = action(static_cast<int>(g)) || again;
+    };
+    while (again) {
+      again = false;
+      sweep([this](int g) { return follow(g); });
+      if (!again) sweep([this, &again](int g) { return !again && share(g); });
+    }
+    for (std::size_t g = 0; g < around_.size(); ++g) require_balance(static_cast<int>(g));
+    return std::move(chosen_);
+  }
+
+ private:
+  struct Member {
+    DeflectionBatch* batch;
+    std::size_t i;
+    Branch ends;
+    bool by_place;  ///< its force follows from the displacement of its ends, not from an initial force
+    bool given;     ///< the one or the other is known
+    bool forced;    ///< the netlist gives it to the element itself (`f0`, `d0`); an f0 of 0 demands nothing of others
+    double step;    ///< of its displacement at the start, as far as motions make it
+  };
+  struct Side {
+    int member;
+    double sign;
+  };
+
+  void find_branches() {
+    std::vector<double> step(structure_.kind.size(), 0);
+    for (const Network::Motion& m : network_.motions) {
+      if (m.position) step[at(m.node)] = m.signal.value(0) - state_.position[at(m.node)];
+    }
+    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const Branch& b = network_.deflections[at(laws.first) + i];
+        const bool by_place = laws.batch->start(i, 1) != laws.batch->start(i, 0);
+        const double value = initial(network_, b, by_place ? Quantity::position : Quantity::force);
+        const bool given = !std::isnan(value) || (by_place && fixed_[at(b.a)] && fixed_[at(b.b)]);
+        const bool forced = !std::isnan(value) && (by_place || value != 0);
+        const int member = static_cast<int>(members_.size());
+        members_.push_back({laws.batch.get(), i, b, by_place, given, forced, step[at(b.a)] - step[at(b.b)]});
+        const int ga = structure_.group[at(b.a)], gb = structure_.group[at(b.b)];
+        if (ga == gb) continue;
+        if (ga >= 0) around_[at(ga)].push_back({member, 1});
+        if (gb >= 0) around_[at(gb)].push_back({member, -1});
+      }
+    }
+    for (const Network::Slider& slider : network_.sliders) {
+      const int ga = structure_.group[at(slider.branch.a)], gb = structure_.group[at(slider.branch.b)];
+      if (ga == gb) continue;
+      if (ga >= 0) slip_[at(ga)] += slider.law.breakaway;
+      if (gb >= 0) slip_[at(gb)] += slider.law.breakaway;
+    }
+  }
+
+  void find_loads() {
+    const auto add = [&](NodeId node, double before, double after) {
+      if (node < 0 || structure_.group[at(node)] < 0) return;
+      before_[at(structure_.group[at(node)])] += before;
+      after_[at(structure_.group[at(node)])] += after;
+    };
+    for (const Network::Force& f : network_.forces) {
+      const double before = f.signal.before(0), after = f.signal.value(0);
+      add(f.a, before, after);
+      add(f.b, -before, -after);
+    }
+  }
+
+  double& deflection(const Member& m) { return state_.p[static_cast<std::size_t>(&m - members_.data())]; }
+
+  double force(const Member& m, double p) const {
+    double slope;
+    return m.batch->force_along(m.i, p, 0, slope);
+  }
+  /// Force of a member with its displacement changed by `step`, if it follows that.
+  double force(const Member& m, double p, double step) const {
+    double slope;
+    return m.by_place ? m.batch->force_along(m.i, p, step, slope) : force(m, p);
+  }
+
+  /// What the members that are given leave to the others: the sum of the forces that they must have, at this group.
+  double left_to_others(int g) {
+    double left = before_[at(g)];
+    for (const Side& side : around_[at(g)]) {
+      const Member& m = members_[at(side.member)];
+      if (m.given) left -= side.sign * force(m, deflection(m));
+    }
+    return left;
+  }
+
+  bool any_forced(int g) const {
+    return std::any_of(around_[at(g)].begin(), around_[at(g)].end(),
+                       [&](const Side& s) { return members_[at(s.member)].forced; });
+  }
+  std::vector<Side> open(int g, bool by_place) const {
+    std::vector<Side> result;
+    for (const Side& side : around_[at(g)]) {
+      const Member& m = members_[at(side.member)];
+      if (!m.given && m.by_place == by_place) result.push_back(side);
+    }
+    return result;
+  }
+
+  /// Where one thing is left open at a group with an initial force, it follows: its place, or another initial force.
+  bool follow(int g) {
+    if (!any_forced(g) || slip_[at(g)] > 0) return false;
+    const std::vector<Side> places = open(g, true), forces = open(g, false);
+    if (!places.empty()) return place(g, places);
+    if (forces.size() != 1) return false;
+    return demand(g, forces.front(), left_to_others(g));
+  }
+
+  /// Of several initial forces that are left open each takes an equal part.
+  bool share(int g) {
+    if (!any_forced(g) || slip_[at(g)] > 0 || !open(g, true).empty()) return false;
+    const std::vector<Side> forces = open(g, false);
+    if (forces.empty()) return false;
+    const double each = left_to_others(g) / static_cast<double>(forces.size());
+    for (const Side& side : forces) demand(g, side, each);
+    return true;
+  }
+
+  bool demand(int g, const Side& side, double sum) {
+    Member& m = members_[at(side.member)];
+    const double f = side.sign * sum;
+    if (f != 0) {
+      const double p = m.batch->start_with(m.i, f);
+      if (std::isnan(p)) return false;
+      state_.offset[static_cast<std::size_t>(&m - members_.data())] += deflection(m) - p;
+      deflection(m) = p;
+      if (!(std::abs(force(m, p) - f) <= tolerance_ * std::abs(f))) report(g);
+      chosen_.push_back(
+          fmt::format("element `{}` starts with a force of {:.6g} {}: it has no f0, and has to balance what is "
+                      "given at node `{}`",
+                      network_.name_of(m.ends), f, unit_of(Quantity::force, network_.scene->domain), name(g)));
+    }
+    m.given = m.forced = true;
+    return true;
+  }
+
+  /// Shifts a group to where the laws that depend on its place balance the rest; initial forces left open are 0.
+  bool place(int g, const std::vector<Side>& places) {
+    constexpr int most_iterations = 50;
+    for (NodeId node : structure_.groups[at(g)].nodes) {
+      if (fixed_[at(node)]) return false;
+    }
+    for (const Side& side : places) {
+      const Branch& b = members_[at(side.member)].ends;
+      if (!fixed_[at(side.sign > 0 ? b.b : b.a)]) return false;
+    }
+    const double left = left_to_others(g);
+    double shift = 0, change = 0;
+    for (int k = 0; k < most_iterations; ++k) {
+      double sum = -left, stiffness = 0;
+      for (const Side& side : places) {
+        Member& m = members_[at(side.member)];
+        double slope = 0;
+        sum += side.sign * m.batch->force_along(m.i, deflection(m), side.sign * shift, slope);
+        stiffness += slope;
+      }
+      change = stiffness > 0 ? -sum / stiffness : 0;
+      shift += change;
+      if (std::abs(change) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(shift)) break;
+    }
+    if (!std::isfinite(shift)) return false;
+    for (NodeId node : structure_.groups[at(g)].nodes) {
+      state_.position[at(node)] += shift;
+      fixed_[at(node)] = 1;
+    }
+    for (const Side& side : around_[at(g)]) {
+      Member& m = members_[at(side.member)];
+      double& offset = state_.offset[static_cast<std::size_t>(&m - members_.data())];
+      if (m.by_place && !m.given) {
+        deflection(m) += side.sign * shift;
+      } else {
+        offset += side.sign * shift;
+      }
+      m.given = true;
+    }
+    return true;
+  }
+
+  void require_balance(int g) {
+    // A loose end contradicts nothing that is given, nor does what sliders may let go of.
+    const bool loaded = before_[at(g)] != 0 || after_[at(g)] != 0;
+    if (around_[at(g)].size() < (loaded ? 1 : 2) || slip_[at(g)] > 0) return;
+    const auto all = [&](bool Member::*what) {
+      return std::all_of(around_[at(g)].begin(), around_[at(g)].end(),
+                         [&](const Side& s) { return members_[at(s.member)].*what; });
+    };
+    if (!all(&Member::given) || !(any_forced(g) || all(&Member::by_place))) return;
+    double sum_before = -before_[at(g)], sum_after = -after_[at(g)];
+    double magnitude = std::abs(before_[at(g)]) + std::abs(after_[at(g)]);
+    for (const Side& side : around_[at(g)]) {
+      const Member& m = members_[at(side.member)];
+      const double p = deflection(m), now = force(m, p), then = force(m, p, m.step);
+      sum_before += side.sign * now;
+      sum_after += side.sign * then;
+      magnitude += std::max(std::abs(now), std::abs(then));
+    }
+    // Balanced before the first instant, or after it.
+    if (std::min(std::abs(sum_before), std::abs(sum_after)) > tolerance_ * magnitude) report(g);
+  }
+
+  const std::string& name(int g) const { return network_.node_name(structure_.groups[at(g)].nodes.front()); }
+
+  [[noreturn]] void report(int g) {
+    std::string forces;
+    Spot spot = network_.spot_of_node(structure_.groups[at(g)].nodes.front());
+    int first = std::numeric_limits<int>::max();
+    for (const Side& side : around_[at(g)]) {
+      const Member& m = members_[at(side.member)];
+      if (m.forced && m.ends.element < first) spot = network_.spot_of(first = m.ends.element);
+      forces += fmt::format("{}`{}` {}with {:.6g} {}", forces.empty() ? "" : ", ", network_.name_of(m.ends),
+                            forces.empty() ? "begins " : "", force(m, deflection(m)),
+                            unit_of(Quantity::force, network_.scene->domain));
+    }
+    throw SimulationError(
+        spot, fmt::format("the initial forces at node `{}` do not balance, and it has no mass: {}; leave one "
+                          "of the start values (`f0`, `d0`, a position) out, or make them fit",
+                          name(g), forces));
+  }
+
+  const Network& network_;
+  const Structure& structure_;
+  State& state_;
+  std::vector<char> fixed_;
+  double tolerance_;                       ///< less than the accuracy asked for contradicts nothing
+  std::vector<Member> members_;            ///< of each deflection branch
+  std::vector<std::vector<Side>> around_;  ///< of each group: the branches that lead away
+  std::vector<double> slip_;               ///< of each group: what sliders there may take [N]
+  std::vector<double> before_, after_;     ///< of each group: what is applied just before and after the start [N]
+  std::vector<std::string> chosen_;
+};
+
+}  // namespace
+
+std::vector<std::string> balance_start(const Network& network, const Structure& classified, std::vector<char> fixed,
+                                       State& state) {
+  return StartBalance(network, classified, std::move(fixed), state).settle();
+}
+
+}  // namespace rheonet
