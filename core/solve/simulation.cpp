@@ -428,12 +428,24 @@ class Run {
   /// Below a few units in the last place of t there is no time to step over [s].
   static double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
+  /// The fastest rate at which the network itself changes [1/s]. A power law at rest has a slope of 0 or infinity: there it
+  /// is what the forces are a moment later that counts.
+  double fastest_rate(double t, double ahead) {
+    Consistency& consistency = system_->consistency;
+    if (!system_->dae.rough()) return consistency.fastest_rate(t, y_, yp_);
+    std::vector<double> y = y_, yp(y.size());
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * yp_[i];
+    consistency.project(t + ahead, y);
+    consistency.derivative(t + ahead, y, yp);
+    return consistency.fastest_rate(t + ahead, y, yp);
+  }
+
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance
   /// (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * horizon(t);
     if (tolerances_.blind()) {
-      const double rate = system_->consistency.fastest_rate(t, y_, yp_);
+      const double rate = fastest_rate(t, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
     }
     std::vector<double> ypp;
