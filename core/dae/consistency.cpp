@@ -22,6 +22,9 @@ constexpr double balance_rounding = 1e-14;
 constexpr double loose_balance = 1e-10;
 constexpr int most_whole_steps = 20;
 constexpr int most_idle = 3;  // of them in a row that do not halve what is left
+// With secants an unknown comes nearer by a power of what is left: slowly at first.
+constexpr int most_secant_steps = 300;
+constexpr int most_idle_secants = 40;
 // Of the velocities that there are: less is nothing.
 constexpr double velocity_rounding = 1e-14;
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
@@ -283,30 +286,38 @@ void Consistency::project(double t, std::vector<double>& y) {
     y = trial;
     return;
   }
-  std::vector<double> best = y;
-  double least = std::numeric_limits<double>::infinity();
-  int idle = 0;
-  for (int iteration = 0; iteration < most_whole_steps; ++iteration) {
-    factorise(t, y);
-    if (within_rounding(y)) return finish();
-    double error = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!dae_.differential(static_cast<int>(i)) && defect[i] != 0) error = std::max(error, std::abs(defect[i]) / r1_[i]);
+  const auto whole_steps = [&](int most, int patience) {
+    std::vector<double> best = y;
+    double least = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    for (int iteration = 0; iteration < most; ++iteration) {
+      factorise(t, y);
+      if (within_rounding(y)) return true;
+      double error = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        if (!dae_.differential(static_cast<int>(i)) && defect[i] != 0) error = std::max(error, std::abs(defect[i]) / r1_[i]);
+      }
+      // One balance may have got so small that its own rounding shows, while another gains much.
+      idle = error < least / 2 ? 0 : idle + 1;
+      if (error < least) {
+        least = error;
+        best = y;
+      }
+      if (idle == patience || !std::isfinite(error)) break;
+      for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
+      solve(change);
+      for (std::size_t i = 0; i < n; ++i) y[i] += change[i];
     }
-    // One balance may have got so small that its own rounding shows, while another gains much.
-    idle = error < least / 2 ? 0 : idle + 1;
-    if (error < least) {
-      least = error;
-      best = y;
-    }
-    if (idle == most_idle || !std::isfinite(error)) {
-      if (!(least <= loose_balance)) break;
-      y = best;
-      return finish();
-    }
-    for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
-    solve(change);
-    for (std::size_t i = 0; i < n; ++i) y[i] += change[i];
+    y = best;
+    return least <= loose_balance;
+  };
+  if (whole_steps(most_whole_steps, most_idle)) return finish();
+  if (dae_.rough()) {
+    y = before;
+    dae_.use_secants(true);
+    const bool met = whole_steps(most_secant_steps, most_idle_secants);
+    dae_.use_secants(false);
+    if (met) return finish();
   }
   y = before;
   double damping = 1;

@@ -57,6 +57,9 @@ class Dae {
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
   /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that y' and jumps are solved with.
   void consistency_matrix(double t, const double* y, double* values);
+  /// From here on slopes of power laws are no less than their secants from rest: an iteration with them never overshoots
+  /// rest, where Newton's may go to and fro between both sides of it.
+  void use_secants(bool use) { secants_ = use; }
   /// Sums of the magnitudes of the terms of each algebraic equation at the last `residual`, as far as they are forces and
   /// velocities: what is lost by rounding is a share of them.
   void magnitudes(double* r) const;
@@ -162,7 +165,7 @@ class Dae {
   Drive* drive_;
   Bonds bonds_;
   int size_ = 0;
-  bool idle_ = false, rough_ = false;
+  bool idle_ = false, rough_ = false, secants_ = false;
   std::vector<int> iv_, ip_, if_, ix_;
   std::vector<Row> rows_;
   std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes

@@ -179,6 +179,7 @@ void Dae::stiffen_resting_laws() {
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
+      if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
       if (rate_d_[r] != 0) continue;
       if (scale < 0) {
         sum_forces();
