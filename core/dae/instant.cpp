@@ -70,6 +70,11 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   return change;
 }
 
+void Instant::check_load(double t, State state, std::vector<double> slider_force) {
+  Change change;
+  jump(t, false, std::vector<double>(structure_.kind.size(), 0), state, slider_force, change);
+}
+
 /// A time in which neither the drive nor the network itself changes its course [s].
 double Instant::time_ahead(double t, double horizon, const State& state) const {
   const std::size_t nodes = structure_.kind.size();

@@ -38,6 +38,9 @@ class Instant {
   Change cross(double t, double horizon, bool stepped, const Fired& fired, State& state, Modes& modes,
                std::vector<double>& force);
 
+  /// Throws SimulationError, with names, if the loads at t are more than the laws can take, whatever moves.
+  void check_load(double t, State state, std::vector<double> slider_force);
+
  private:
   struct Nodal { std::vector<double> sum, magnitude; };
   double time_ahead(double t, double horizon, const State& state) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <memory>
@@ -27,6 +28,10 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double local_share = 6.4e-4;
 // A first step may be wrong by this much of its tolerance (weighted root mean square of h^2 y''/2).
 constexpr double first_step_error = 0.3;
+// So many failures of the integrator within a glimpse: it will not get over them.
+constexpr std::size_t enough_failures = 30;
+// So many steps within a few roundings of the time.
+constexpr int enough_steps = 1000;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
@@ -321,7 +326,7 @@ class Run {
         system_->consistency.project(t, y_);
         system_->consistency.derivative(t, y_, yp_);
         leave(t);
-        if (gets_nowhere(t, {solver()})) fail(outcome);
+        if (gets_nowhere(t, {solver()}) || closes_in(t)) fail(outcome);
         restart(t, until, shrink);
         continue;
       }
@@ -341,6 +346,7 @@ class Run {
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
+        if (stands_still(t)) fail(Integrator::Outcome::stuck);
         shrink = 1;
         continue;
       }
@@ -361,6 +367,22 @@ class Run {
     if (rate > 0 ? (t - headway_.since()) * rate < 1 : t - headway_.since() < lookahead * horizon(t)) return true;
     headway_.reset();
     return false;
+  }
+
+  /// The integrator fails ever sooner: it comes up to an instant at which something grows without bound.
+  bool closes_in(double t) {
+    failures_.push_back(t);
+    if (failures_.size() > enough_failures) failures_.pop_front();
+    return failures_.size() == enough_failures && t - failures_.front() < glimpse * horizon(failures_.front());
+  }
+
+  /// Step after step brings the time on by less than it can be told.
+  bool stands_still(double t) {
+    if (std::abs(t - reached_) > grain(t)) {
+      reached_ = t;
+      steps_there_ = 0;
+    }
+    return ++steps_there_ > enough_steps;
   }
 
   [[noreturn]] void report_chatter(double t) const {
@@ -470,6 +492,10 @@ class Run {
   [[noreturn]] void fail(Integrator::Outcome outcome) {
     const double t = system_->integrator.time();
     const int worst = system_->integrator.worst_unknown();
+    y_ = system_->integrator.y();
+    yp_ = system_->integrator.yp();
+    leave(t);
+    instant_.check_load(t + lookahead * horizon(t), state_, slider_force_);
     throw SimulationError(fmt::format(
         "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
         worst < 0 ? "a quantity" : system_->dae.describe(worst),
@@ -498,6 +524,9 @@ class Run {
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
+  double reached_ = 0;    ///< where the last steps have been [s]
+  int steps_there_ = 0;
+  std::deque<double> failures_;  ///< of the integrator: the last instants [s]
   std::vector<int> fired_;  ///< elements at the last event
 };
 
