@@ -70,7 +70,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   return change;
 }
 
-void Instant::check_load(double t, State state, std::vector<double> slider_force) {
+void Instant::check_load(double t, double then, State state, std::vector<double> slider_force) {
+  drive_.evaluate(then);
   Change change;
   jump(t, false, std::vector<double>(structure_.kind.size(), 0), state, slider_force, change);
 }

@@ -38,15 +38,16 @@ class Instant {
   Change cross(double t, double horizon, bool stepped, const Fired& fired, State& state, Modes& modes,
                std::vector<double>& force);
 
-  /// Throws SimulationError, with names, if the loads at t are more than the laws can take, whatever moves.
-  void check_load(double t, State state, std::vector<double> slider_force);
+  /// Throws SimulationError, with names and the time t, if the loads at `then` are more than the laws can take, whatever
+  /// moves.
+  void check_load(double t, double then, State state, std::vector<double> slider_force);
 
  private:
   struct Nodal { std::vector<double> sum, magnitude; };
   double time_ahead(double t, double horizon, const State& state) const;
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
   void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const;
-  /// Displacements within the instant; true if anything moved.
+  /// Displacements within the instant under the drive last evaluated; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
   double halt(const std::vector<int>& events, const Modes& modes, State& state) const;

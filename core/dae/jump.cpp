@@ -45,7 +45,6 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
 bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
                    Change& change) {
   const std::size_t nodes = structure_.kind.size();
-  drive_.evaluate(t);
   // The nodes of a group move as one: its dashpots take no impulse.
   const auto node_of = [&](NodeId node) {
     const int g = structure_.group[at(node)];

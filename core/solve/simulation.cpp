@@ -495,7 +495,9 @@ class Run {
     y_ = system_->integrator.y();
     yp_ = system_->integrator.yp();
     leave(t);
-    instant_.check_load(t + lookahead * horizon(t), state_, slider_force_);
+    for (const double share : {lookahead, 1e-2, 1e-1}) {
+      instant_.check_load(t, t + share * horizon(t), state_, slider_force_);
+    }
     throw SimulationError(fmt::format(
         "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
         worst < 0 ? "a quantity" : system_->dae.describe(worst),
