@@ -146,7 +146,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const bool alone = known(b.a) && known(b.b);
       const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
       if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / std::abs(df[k]);
-      if (dc[k] != 0) drift_[i] = {eps * (alone ? speed_of(b) : speed[part]), 1 / std::abs(dc[k])};
+      drift_[i] = {eps * (alone ? speed_of(b) : speed[part]), dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       const Branch& b = structure.rates[k];
       rounding_[i] = eps * force[at(part_[at(known(b.a) ? b.b : b.a)])];
