@@ -30,6 +30,15 @@ constexpr double velocity_rounding = 1e-14;
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// As long as it lives slopes are secants.
+struct Secants {
+  explicit Secants(Dae& d) : dae(d) { dae.use_secants(true); }
+  ~Secants() { dae.use_secants(false); }
+  Secants(const Secants&) = delete;
+  Secants& operator=(const Secants&) = delete;
+  Dae& dae;
+};
+
 }  // namespace
 
 struct Consistency::Factor {
@@ -314,10 +323,8 @@ void Consistency::project(double t, std::vector<double>& y) {
   if (whole_steps(most_whole_steps, most_idle)) return finish();
   if (dae_.rough()) {
     y = before;
-    dae_.use_secants(true);
-    const bool met = whole_steps(most_secant_steps, most_idle_secants);
-    dae_.use_secants(false);
-    if (met) return finish();
+    const Secants secants(dae_);
+    if (whole_steps(most_secant_steps, most_idle_secants)) return finish();
   }
   y = before;
   double damping = 1;

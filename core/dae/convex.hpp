@@ -10,12 +10,10 @@ namespace rheonet {
 ///
 ///     inertia_n u_n + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
 ///
-/// where u is the change of x from what it starts from. The change of a heavy node may be far below the rounding of x, and its
-/// force not below that of others: so they are kept apart.
-///
-/// the minimum of a convex function, found by Newton's method on an active set with exact line search. A branch whose law
-/// jumps at 0 joins its ends while its force stays within the jump. x stands for velocities, or for displacements: see
-/// onset.cpp and jump.cpp.
+/// where u is the change of x from what it starts from. That is the minimum of a convex function, found by Newton's method
+/// on an active set with exact line search. A branch whose law jumps at 0 joins its ends while its force stays within the
+/// jump. The change of a heavy node may be far below the rounding of x, and its force not below that of others: so they are
+/// kept apart. x stands for velocities, or for displacements: see instant.cpp and jump.cpp.
 class ConvexNetwork {
  public:
   struct Law {

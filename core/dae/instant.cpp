@@ -334,7 +334,9 @@ ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double
   for (double f : now.magnitude) scale = std::max(scale, f);
   if (scale == 0) scale = 1;
   // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
-  const auto steeper = [&batch, i](double w, double f) { return f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f)); };
+  const auto steeper = [&batch, i](double w, double f) {
+    return f == 0 ? 0 : f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
+  };
   const double f0 = batch.force_at(i, w0), slope = w0 != 0 ? steeper(w0, f0) : scale / batch.velocity_at(i, scale);
   return {.backward = slope, .forward = slope, .rounding = std::abs(f0), .of_change = true,
           .beyond = [&batch, i, w0, f0, slope, steeper](double change, double& tangent) {

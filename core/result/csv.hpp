@@ -8,8 +8,8 @@
 
 namespace rheonet {
 
-/// Writes rows, their numbers so that they read back as the same doubles. Rows reach the file at least every quarter of a
-/// second of running, and when it is closed. Throws SimulationError if the file cannot be written (disk full, pipe closed).
+/// Writes rows, their numbers so that they read back as the same doubles. A row that comes more than a quarter of a second
+/// after the last writing is written at once with those before it; the last ones with `flush`, which the caller owes. Throws SimulationError if the file cannot be written (disk full, pipe closed).
 class CsvWriter {
  public:
   /// `what` is written, for messages: "the results". Without a file nothing is.

@@ -83,7 +83,13 @@ class Recorder final : public Observer {
   }
 
   void flush() {
-    events_.flush();
+    // What cannot be written of the one must not cost the other.
+    try {
+      events_.flush();
+    } catch (const SimulationError&) {
+      csv_.flush();
+      throw;
+    }
     csv_.flush();
   }
   std::vector<Summary::Switched> switched() const {
@@ -158,7 +164,10 @@ Summary run(const Scene& scene, const RunSettings& settings) {
                            .progress = settings.progress},
                           recorder);
   } catch (...) {
-    recorder.flush();
+    try {
+      recorder.flush();
+    } catch (const SimulationError&) {  // what ended the run is said, and closing the file tells of this
+    }
     throw;
   }
   recorder.flush();

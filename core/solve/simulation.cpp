@@ -30,6 +30,8 @@ constexpr double local_share = 6.4e-4;
 constexpr double first_step_error = 0.3;
 // So many failures of the integrator within a glimpse: it will not get over them.
 constexpr std::size_t enough_failures = 30;
+// Where the integrator fails, loads that come in this share of the time until something is known to happen tell why.
+constexpr double soon = 0.1;
 // So many steps within a few roundings of the time.
 constexpr int enough_steps = 1000;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
@@ -457,9 +459,13 @@ class Run {
     if (!system_->dae.rough()) return consistency.fastest_rate(t, y_, yp_);
     std::vector<double> y = y_, yp(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * yp_[i];
-    consistency.project(t + ahead, y);
-    consistency.derivative(t + ahead, y, yp);
-    return consistency.fastest_rate(t + ahead, y, yp);
+    try {
+      consistency.project(t + ahead, y);
+      consistency.derivative(t + ahead, y, yp);
+      return consistency.fastest_rate(t + ahead, y, yp);
+    } catch (const SimulationError&) {  // no state of the network: it was a guess
+      return consistency.fastest_rate(t, y_, yp_);
+    }
   }
 
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance
@@ -495,9 +501,7 @@ class Run {
     y_ = system_->integrator.y();
     yp_ = system_->integrator.yp();
     leave(t);
-    for (const double share : {lookahead, 1e-2, 1e-1}) {
-      instant_.check_load(t, t + share * horizon(t), state_, slider_force_);
-    }
+    instant_.check_load(t, t + soon * horizon(t), state_, slider_force_);
     throw SimulationError(fmt::format(
         "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
         worst < 0 ? "a quantity" : system_->dae.describe(worst),

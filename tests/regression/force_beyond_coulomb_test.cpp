@@ -19,4 +19,5 @@ TEST_CASE("a displacement that becomes infinite ends the run, with the time") {
     message = error.what();
   }
   CHECK_MESSAGE(message.starts_with("at t = 1."), message);
+  CHECK_MESSAGE(message.find("nothing resists the force") != std::string::npos, message);
 }

@@ -44,6 +44,7 @@ std::string describe(const Summary& s, long rows, const std::string& destination
     text += fmt::format("  {:<22}{:>14}{}{}\n", label, value, remark.empty() ? "" : "  ", remark);
   };
   const auto energy = [&line](const char* label, double joules, const std::string& remark) {
+    if (!std::isfinite(joules)) return line(label, "too large", "for a number of double precision");
     line(label, fmt::format("{:.6g}", joules), "J" + remark);
   };
 
