@@ -123,7 +123,9 @@ void ConvexNetwork::choose_weak() {
     if (slope == 0) continue;
     for (int node : {b.a, b.b}) least[at(node)] = std::min(least[at(node)], slope);
   }
+  const auto heavy = [&](int node) { return fixed_[at(node)] || inertia_[at(node)] > 0; };
   for (Branch& b : branches_) {
+    if (heavy(b.a) && heavy(b.b)) continue;  // decided without
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
     if (!b.jumps && flatter > negligible * steeper) continue;
     const double around = std::min(least[at(b.a)], least[at(b.b)]);

@@ -19,5 +19,8 @@ TEST_CASE("a displacement that becomes infinite ends the run, with the time") {
     message = error.what();
   }
   CHECK_MESSAGE(message.starts_with("at t = 1."), message);
-  CHECK_MESSAGE(message.find("nothing resists the force") != std::string::npos, message);
+  // Just before the load is more than the friction can take, or just after: the reason is the same.
+  const bool told = message.find("nothing resists the force") != std::string::npos ||
+                    message.find("every element there has come to a constant force") != std::string::npos;
+  CHECK_MESSAGE((told && message.find("`a`") != std::string::npos), message);
 }
