@@ -61,7 +61,9 @@ record = ["k1.force"]
   rheonet::run(*read.scene, {.csv = stdout});
 }
 CPP
-"$cmake" -S . -B build -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$*" \
+# The generator of the build itself: a bare machine need not have another.
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+"$cmake" -G "$generator" -S . -B build -DCMAKE_PREFIX_PATH="$folder/prefix" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_CXX_FLAGS="$*" \
   -DCMAKE_BUILD_TYPE=Debug >build.log 2>&1 || { cat build.log; exit 1; }
 "$cmake" --build build >>build.log 2>&1 || { cat build.log; exit 1; }
 build/user >rows.csv || { cat rows.csv; exit 1; }
