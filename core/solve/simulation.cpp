@@ -6,16 +6,12 @@
 #include <cmath>
 #include <deque>
 #include <limits>
-#include <map>
-#include <memory>
-#include <numeric>
 
 #include "core/dae/instant.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
-#include "core/solve/events.hpp"
 #include "core/solve/headway.hpp"
-#include "core/solve/tolerances.hpp"
+#include "core/solve/systems.hpp"
 
 namespace rheonet {
 
@@ -42,27 +38,8 @@ constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
-// Equations of so many sets of modes are kept, for when the modes come back.
-constexpr std::size_t remembered_systems = 64;
 // Constant forces balance but for this share of their magnitudes.
 constexpr double tie_rounding = 1e-9;
-
-/// The equations of one set of modes, and what solves them.
-struct System {
-  Structure structure;
-  Dae dae;
-  Consistency consistency;
-  NetworkEvents events;
-  Integrator integrator;
-
-  System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
-         Tolerances& tolerances)
-      : structure(std::move(s)),
-        dae(network, structure, drive, needed),
-        consistency(dae),
-        events(dae, consistency, tolerances, modes),
-        integrator(dae, events, tolerances.values()) {}
-};
 
 class Run {
  public:
@@ -77,11 +54,11 @@ class Run {
         state_(begin_.state),
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
+        systems_(network, classified_, drive_, needed, modes_, tolerances_),
         switches_(network),
         headway_(network.scene->elements.size() + 1, settings.accuracy) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    find_what_may_tie();
     find_known_pairs();
   }
 
@@ -101,14 +78,14 @@ class Run {
       cross(t, true, {});
     }
     observer_.end(settings_.stop);
-    statistics_.integrator = statistics();
+    statistics_.integrator = systems_.statistics();
     return std::move(statistics_);
   }
 
   /// The start alone.
   SimulationStatistics check() {
     begin();
-    statistics_.integrator = statistics();
+    statistics_.integrator = systems_.statistics();
     return std::move(statistics_);
   }
 
@@ -138,17 +115,6 @@ class Run {
   const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
   const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
 
-  /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
-  void find_what_may_tie() {
-    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        const Branch& b = network_.deflections[at(laws.first) + i];
-        const bool floating = classified_.group[at(b.a)] >= 0 || classified_.group[at(b.b)] >= 0;
-        if (floating && laws.batch->events(i) > 0) may_tie_.push_back({laws.batch.get(), i});
-      }
-    }
-  }
-
   /// Laws with a memory, and sliders, between nodes of which both are given: each pair of ends once.
   void find_known_pairs() {
     const auto known = [&](NodeId node) { return classified_.kind[at(node)] == Kind::known; };
@@ -164,35 +130,12 @@ class Run {
     for (const Network::Slider& slider : network_.sliders) add(slider.branch);
   }
 
-  Integrator::Statistics statistics() const {
-    Integrator::Statistics sum = past_;
-    for (const auto& [key, system] : systems_) sum += system->integrator.statistics();
-    return sum;
-  }
-
-  /// The equations of the present modes.
-  System& system_of_modes() {
-    std::vector<char> key;
-    for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
-    for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
-    auto found = systems_.find(key);
-    if (found == systems_.end()) {
-      if (systems_.size() >= remembered_systems) {
-        past_ = statistics();
-        systems_.clear();
-      }
-      found = systems_.emplace(key, std::make_unique<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
-                                                             tolerances_)).first;
-    }
-    return *found->second;
-  }
-
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
   void cross(double t, bool stepped, const Instant::Fired& fired) {
     if (stepped) drive_.enter(t);
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
-    system_ = &system_of_modes();
+    system_ = &systems_.of_modes();
     for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
       if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
     }
@@ -200,7 +143,7 @@ class Run {
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);
     yp_.assign(y_.size(), 0);
-    stand(t, change);
+    dae.stand(t, y_.data(), yp_.data(), change.standing);
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
     dae.view(t, y_.data(), yp_.data());
@@ -209,50 +152,6 @@ class Run {
       if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
-  }
-
-  /// Branches that both directions hold at rest: between massless nodes their force follows from their neighbours. Where
-  /// others hold the ends together already, they rest.
-  void stand(double t, const Instant::Change& change) {
-    const std::vector<int>& standing = change.standing;
-    if (standing.empty()) return;
-    Dae& dae = system_->dae;
-    const Structure& structure = system_->structure;
-    std::vector<NodeId> leader(structure.kind.size());
-    std::iota(leader.begin(), leader.end(), 0);
-    const auto find = [&](NodeId node) {
-      while (leader[at(node)] != node) node = leader[at(node)];
-      return node;
-    };
-    const auto heavy = [&](NodeId node) {
-      return structure.kind[at(node)] == Kind::known || structure.kind[at(node)] == Kind::massive;
-    };
-    for (int j : standing) {
-      dae.view(t, y_.data(), yp_.data());
-      const NodeId a = find(structure.deflections[at(j)].a), b = find(structure.deflections[at(j)].b);
-      std::size_t i = 0;
-      DeflectionBatch& batch = dae.batch_of(j, i);
-      const bool together = a == b || (heavy(a) && heavy(b));
-      if (!together && dae.view(t, y_.data(), yp_.data()).f[at(j)] != 0) {
-        const auto lean = std::find_if(change.leaning.begin(), change.leaning.end(),
-                                       [&](const Instant::Leaning& one) { return one.branch == j; });
-        dae.hold_bundle(j, lean == change.leaning.end() ? 0 : lean->side);
-        (heavy(a) ? leader[at(b)] : leader[at(a)]) = heavy(a) ? a : b;
-      } else if (!batch.holds(i) || !bundled_with_held(j, standing)) {
-        if (!batch.fits(i, 0)) batch.set_direction(i, state_.p[at(j)], 0, 0);
-      }
-    }
-    dae.update_holds();
-  }
-
-  /// Another branch between the same ends has been held, and this one with it.
-  bool bundled_with_held(int branch, const std::vector<int>& standing) const {
-    const Branch& b = system_->structure.deflections[at(branch)];
-    return std::any_of(standing.begin(), standing.end(), [&](int j) {
-      const Branch& o = system_->structure.deflections[at(j)];
-      std::size_t i = 0;
-      return j < branch && std::minmax(o.a, o.b) == std::minmax(b.a, b.b) && system_->dae.batch_of(j, i).holds(i);
-    });
   }
 
   /// What only constant forces hold on to must be in balance, and stay so.
@@ -520,13 +419,11 @@ class Run {
   Instant instant_;
   Tolerances tolerances_;
   Modes modes_;
+  Systems systems_;
   Switches switches_;
   std::vector<double> slider_force_;
-  std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
   std::vector<Branch> known_;
-  std::map<std::vector<char>, std::unique_ptr<System>> systems_;
   System* system_ = nullptr;
-  Integrator::Statistics past_;  ///< of systems that are remembered no more
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
