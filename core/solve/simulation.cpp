@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 
+#include "core/dae/given_reversals.hpp"
 #include "core/dae/instant.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
@@ -24,12 +24,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double local_share = 6.4e-4;
 // A first step may be wrong by this much of its tolerance (weighted root mean square of h^2 y''/2).
 constexpr double first_step_error = 0.3;
-// So many failures of the integrator within a glimpse: it will not get over them.
-constexpr std::size_t enough_failures = 30;
 // Where the integrator fails, loads that come in this share of the time until something is known to happen tell why.
 constexpr double soon = 0.1;
-// So many steps within a few roundings of the time.
-constexpr int enough_steps = 1000;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
@@ -51,6 +47,7 @@ class Run {
         classified_(classify(network)),
         begin_(start(network, classified_)),
         drive_(begin_.drive),
+        given_reversals_(network, classified_, drive_),
         state_(begin_.state),
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
@@ -59,7 +56,6 @@ class Run {
         headway_(network.scene->elements.size() + 1, settings.accuracy) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    find_known_pairs();
   }
 
   SimulationStatistics go() {
@@ -114,21 +110,6 @@ class Run {
 
   const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
   const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
-
-  /// Laws with a memory, and sliders, between nodes of which both are given: each pair of ends once.
-  void find_known_pairs() {
-    const auto known = [&](NodeId node) { return classified_.kind[at(node)] == Kind::known; };
-    const auto add = [&](const Branch& b) {
-      const auto same = [&](const Branch& o) { return o.a == b.a && o.b == b.b; };
-      if (known(b.a) && known(b.b) && std::none_of(known_.begin(), known_.end(), same)) known_.push_back(b);
-    };
-    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        if (laws.batch->events(i) > 0) add(network_.deflections[at(laws.first) + i]);
-      }
-    }
-    for (const Network::Slider& slider : network_.sliders) add(slider.branch);
-  }
 
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
   void cross(double t, bool stepped, const Instant::Fired& fired) {
@@ -197,19 +178,9 @@ class Run {
     return h > 0 ? h : settings_.stop;
   }
 
-  /// Reversals of laws between prescribed nodes are known beforehand, so that no step can miss them.
-  double next_given_reversal(double t) const {
-    double next = std::numeric_limits<double>::infinity();
-    for (const Branch& b : known_) {
-      next = std::min(next, drive_.next_reversal(classified_.motion[at(b.a)], classified_.motion[at(b.b)], t,
-                                                 std::min(drive_.next_break(), settings_.stop)));
-    }
-    return next;
-  }
-
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
-    const double until = std::min({drive_.next_break(), settings_.stop, next_given_reversal(t)});
+    const double until = std::min({drive_.next_break(), settings_.stop, given_reversals_.next(t, std::min(drive_.next_break(), settings_.stop))});
     if (until - t <= grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
@@ -227,7 +198,7 @@ class Run {
         system_->consistency.project(t, y_);
         system_->consistency.derivative(t, y_, yp_);
         leave(t);
-        if (gets_nowhere(t, {solver()}) || closes_in(t)) fail(outcome);
+        if (gets_nowhere(t, {solver()}) || headway_.failing(t, glimpse * horizon(t))) fail(outcome);
         restart(t, until, shrink);
         continue;
       }
@@ -247,7 +218,7 @@ class Run {
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
-        if (stands_still(t)) fail(Integrator::Outcome::stuck);
+        if (headway_.standing(t, grain(t))) fail(Integrator::Outcome::stuck);
         shrink = 1;
         continue;
       }
@@ -270,36 +241,8 @@ class Run {
     return false;
   }
 
-  /// The integrator fails ever sooner: it comes up to an instant at which something grows without bound.
-  bool closes_in(double t) {
-    failures_.push_back(t);
-    if (failures_.size() > enough_failures) failures_.pop_front();
-    return failures_.size() == enough_failures && t - failures_.front() < glimpse * horizon(failures_.front());
-  }
-
-  /// Step after step brings the time on by less than it can be told.
-  bool stands_still(double t) {
-    if (std::abs(t - reached_) > grain(t)) {
-      reached_ = t;
-      steps_there_ = 0;
-    }
-    return ++steps_there_ > enough_steps;
-  }
-
   [[noreturn]] void report_chatter(double t) const {
-    constexpr std::size_t most = 3;
-    std::vector<int> busy = headway_.busiest();
-    std::erase(busy, solver());
-    std::string names;
-    for (std::size_t k = 0; k < std::min(most, busy.size()); ++k) {
-      names += fmt::format("{}`{}`", k ? ", " : "", element_name(busy[k]));
-    }
-    if (busy.size() > most) names += fmt::format(" and {} more", busy.size() - most);
-    throw SimulationError(fmt::format(
-        "{} element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a "
-        "dashpot beside {}, a mass at {} ends or a looser accuracy would end it",
-        at_time(*network_.scene, t), busy.size() > 1 ? "s" : "", names, busy.size() > 1 ? "" : "es", Headway::enough, t - headway_.since(),
-        busy.size() > 1 ? "them" : "it", busy.size() > 1 ? "their" : "its"));
+    throw SimulationError(at_time(*network_.scene, t) + " " + headway_.describe(network_, t));
   }
 
   void switch_memories(double t) {
@@ -415,6 +358,7 @@ class Run {
   const Structure classified_;
   Start begin_;
   Drive& drive_;
+  const GivenReversals given_reversals_;
   State& state_;
   Instant instant_;
   Tolerances tolerances_;
@@ -422,14 +366,10 @@ class Run {
   Systems systems_;
   Switches switches_;
   std::vector<double> slider_force_;
-  std::vector<Branch> known_;
   System* system_ = nullptr;
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
-  double reached_ = 0;    ///< where the last steps have been [s]
-  int steps_there_ = 0;
-  std::deque<double> failures_;  ///< of the integrator: the last instants [s]
   std::vector<int> fired_;  ///< elements at the last event
 };
 
