@@ -17,6 +17,8 @@ constexpr double share_of_horizon = 1e-7;
 constexpr double share_of_network = 1e-3;
 // Roundings of the time: less is no time at all.
 constexpr double time_grains = 64;
+// Energies that differ by this share are equal.
+constexpr double link_rounding = 1e-9;
 // Jumps in a row that refine each other.
 constexpr int most_jumps = 3;
 
@@ -25,7 +27,7 @@ bool contains(const std::vector<int>& list, int x) { return std::find(list.begin
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
-    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), slipping_(network.sliders.size(), 0) {}
+    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), impulse_told_(network.scene->elements.size(), 0), slipping_(network.sliders.size(), 0) {}
 
 // What slips one way must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {
@@ -40,7 +42,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
-  change.heat += halt(fired.sliders, modes, state);
+  change.heat += halt(fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
@@ -111,7 +113,8 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
 /// velocity is the rounding of the event. Rigid links do so at once, and the energy that this takes is heat.
-double Instant::halt(const std::vector<int>& events, const Modes& modes, State& state) const {
+double Instant::halt(const std::vector<int>& events, const Modes& modes, State& state,
+                     std::vector<std::string>& notes) const {
   std::vector<int> fired = events;
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     if (std::isinf(network_.sliders[k].law.breakaway)) fired.push_back(static_cast<int>(k));
@@ -155,10 +158,20 @@ double Instant::halt(const std::vector<int>& events, const Modes& modes, State& 
       }
     }
     if (std::isnan(known) && mass == 0) continue;
+    const double after = std::isnan(known) ? momentum / mass : known;
+    double lost = 0, had = 0;
     for (NodeId node : cluster) {
-      const double before = state.velocity[at(node)], after = std::isnan(known) ? momentum / mass : known;
-      if (std::isnan(known)) heat += structure_.mass[at(node)] * (before - after) * (before + after) / 2;
+      const double before = state.velocity[at(node)], m = structure_.mass[at(node)];
+      if (std::isnan(known)) lost += m * (before - after) * (before + after) / 2;
+      had += m * before * before / 2;
       state.velocity[at(node)] = after;
+    }
+    heat += lost;
+    if (const Network::Slider& link = network_.sliders[at(k)]; std::isinf(link.law.breakaway) && lost > link_rounding * had) {
+      notes.push_back(fmt::format(
+          "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
+          "at once, before the energy account begins",
+          network_.name_of(link.branch), with_unit(*network_.scene, after, Quantity::velocity), lost));
     }
   }
   return std::max(0.0, heat);

@@ -44,7 +44,7 @@ class Instant {
   struct Nodal { std::vector<double> sum, magnitude; };
   double time_ahead(double t, double horizon, const State& state) const;
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
-  void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const;
+  void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes);
   /// The displacements within the instant, on the way to the balance of the forces under the drive last evaluated.
   struct Jump {
     ConvexNetwork problem;
@@ -56,7 +56,7 @@ class Instant {
   /// Takes the state there; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
-  double halt(const std::vector<int>& events, const Modes& modes, State& state) const;
+  double halt(const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
@@ -95,6 +95,7 @@ class Instant {
   Drive& drive_;
   bool stepped_ = false;      ///< the forces of the sliders are those before a step of the drive
   std::vector<char> broken_;           ///< of each slider: its bounds are those of sliding
+  std::vector<char> impulse_told_;     ///< of each element: that a step of a position gives it an impulse
   std::vector<signed char> slipping_;  ///< the direction in which it slips already
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/instant.hpp"
@@ -17,7 +18,7 @@ constexpr double balance_rounding = 1e-12;
 
 }  // namespace
 
-void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const {
+void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = drive_.steps()[m];
   if (!go_with_dashpots(network_, structure_, dx)) {
     throw SimulationError(at_time(*network_.scene, t) +
@@ -27,15 +28,24 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
   for (std::size_t n = 0; n < dx.size(); ++n) {
     if (structure_.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / structure_.mass[n];
   }
+  const auto tell = [&](int element, const std::string& what, double by, const char* whose) {
+    char& told = impulse_told_[at(element)];
+    if (std::exchange(told, 1)) return;
+    notes.push_back(fmt::format("{} a step in position moves {} by {} in no time: {} force at such a step is an "
+                                "impulse, which no row shows and the energy account leaves out",
+                                at_time(*network_.scene, t), what, with_unit(*network_.scene, by, Quantity::position), whose));
+  };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
       if (laws.batch->impulse(i) == 0 || step_together(dx[at(b.a)], dx[at(b.b)])) continue;
-      notes.push_back(fmt::format(
-          "{} a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which no row shows "
-          "and the energy account leaves out",
-          at_time(*network_.scene, t), network_.name_of(b), dx[at(b.a)] - dx[at(b.b)]));
+      tell(b.element, fmt::format("dashpot `{}`", network_.name_of(b)), dx[at(b.a)] - dx[at(b.b)], "its");
     }
+  }
+  for (const Network::Mass& mass : network_.masses) {
+    const double by = dx[at(mass.node)];
+    if (by == 0 || structure_.kind[at(mass.node)] != Kind::known) continue;
+    tell(mass.element, fmt::format("mass `{}`", network_.scene->elements[at(mass.element)].name), by, "the motion's");
   }
 }
 

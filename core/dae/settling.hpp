@@ -41,7 +41,7 @@ class Settling {
 
   std::string kind() const { return resting_ ? "no state of rest to start from" : "no steady state to start from"; }
   std::string with_unit(double x, Quantity quantity) const {
-    return fmt::format("{:.6g} {}", x, unit_of(quantity, network_.scene->domain));
+    return rheonet::with_unit(*network_.scene, x, quantity);
   }
   std::string name(const Branch& b) const { return network_.name_of(b); }
   static std::string listed(const std::vector<std::string>& names) {

@@ -151,8 +151,9 @@ void Settling::hold_what_is_free() {
 void Settling::report_acceleration(const std::vector<NodeId>& nodes) const {
   std::vector<std::string> names, loads;
   for (NodeId node : nodes) names.push_back(network_.node_name(node));
+  const auto there = [&](NodeId node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
   for (const Network::Force& force : network_.forces) {
-    loads.push_back(network_.scene->elements[at(force.element)].name);
+    if (there(force.a) || there(force.b)) loads.push_back(network_.scene->elements[at(force.element)].name);
   }
   throw SimulationError(fmt::format(
       "{}: what is at node{} {} cannot take the force{} {} for ever, and would go ever faster; give it a dashpot or more "

@@ -63,6 +63,10 @@ std::string at_time(const Scene& scene, double t) {
   return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, 16));
 }
 
+std::string with_unit(const Scene& scene, double value, Quantity quantity) {
+  return fmt::format("{:.6g} {}", value, unit_of(quantity, scene.domain));
+}
+
 Network build_network(const Scene& scene) {
   Network network;
   network.scene = &scene;
@@ -80,11 +84,6 @@ Network build_network(const Scene& scene) {
     name_node(element.a);
     if (!element.at) name_node(element.b);
     const Component* declared = components()[static_cast<std::size_t>(element.declaration)];
-    if (declared->check) {
-      if (const std::string wrong = declared->check(element.values); !wrong.empty()) {
-        throw SimulationError(element.spot, describe("element", element.name, wrong));
-      }
-    }
     if (!element.at && element.a == element.b) {
       throw SimulationError(element.spot, describe("element", element.name,
                                                    fmt::format("both ends are at node `{}`, so that it can do nothing; "

@@ -119,7 +119,7 @@ TEST_CASE("a shear-thickening dashpot between a step and a mass is refused; besi
   const auto mass = static_cast<std::size_t>(probe.dae().velocity_unknown(b.node("mass")));
   CHECK_EQ(probe.y()[mass], doctest::Approx(B2 * dx / m).epsilon(1e-14));
   REQUIRE_EQ(probe.change().notes.size(), 1);
-  CHECK(probe.change().notes[0].find("moves dashpot `c` by 0.0193 in no time") != std::string::npos);
+  CHECK(probe.change().notes[0].find("moves dashpot `c` by 0.0193 m in no time") != std::string::npos);
 
   // A stiffer one holds `mid` to the mass: now the infinite impulse comes there.
   SceneBuilder held = b;

@@ -141,13 +141,4 @@ TEST_CASE("an element with both ends at one node is refused by name") {
       "element `k1`: both ends are at node `a`, so that it can do nothing; connect one end elsewhere or leave it out");
 }
 
-TEST_CASE("values that contradict each other are refused by the element's own rule") {
-  SceneBuilder b;
-  b.between("f1", "sfm", "a", "ground", {{"stiffness", 31.0}, {"coulomb", 1.7}, {"f0", -1.700001}});
-  CHECK_EQ(refusal(b), "element `f1`: `f0` lies beyond `coulomb`, a force that it cannot have");
-  SceneBuilder within;
-  within.between("f1", "sfm", "a", "ground", {{"stiffness", 31.0}, {"coulomb", 1.7}, {"f0", -1.7}});
-  CHECK_EQ(refusal(within), "");
-}
-
 }  // namespace rheonet::test
