@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace rheonet {
 
@@ -74,7 +75,7 @@ Network build_network(const Scene& scene) {
   ByComponent deflections, rates;
   std::vector<char> named(scene.nodes.size(), 0);
   const auto name_node = [&](NodeId node) {
-    if (named[static_cast<std::size_t>(node)]++ == 0) network.node_order.push_back(node);
+    if (!std::exchange(named[static_cast<std::size_t>(node)], 1)) network.node_order.push_back(node);
   };
   name_node(ground);
 

@@ -133,6 +133,20 @@ TEST_CASE("elements with a parameter of 0 become nothing, and a note says which"
   CHECK_EQ(run["c0.velocity"].back(), doctest::Approx(0.3).epsilon(1e-12));
 }
 
+// Each node has one place in the order, however many elements name it: a count of them once went round at 256.
+TEST_CASE("a node at which hundreds of elements meet is one node") {
+  for (const int count : {255, 256, 257, 600}) {
+    SceneBuilder b;
+    for (int i = 0; i < count; ++i) {
+      const std::string name = std::to_string(i);
+      b.between("k" + name, "spring", "x", "n" + name, {{"stiffness", 7.3}});
+      b.between("c" + name, "dashpot", "n" + name, "ground", {{"damping", 1.7}});
+    }
+    const Scene scene = b.finish(1, 10, 1e-6);
+    CHECK_EQ(build_network(scene).node_order.size(), static_cast<std::size_t>(count) + 2);
+  }
+}
+
 TEST_CASE("an element with both ends at one node is refused by name") {
   SceneBuilder b;
   b.between("k1", "spring", "a", "a", {{"stiffness", 7.3}});
