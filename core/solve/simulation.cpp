@@ -322,7 +322,11 @@ class Run {
     system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
     system_->events.begin(t, y_.data(), yp_.data());
-    soften_laws();
+    if (system_->dae.rough()) {
+      soften_laws();
+      system_->consistency.project(t, y_);
+      system_->consistency.derivative(t, y_, yp_);
+    }
     double sum = 0;
     for (std::size_t i = 0; i < ypp.size(); ++i) {
       const double e = ypp[i] / 2 / tolerances_.values()[i];
