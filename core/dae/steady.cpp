@@ -163,7 +163,7 @@ void Settling::report_acceleration(const std::vector<NodeId>& nodes) const {
 /// Start values that the steady state contradicts.
 void Settling::note_what_gave_way() {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    const SceneNode& node = network_.scene->nodes[n];
+    const SceneNode& node = network_.node(static_cast<NodeId>(n));
     state_.velocity[n] = velocity_[n];
     if (n == 0 || std::isnan(node.velocity) || known(static_cast<NodeId>(n))) continue;
     if (std::abs(node.velocity - velocity_[n]) <= rounding * std::abs(node.velocity)) continue;

@@ -136,6 +136,14 @@ struct Slip {
   double breakaway;  ///< N, not less than coulomb
 };
 
+/// A deflection law f = stiffness (d - rest).
+struct LinearSpring {
+  double stiffness;     ///< N/m
+  double rest;          ///< m
+  double force;         ///< at the start [N]; takes the place of `rest`; not_given
+  double displacement;  ///< at the start [m]; not_given
+};
+
 /// A law at a limit of its parameters is another law.
 struct Limit {
   std::string when = {};     ///< "damping = inf", for the reference
@@ -154,6 +162,7 @@ struct Component {
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
+  std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is one
   /// What is wrong with a set of values that are each within their bounds; "" if nothing.
   std::function<std::string(std::span<const double>)> check = {};
   std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)

@@ -379,7 +379,7 @@ void Forest::solve_ties() {
 }
 
 Structure blank(const Network& network) {
-  const std::size_t n = network.scene->nodes.size();
+  const std::size_t n = network.nodes();
   Structure s;
   s.kind.assign(n, Kind::floating);
   s.motion.assign(n, -1);

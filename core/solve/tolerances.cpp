@@ -27,7 +27,7 @@ constexpr double given_noise = 1e-13;
 }  // namespace
 
 Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative) {
-  const std::size_t nodes = network.scene->nodes.size(), deflections = network.deflections.size();
+  const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
   seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0),
            std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0)};
   foreseen_ = seen_;
