@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace rheonet {
 
@@ -141,7 +142,8 @@ Network build_network(const Scene& scene) {
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };
   const auto name_node = [&](NodeId node) {
-    if (node >= 0 && named[static_cast<std::size_t>(node)]++ == 0) network.node_order.push_back(node);
+    if (node < 0 || std::exchange(named[static_cast<std::size_t>(node)], 1) != 0) return;
+    network.node_order.push_back(node);
   };
   name_node(ground);
 
