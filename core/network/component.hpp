@@ -97,6 +97,10 @@ class DeflectionBatch {
   virtual double stored_energy(std::size_t i, double p) const = 0;
   /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
   virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;
+  /// Where the law knows it as a function of its deflection: what has turned into heat since the memory changed last [J].
+  /// No quadrature of a power that jumps is then needed.
+  virtual bool knows_heat() const { return false; }
+  virtual double heat(std::size_t, double) const { return 0; }
 };
 
 /// f = coefficient abs(w)^exponent sgn(w) for large velocities w.

@@ -100,12 +100,11 @@ void Iwan::find_kink() {
   while (next_end_ < size()) {
     next_ = next_end_;
     const double limit = y_[next_] * (1 + same_kink) + same_kink * std::abs(p_ref_);
-    double stiffness = 0, force = 0;
+    double stiffness = 0;
     for (; next_end_ < size() && y_[next_end_] <= limit; ++next_end_) {
       stiffness += pairs_[order_[next_end_]].stiffness;
-      force += pairs_[order_[next_end_]].coulomb;
     }
-    if (stiffness > kink_share_ * total_stiffness_ || force > kink_share_ * total_force_ || next_end_ == size()) return;
+    if (stiffness > kink_share_ * total_stiffness_ || next_end_ == size()) return;
   }
   next_ = size();
 }
@@ -162,7 +161,7 @@ double Iwan::jump(double p, double jump) {
   const std::size_t before = yielded(from, size()), after = yielded(to, size());
   passed_ = after;
   find_kink();
-  return (sums_[after].bounds * to - sums_[after].lost) - (sums_[before].bounds * from - sums_[before].lost);
+  return heat_at(to, after) - heat_at(from, before);
 }
 
 double Iwan::stored_energy(double p) const {
@@ -210,10 +209,6 @@ bool IwanBatch::set_direction(std::size_t i, double p, double, int direction) {
 double IwanBatch::settle(std::size_t i, double p, double, int direction) {
   bundles_[i].begin_sliding(p, direction);
   return p;
-}
-
-double IwanBatch::dissipated_power(std::size_t i, double p, double, double w) const {
-  return std::max(0.0, bundles_[i].direction() * w) * bundles_[i].sliding_force(p);
 }
 
 }  // namespace rheonet

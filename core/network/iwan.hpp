@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,8 @@ namespace rheonet {
 /// Masing's rule: nothing is left to sort.)
 ///
 /// A yield is a kink of F. Kinks of many small pairs are left to the integrator's error control; one that takes more than
-/// `kink_share` of the stiffness or of the force of the bundle, and the last one, beyond which F is constant, are events.
-/// Up to the next of these F goes on straight beyond it, so that an integrator may look over it.
+/// `kink_share` of the bundle's stiffness, and the last one, beyond which F is constant, are events. Up to the next of these
+/// F goes on straight beyond it, so that an integrator may look over it.
 class Iwan {
  public:
   struct Pair {
@@ -56,8 +57,9 @@ class Iwan {
   /// Slope with which a motion in `direction` begins; 0: of what rests.
   double slope(double p, int direction) const;
   double stored_energy(double p) const;
-  /// Sum of the bounds of those that have yielded: what is turned into heat a travel [N].
-  double sliding_force(double p) const { return sums_[yielded(p)].bounds; }
+  /// What has turned into heat since the reversal [J], and the power that does now.
+  double heat(double p) const { return heat_at(travel(p), yielded(p)); }
+  double heating(double p, double w) const { return std::max(0.0, s_ * w) * sums_[yielded(p)].bounds; }
   double total_force() const { return total_force_; }
 
   double pair_force(std::size_t pair, double p) const;
@@ -85,6 +87,7 @@ class Iwan {
   double force_at(double x, std::size_t yielded) const {
     return s_ * (sums_[yielded].bounds + sums_[yielded].force + sums_[yielded].stiffness * x);
   }
+  double heat_at(double x, std::size_t yielded) const { return sums_[yielded].bounds * x - sums_[yielded].lost; }
   void go(double p, int direction);
   void put_in_order();
   void sum_up();
@@ -144,7 +147,9 @@ class IwanBatch final : public DeflectionBatch {
   Steady steady(std::size_t i) const override { return {bundles_[i].total_force(), 0, bundles_[i].total_force()}; }
   double settle(std::size_t i, double p, double f, int direction) override;
   double stored_energy(std::size_t i, double p) const override { return bundles_[i].stored_energy(p); }
-  double dissipated_power(std::size_t i, double p, double dp, double w) const override;
+  double dissipated_power(std::size_t i, double p, double, double w) const override { return bundles_[i].heating(p, w); }
+  bool knows_heat() const override { return true; }
+  double heat(std::size_t i, double p) const override { return bundles_[i].heat(p); }
 
  private:
   std::vector<Iwan> bundles_;

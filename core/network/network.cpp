@@ -11,8 +11,10 @@ namespace rheonet {
 
 namespace {
 
-// A kink that takes a larger share of a bundle's stiffness or force is located: see tests/analytic/iwan_test.cpp.
-constexpr double kink_worth_an_event = 0.01;
+// A kink that takes a larger share of a bundle's stiffness is an event. Measured on a mass that N equal springs hold
+// (tests/analytic/iwan_test.cpp), at accuracies from 1e-3 to 1e-9: the error is within the accuracy either way; up to about
+// 30 pairs events cost no more steps than the error test does without them, from 50 on up to twice as many.
+constexpr double kink_worth_an_event = 0.03;
 
 Reduced take_limits(const Component* component, std::vector<double> values) {
   for (bool again = true; again;) {

@@ -205,7 +205,7 @@ class Run {
     system_->consistency.derivative(t, y_, yp_);
     dae.view(t, y_.data(), yp_.data());
     check_ties(t);
-    for (const Event& event : switches_.follow(t, modes_)) {
+    for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
@@ -340,6 +340,9 @@ class Run {
       observer_.step(system_->integrator);
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(),
                          system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data()));
+      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, settings_.switch_times)) {
+        observer_.event(event);
+      }
       soften_laws();
       if (settings_.progress) settings_.progress(t / settings_.stop);
       if (outcome == Integrator::Outcome::stop) {
