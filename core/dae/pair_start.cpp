@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rheonet {
@@ -14,19 +15,20 @@ std::vector<std::string> start_pairs(const Network& network, const std::vector<d
   for (std::size_t b = 0; b < forces.size(); ++b) forces[b].assign((*network.bundles)[b].size(), 0);
   for (const Pair& pair : network.pairs) {
     const SceneNode& node = network.scene->nodes[at(pair.node)];
-    const double x = std::isnan(node.position) ? 0 : node.position;
-    // From the spring's end to the slider's, as its law counts from its first node to its second.
-    const double d = pair.spring_sign * (position[at(pair.spring_end)] - x);
+    const double middle = std::isnan(node.position) ? 0 : node.position;
+    const double stretch = position[at(pair.spring_end)] - middle;  // from the spring's end on
     const bool given = !std::isnan(pair.law.force);
-    const double f = given ? pair.law.force : pair.law.stiffness * (d - pair.law.rest);
-    const double rest = given ? d - f / pair.law.stiffness : pair.law.rest;
-    forces[at(pair.bundle)][pair.index] = pair.sign * pair.spring_sign * f;
-    (*network.bundles)[at(pair.bundle)].rest(pair.index) = pair.sign * pair.spring_sign * rest;
-    if (const double kept = std::clamp(f, -pair.coulomb, pair.coulomb); kept != f) {
-      chosen.push_back(fmt::format(
-          "node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance", node.name,
-          position[at(pair.spring_end)] - pair.spring_sign * (rest + kept / pair.law.stiffness),
-          unit_of(Quantity::position, network.scene->domain)));
+    const double f = given ? pair.spring_sign * pair.law.force
+                           : pair.law.stiffness * (stretch - pair.spring_sign * pair.law.rest);
+    const double rest = given ? stretch - f / pair.law.stiffness : pair.spring_sign * pair.law.rest;
+    const double kept = std::clamp(f, -pair.coulomb, pair.coulomb);
+    const double slid = (f - kept) / pair.law.stiffness;
+    forces[at(pair.bundle)][pair.index] = pair.sign * kept;
+    (*network.bundles)[at(pair.bundle)].place(pair.index, pair.sign * rest,
+                                              pair.sign * (middle + slid - position[at(pair.slider_end)]));
+    if (slid != 0) {
+      chosen.push_back(fmt::format("node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance",
+                                   node.name, middle + slid, unit_of(Quantity::position, network.scene->domain)));
     }
   }
   for (std::size_t b = 0; b < forces.size(); ++b) (*network.bundles)[b].begin(0, std::move(forces[b]), 1);

@@ -22,7 +22,7 @@ struct Iwan::Back {
 };
 
 Iwan::Iwan(std::vector<Pair> pairs, double kink_share)
-    : pairs_(std::move(pairs)), rest_(pairs_.size(), 0), kink_share_(kink_share), order_(pairs_.size()), rank_(pairs_.size()) {
+    : pairs_(std::move(pairs)), rest_(pairs_.size(), 0), slide_(rest_), kink_share_(kink_share), order_(pairs_.size()), rank_(pairs_.size()) {
   for (const Pair& pair : pairs_) {
     total_stiffness_ += pair.stiffness;
     total_force_ += pair.coulomb;
@@ -42,12 +42,18 @@ void Iwan::begin(double p, std::vector<double> forces, int direction) {
 }
 
 void Iwan::begin_sliding(double p, int direction) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    slide_[i] = slide(i, p) + (pair_force(i, p) - direction * pairs_[i].coulomb) / pairs_[i].stiffness;
+  }
   for (std::size_t i = 0; i < size(); ++i) f_[i] = direction * pairs_[i].coulomb;
   go(p, direction);
 }
 
 void Iwan::turn(double p) {
-  for (std::size_t i = 0; i < size(); ++i) f_[i] = pair_force(i, p);
+  for (std::size_t i = 0; i < size(); ++i) {
+    slide_[i] = slide(i, p);
+    f_[i] = pair_force(i, p);
+  }
   go(p, -s_);
 }
 
@@ -173,6 +179,15 @@ double Iwan::stored_energy(double p) const {
 double Iwan::pair_force(std::size_t i, double p) const {
   const auto [k, Fc] = pairs_[i];
   return rank_[i] < passed_ ? s_ * Fc : std::clamp(f_[i] + k * (p - p_ref_), -Fc, Fc);
+}
+
+void Iwan::place(std::size_t i, double rest, double slide) {
+  rest_[i] = rest;
+  slide_[i] = slide;
+}
+
+double Iwan::slide(std::size_t i, double p) const {
+  return pair_yields(i, p) ? slide_[i] + s_ * (travel(p) - y_[rank_[i]]) : slide_[i];
 }
 
 void IwanBatch::evaluate(const double* p, double* f, double* c) const {

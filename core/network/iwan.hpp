@@ -63,10 +63,11 @@ class Iwan {
   double total_force() const { return total_force_; }
 
   double pair_force(std::size_t pair, double p) const;
-  /// Displacement of its spring where that is free of force [m]: nothing to the law itself.
-  double& rest(std::size_t pair) { return rest_[pair]; }
-  /// Displacement of its spring.
+  /// Displacements of its spring where that is free of force and of its slider at present [m]: nothing to the law itself.
+  void place(std::size_t pair, double rest, double slide);
+  /// Displacements of its spring and of its slider: that of one which sticks stays the same to the last digit.
   double stretch(std::size_t pair, double p) const { return rest_[pair] + pair_force(pair, p) / pairs_[pair].stiffness; }
+  double slide(std::size_t pair, double p) const;
   bool pair_yields(std::size_t pair, double p) const { return rank_[pair] < yielded(p); }
   /// How many have yielded since the reversal: the pairs in_order(0), in_order(1), ... one after the other.
   std::size_t yielded(double p) const { return yielded(travel(p), next_); }
@@ -95,7 +96,7 @@ class Iwan {
   const Iwan& turned(double p) const;
 
   std::vector<Pair> pairs_;
-  std::vector<double> rest_;
+  std::vector<double> rest_, slide_;  ///< of each; slide_ at the last reversal
   double kink_share_;
   double total_stiffness_ = 0, total_force_ = 0;
 

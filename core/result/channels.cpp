@@ -32,6 +32,7 @@ struct PairView {
         p(view.p[at(branch)]) {}
   double force() const { return pair.sign * bundle.pair_force(pair.index, p); }
   double stretch() const { return pair.sign * bundle.stretch(pair.index, p); }
+  double slide() const { return pair.sign * bundle.slide(pair.index, p); }
   bool slips() const { return bundle.pair_yields(pair.index, p); }
 
   const Pair& pair;
@@ -65,7 +66,7 @@ std::vector<char> needed_positions(const Network& network) {
     const Ends ends = ends_of(*network.scene, record);
     for (const NodeId end : {ends.a, ends.b}) {
       const int node = network.node_of[at(end)];
-      needed[at(node < 0 ? network.pairs[at(-1 - node)].spring_end : node)] = 1;
+      needed[at(node < 0 ? network.pairs[at(-1 - node)].slider_end : node)] = 1;
     }
   }
   // Positions go over sliders that stick, so both ends must be known when they begin to.
@@ -130,7 +131,7 @@ double Channels::position(NodeId end, const Dae::View& view) const {
   const int node = network_.node_of[at(end)];
   if (node >= 0) return view.position[at(node)];
   const PairView pair(network_, -1 - node, view);
-  return view.position[at(pair.pair.spring_end)] - pair.stretch();
+  return view.position[at(pair.pair.slider_end)] + pair.slide();
 }
 
 double Channels::velocity(NodeId end, const Dae::View& view) const {
@@ -145,8 +146,7 @@ double Channels::displacement(const Record& record, const Dae::View& view) const
     const Network::Place& place = network_.places[at(record.index)];
     if (!place.paired) return dae_->displacement(place.index);
     const PairView pair(network_, place.index, view);
-    if (record.index == pair.pair.spring) return pair.pair.spring_sign * pair.stretch();
-    return pair.pair.slider_sign * (pair.pair.sign * dae_->displacement(pair.branch) - pair.stretch());
+    return record.index == pair.pair.spring ? pair.pair.spring_sign * pair.stretch() : pair.pair.slider_sign * pair.slide();
   }
   const Ends ends = ends_of(scene_, record);
   return position(ends.a, view) - position(ends.b, view);
