@@ -35,4 +35,11 @@ std::vector<std::string> start_pairs(const Network& network, const std::vector<d
   return chosen;
 }
 
+void follow_pairs(const Network& network, const State& state) {
+  for (std::size_t b = 0; network.bundles && b < network.bundles->size(); ++b) {
+    const std::size_t branch = static_cast<std::size_t>(network.first_bundle) + b;
+    (*network.bundles)[b].follow(state.p[branch], state.p[branch] + state.offset[branch]);
+  }
+}
+
 }  // namespace rheonet

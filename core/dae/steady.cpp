@@ -1,5 +1,6 @@
 #include "core/dae/steady.hpp"
 
+#include "core/dae/pair_start.hpp"
 #include "core/dae/settling.hpp"
 
 namespace rheonet {
@@ -35,6 +36,7 @@ SteadyStart Settling::go() {
   } while (!find_places());
   if (resting_) refuse_motion();
   note_what_gave_way();
+  follow_pairs(network_, state_);
   return std::move(result_);
 }
 

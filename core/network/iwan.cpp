@@ -42,9 +42,6 @@ void Iwan::begin(double p, std::vector<double> forces, int direction) {
 }
 
 void Iwan::begin_sliding(double p, int direction) {
-  for (std::size_t i = 0; i < size(); ++i) {
-    slide_[i] = slide(i, p) + (pair_force(i, p) - direction * pairs_[i].coulomb) / pairs_[i].stiffness;
-  }
   for (std::size_t i = 0; i < size(); ++i) f_[i] = direction * pairs_[i].coulomb;
   go(p, direction);
 }
@@ -184,6 +181,10 @@ double Iwan::pair_force(std::size_t i, double p) const {
 void Iwan::place(std::size_t i, double rest, double slide) {
   rest_[i] = rest;
   slide_[i] = slide;
+}
+
+void Iwan::follow(double p, double displacement) {
+  for (std::size_t i = 0; i < size(); ++i) slide_[i] += displacement - stretch(i, p) - slide(i, p);
 }
 
 double Iwan::slide(std::size_t i, double p) const {

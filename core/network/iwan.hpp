@@ -65,6 +65,8 @@ class Iwan {
   double pair_force(std::size_t pair, double p) const;
   /// Displacements of its spring where that is free of force and of its slider at present [m]: nothing to the law itself.
   void place(std::size_t pair, double rest, double slide);
+  /// Something has moved them both without a law: their displacement together is `displacement`, at deflection p.
+  void follow(double p, double displacement);
   /// Displacements of its spring and of its slider: that of one which sticks stays the same to the last digit.
   double stretch(std::size_t pair, double p) const { return rest_[pair] + pair_force(pair, p) / pairs_[pair].stiffness; }
   double slide(std::size_t pair, double p) const;
