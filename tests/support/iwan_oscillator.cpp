@@ -44,15 +44,20 @@ Real root(G g, Real h) {
 
 IwanOscillator::IwanOscillator(double mass, double force, double frequency, std::vector<Pair> pairs)
     : m_(mass), F_(force), omega_(2 * std::numbers::pi_v<Real> * frequency), pairs_(std::move(pairs)) {
-  for (const Pair& p : pairs_) at_ref_.push_back(p.force);
-  s_ = -1;
+  Real total = 0;
+  for (const Pair& p : pairs_) {
+    at_ref_.push_back(p.force);
+    total += p.force;
+  }
+  // At rest without a drive yet: what pulls decides, else the drive that rises.
+  s_ = total > 0 ? 1 : -1;
   turn();
 }
 
 /// From here on in the other direction.
 void IwanOscillator::turn() {
   for (std::size_t i = 0; i < pairs_.size() && !y_.empty(); ++i) {
-    if (slips(i)) history_.push_back({static_cast<double>(t_), i, 0});
+    if (slips(i)) history_.push_back({static_cast<double>(t_), i, 0, 0});
     at_ref_[i] = slips(i) ? Real(s_ * pairs_[i].coulomb) : at_ref_[i] + pairs_[i].stiffness * (x_ - x_ref_);
   }
   s_ = -s_;
@@ -96,7 +101,6 @@ void IwanOscillator::advance(double to) {
     const Real longest = std::min(longest_step, to - t_);
     Real h = longest;
     enum { nothing, yield, reversal } what = nothing;
-    // From rest the first derivative that is not 0 tells the direction: here the drive's.
     const auto back = [&](Real x) { return -s_ * slope_of(a, x); };
     if (back(h) > 0) {
       h = root(back, h);
@@ -120,7 +124,7 @@ void IwanOscillator::advance(double to) {
       stiffness_ = yielded_ == y_.size() ? 0 : stiffness_ - pairs_[i].stiffness;
       lost_ += pairs_[i].coulomb;
       ++yields_;
-      history_.push_back({static_cast<double>(t_), i, s_});
+      history_.push_back({static_cast<double>(t_), i, s_, static_cast<double>(v_)});
     } else if (what == reversal) {
       v_ = 0;
       turn();

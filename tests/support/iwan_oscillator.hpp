@@ -10,7 +10,8 @@ namespace rheonet::test {
 class IwanOscillator {
  public:
   struct Pair { double stiffness, coulomb, force = 0; };
-  struct Yield { double t; std::size_t pair; int direction; };  ///< direction 0: it sticks again
+  /// One of the pairs begins to slip, or sticks again (direction 0), at this velocity of the mass.
+  struct Yield { double t; std::size_t pair; int direction; double velocity; };
 
   IwanOscillator(double mass, double force, double frequency, std::vector<Pair> pairs);
 
