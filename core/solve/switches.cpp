@@ -15,12 +15,17 @@ double first_below_zero(const G& g, double left, double right) {
   constexpr int most = 60;
   double gl = g(left), gr = g(right);
   if (gl <= 0 || gr >= 0) return gl <= 0 ? left : right;
-  int kept = 0;  // how often the same side has been
+  double best = -gr < gl ? right : left, least = std::min(gl, -gr);
+  int kept = 0;  // the side that has not moved
   for (int k = 0; k < most; ++k) {
-    const double t = (left * gr - right * gl) / (gr - gl);
+    const double t = left + (right - left) * (gl / (gl - gr));
     if (!(t > left && t < right)) break;
     const double now = g(t);
-    if (now == 0) return t;
+    if (std::abs(now) < least) {
+      best = t;
+      least = std::abs(now);
+    }
+    if (now == 0) break;
     if (now > 0) {
       left = t;
       gl = now;
@@ -32,9 +37,8 @@ double first_below_zero(const G& g, double left, double right) {
       if (kept < 0) gl /= 2;
       kept = -1;
     }
-    if (right - left <= 4 * std::numeric_limits<double>::epsilon() * std::abs(right)) break;
   }
-  return right;
+  return best;
 }
 
 }  // namespace
