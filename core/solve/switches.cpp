@@ -13,8 +13,10 @@ namespace {
 template <class G>
 double first_below_zero(const G& g, double left, double right) {
   constexpr int most = 60;
+  constexpr double rounding = 1e-15;  // of the values at both ends
   double gl = g(left), gr = g(right);
   if (gl <= 0 || gr >= 0) return gl <= 0 ? left : right;
+  const double enough = rounding * (gl - gr);
   double best = -gr < gl ? right : left, least = std::min(gl, -gr);
   int kept = 0;  // the side that has not moved
   for (int k = 0; k < most; ++k) {
@@ -25,7 +27,7 @@ double first_below_zero(const G& g, double left, double right) {
       best = t;
       least = std::abs(now);
     }
-    if (now == 0) break;
+    if (least <= enough) break;
     if (now > 0) {
       left = t;
       gl = now;
