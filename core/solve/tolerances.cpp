@@ -23,11 +23,12 @@ constexpr double value_grains = 4;
 constexpr double force_grains = 16;
 // Small kinks one after the other, as a bundle of many pairs makes them, upset the error test more than the solution: their
 // errors have either sign, and add up like the root of their number where those of a method add up like the number itself.
-// So they may be larger, as long as the last one is not so many steps ago. (Of 1000 pairs on a mass at accuracy 1e-6 that
+// So they may be larger where at least one step in five goes over one; what follows each kink by itself needs every digit.
+// (Of 1000 pairs on a mass at accuracy 1e-6 that
 // takes a seventh of the steps, with errors of 1e-8. Where a mass is not there to smooth it a kink is one of a velocity or
 // of its slope, and nothing is gained.)
 constexpr double kink_allowance = 10;
-constexpr int kink_memory = 10;
+constexpr double kink_rate = 0.2, kink_memory = 8;  // the latter in steps
 // Rounding of a velocity that is a given function of time.
 constexpr double given_noise = 1e-13;
 
@@ -215,7 +216,7 @@ void Tolerances::forget() {
 void Tolerances::watch_kinks(const Dae::View& view) {
   if (!network_.bundles) return;
   yielded_.resize(network_.bundles->size());
-  if (steps_since_kink_ <= kink_memory) ++steps_since_kink_;
+  bool crossed = false;
   for (std::size_t b = 0; b < yielded_.size(); ++b) {
     const Iwan& law = (*network_.bundles)[b];
     const Branch& ends = dae_->structure().deflections[at(network_.first_bundle) + b];
@@ -225,12 +226,13 @@ void Tolerances::watch_kinks(const Dae::View& view) {
     };
     if (!smooth(ends.a) || !smooth(ends.b)) continue;
     const Yielded now{law.branch(), law.yielded(view.p[at(network_.first_bundle) + b])};
-    if (now.branch == yielded_[b].branch && now.pairs > yielded_[b].pairs) steps_since_kink_ = 0;
+    if (now.branch == yielded_[b].branch && now.pairs > yielded_[b].pairs) crossed = true;
     yielded_[b] = now;
   }
+  kink_pace_ += ((crossed ? 1 : 0) - kink_pace_) / kink_memory;
 }
 
-double Tolerances::local() const { return steps_since_kink_ <= kink_memory ? kink_allowance * relative_ : relative_; }
+double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowance * relative_ : relative_; }
 
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();

@@ -71,7 +71,7 @@ class Tolerances {
   /// How far each bundle has yielded, and on which of its branches.
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;
-  int steps_since_kink_ = std::numeric_limits<int>::max();
+  double kink_pace_ = 0;  ///< share of the last steps that went over such kinks
   double unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, tolerance_;
