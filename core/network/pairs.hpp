@@ -30,7 +30,8 @@ struct Pair {
 };
 
 /// The pairs of a scene. What has a mass, a drive, a third element or a velocity given at its middle is none, nor is one
-/// whose slider breaks away at more than it slips with, or whose start values say more than the force of the spring.
+/// whose slider breaks away at more than it slips with. At an end without mass or motion start values other than 0 may say
+/// more than a force of the pair: there it is none if it is given any, or begins with more than its slider holds.
 std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& laws);
 
 }  // namespace rheonet
