@@ -150,12 +150,13 @@ struct Cfm : SolidFriction {
 
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
 
-std::string start_within_bound(std::span<const double> v) {
+std::optional<Misfit> start_within_bound(std::span<const double> v) {
   if (std::isinf(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]) && v[1] > 0 && v[2] > 0) {
-    return "`stiffness` = inf needs `damping` or `coulomb` infinite too; with both finite it is a dashpot in series with "
-           "a slider: wire these";
+    return Misfit{"stiffness", "= inf needs `damping` or `coulomb` infinite too; with both finite it is a dashpot in series "
+                               "with a slider: wire these"};
   }
-  return std::isnan(v[4]) || std::abs(v[4]) <= v[1] ? "" : "`f0` lies beyond `coulomb`, a force that it cannot have";
+  if (std::isnan(v[4]) || std::abs(v[4]) <= v[1]) return {};
+  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
 }
 
 const RegisterComponent registered({
@@ -176,6 +177,7 @@ const RegisterComponent registered({
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
+            .check = start_within_bound,
             .summary = "combined friction model: solid friction that relaxes",
             .law = "df/dt = E (w - f/B),  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 14-17",
@@ -191,7 +193,6 @@ const RegisterComponent registered({
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[2], v[0], 0, v[4]}; }}},
     .deflection = deflection_batch<Cfm>,
-    .check = start_within_bound,
     .drawing = "M0 .5 H.1 M.1 .25 H.9 V.75 H.1 Z M.2 .7 C.35 .35 .5 .35 .8 .35 M.3 .2 H.7 M.9 .5 H1",
 });
 

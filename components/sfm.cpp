@@ -60,8 +60,9 @@ struct Sfm : SolidFriction {
 
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
 
-std::string start_within_bound(std::span<const double> v) {
-  return std::isnan(v[3]) || std::abs(v[3]) <= v[1] ? "" : "`f0` lies beyond `coulomb`, a force that it cannot have";
+std::optional<Misfit> start_within_bound(std::span<const double> v) {
+  if (std::isnan(v[3]) || std::abs(v[3]) <= v[1]) return {};
+  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
 }
 
 const RegisterComponent registered({
@@ -81,6 +82,7 @@ const RegisterComponent registered({
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
+            .check = start_within_bound,
             .summary = "solid friction model: dry friction with presliding displacement",
             .law = "df/dt = E w,  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
             .source = "P. R. Dahl, A solid friction model, 1968; P. L. Dahl 1982, Eqs. 8-11, 18",
@@ -97,7 +99,6 @@ const RegisterComponent registered({
                   return std::vector<double>{v[0], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
                 }}},
     .deflection = deflection_batch<Sfm>,
-    .check = start_within_bound,
     .drawing = "M0 .5 H.15 M.15 .3 V.7 M.15 .7 C.3 .3 .5 .3 .85 .3 M.85 .3 C.7 .7 .5 .7 .15 .7 M.85 .3 V.7 M.85 .5 H1",
 });
 

@@ -61,6 +61,9 @@ const RegisterComponent registered({
         },
     .role = Role::deflection,
     .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}},
+               {.when = "damping = inf and stiffness = inf", .becomes = "slider",
+                .applies = [](std::span<const double> v) { return std::isinf(v[0]) && std::isinf(v[1]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }},
                {.when = "stiffness = inf", .becomes = "dashpot",
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], 1, not_given}; }},
@@ -70,9 +73,6 @@ const RegisterComponent registered({
                   return std::vector<double>{v[1], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
                 }}},
     .deflection = deflection_batch<Vfm>,
-    .check = [](std::span<const double> v) -> std::string {
-      return std::isinf(v[0]) && std::isinf(v[1]) ? "`damping` and `stiffness` are both infinite: a rigid link; join the nodes" : "";
-    },
     .drawing = "M0 .5 H.1 M.1 .3 H.9 V.7 H.1 Z M.2 .6 C.4 .6 .4 .4 .8 .4 M.9 .5 H1",
 });
 

@@ -1,8 +1,9 @@
 #include "core/dae/bonds.hpp"
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
+
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -51,15 +52,13 @@ Bonds::Matrix Bonds::laplacian(const std::vector<char>& clamped) const {
 bool Bonds::still_joined(const std::vector<char>& clamped) const {
   // Number n stands for all nodes with a given potential.
   const std::size_t n = node_.size();
-  std::vector<int> rank(n + 1), parent(n + 1);
-  boost::disjoint_sets<int*, int*> sets(rank.data(), parent.data());
-  for (std::size_t k = 0; k <= n; ++k) sets.make_set(static_cast<int>(k));
+  Sets sets(n + 1);
   const auto number = [&](NodeId node) { return row_[at(node)] < 0 ? static_cast<int>(n) : row_[at(node)]; };
   for (std::size_t k = 0; k < sliders_.size(); ++k) {
-    if (!clamped[k]) sets.union_set(number(sliders_[k].a), number(sliders_[k].b));
+    if (!clamped[k]) sets.join(number(sliders_[k].a), number(sliders_[k].b));
   }
   for (std::size_t k = 0; k < n; ++k) {
-    if (sets.find_set(static_cast<int>(k)) != sets.find_set(static_cast<int>(n))) return false;
+    if (sets.find(static_cast<int>(k)) != sets.find(static_cast<int>(n))) return false;
   }
   return true;
 }

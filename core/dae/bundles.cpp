@@ -2,6 +2,7 @@
 #include <map>
 
 #include "core/dae/dae.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -28,6 +29,41 @@ void Dae::find_bundles() {
     }
     bundles_.push_back({branches});
   }
+}
+
+void Dae::stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing) {
+  if (standing.empty()) return;
+  Sets firm(structure_->kind.size());
+  const auto heavy = [&](NodeId node) {
+    return structure_->kind[at(node)] == Kind::known || structure_->kind[at(node)] == Kind::massive;
+  };
+  for (const Standing& one : standing) {
+    const int j = one.branch;
+    const NodeId a = firm.find(structure_->deflections[at(j)].a), b = firm.find(structure_->deflections[at(j)].b);
+    std::size_t i = 0;
+    DeflectionBatch& batch = batch_of(j, i);
+    const bool together = a == b || (heavy(a) && heavy(b));
+    if (view(t, y, yp); !together && view_.f[at(j)] != 0) {
+      hold_bundle(j, one.lean);
+      if (heavy(a)) {
+        firm.join(b, a);
+      } else {
+        firm.join(a, b);
+      }
+    } else if (!batch.holds(i) || !bundled_with_held(j, standing)) {
+      if (!batch.fits(i, 0)) batch.set_direction(i, view_.p[at(j)], 0, 0);
+    }
+  }
+  update_holds();
+}
+
+bool Dae::bundled_with_held(int branch, const std::vector<Standing>& standing) const {
+  const Branch& b = structure_->deflections[at(branch)];
+  return std::any_of(standing.begin(), standing.end(), [&](const Standing& one) {
+    const Branch& o = structure_->deflections[at(one.branch)];
+    std::size_t i = 0;
+    return one.branch < branch && std::minmax(o.a, o.b) == std::minmax(b.a, b.b) && batch_of(one.branch, i).holds(i);
+  });
 }
 
 void Dae::hold_bundle(int branch, int lean) {

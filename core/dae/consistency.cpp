@@ -161,22 +161,39 @@ void Consistency::collocate(double t, double rate, std::vector<double>& y, std::
   }
 }
 
-void Consistency::report_singular(double t) const {
+void Consistency::report_singular(double t) {
   const Network& network = dae_.network();
   const Structure& structure = dae_.structure();
+  constexpr int most = 5;
   std::string nodes;
+  int count = 0;
   for (std::size_t n = 0; n < structure.kind.size(); ++n) {
     if (structure.kind[n] != Kind::floating && structure.kind[n] != Kind::viscous) continue;
-    if (nodes.size() > 100) {
-      nodes += ", ...";
-      break;
-    }
-    nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network.node_name(static_cast<NodeId>(n)));
+    if (++count <= most) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network.node_name(static_cast<NodeId>(n)));
   }
-  throw SimulationError(
-      fmt::format("{} nothing determines the motion of a massless node (one of {}): every element there has "
-                  "come to a constant force; give the node a mass, a dashpot or a spring",
-                  at_time(*network.scene, t), nodes.empty() ? "none" : nodes));
+  if (count == 0) report_unsolved(t);
+  if (count > most) nodes += fmt::format(" and {} more", count - most);
+  throw SimulationError(fmt::format(
+      "{} nothing determines the motion of {} {}: every element there has come to a constant force, or values lie too far "
+      "apart for double precision; give the node a mass, a dashpot or a spring",
+      at_time(*network.scene, t), count > 1 ? "one of the massless nodes" : "massless node", nodes));
+}
+
+void Consistency::report_unsolved(double t) {
+  // The unknown whose equation is the least balanced at the last evaluation.
+  dae_.magnitudes(r1_.data());
+  int worst = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < r0_.size(); ++i) {
+    const double share = std::abs(r0_[i]) / (r1_[i] > 0 ? r1_[i] : 1);
+    if (dae_.differential(static_cast<int>(i)) || !(share > most || std::isnan(share))) continue;
+    worst = static_cast<int>(i);
+    most = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
+  }
+  throw SimulationError(fmt::format(
+      "{} no state was found in which the forces balance, least of all for {}: values there may lie too far apart for "
+      "double precision; check them",
+      at_time(*dae_.network().scene, t), dae_.describe(worst)));
 }
 
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {
@@ -187,7 +204,7 @@ void Consistency::derivative(double t, const std::vector<double>& y, std::vector
   for (int i = 0; i < dae_.size(); ++i) yp[at(i)] = -(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)]);
   solve(yp);
   for (double x : yp) {
-    if (!std::isfinite(x)) report_singular(t);
+    if (!std::isfinite(x)) report_unsolved(t);
   }
 }
 
@@ -237,6 +254,7 @@ void Consistency::project(double t, std::vector<double>& y) {
   std::vector<double> change(n), trial(n), next(n), scale(n, 0), defect(n);
   const auto defects = [&](const std::vector<double>& at_y) {
     dae_.residual(t, at_y.data(), zero_.data(), defect.data());
+    r0_ = defect;
     for (std::size_t i = 0; i < n; ++i) {
       if (dae_.differential(static_cast<int>(i))) defect[i] = 0;
     }
@@ -349,7 +367,7 @@ void Consistency::project(double t, std::vector<double>& y) {
     for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max(largest[kind_[i]], size_of(i));
     for (std::size_t i = 0; i < n; ++i) scale[i] = std::max(size_of(i), share_of_kind * largest[kind_[i]]);
     const double size = norm(change);
-    if (!std::isfinite(size)) report_singular(t);
+    if (!std::isfinite(size)) report_unsolved(t);
     if (size <= 1e-14) return finish();
     for (;; damping /= 2) {
       for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
@@ -362,13 +380,14 @@ void Consistency::project(double t, std::vector<double>& y) {
       if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
       if (damping < 1e-6) {
         if (size <= 1e-9 || within_rounding(y)) return finish();
-        report_singular(t);
+        report_unsolved(t);
       }
     }
     y = trial;
     if (damping == 1 && norm(next) <= 1e-15) return finish();
     damping = std::min(1.0, 2 * damping);
   }
+  report_unsolved(t);
 }
 
 }  // namespace rheonet

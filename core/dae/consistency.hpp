@@ -39,7 +39,8 @@ class Consistency {
   void factorise(double t, const std::vector<double>& y);
   void decompose(double t);
   void solve(std::vector<double>& b);
-  [[noreturn]] void report_singular(double t) const;
+  [[noreturn]] void report_singular(double t);
+  [[noreturn]] void report_unsolved(double t);
 
   Dae& dae_;
   std::unique_ptr<Factor> factor_;

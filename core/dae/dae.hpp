@@ -109,9 +109,9 @@ class Dae {
 
   /// To be called when a law has begun or ceased to hold its branch still (DeflectionBatch::holds).
   void update_holds();
-  /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends. `lean` as
-  /// for DeflectionBatch::hold.
-  void hold_bundle(int branch, int lean);
+  /// Holds still, in the state (t, y, y'), the branches whose force follows from their neighbours. Where others hold the
+  /// ends together already, they rest.
+  void stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing);
   /// All that are held still between the ends of this branch are let go as it has been: in the direction of its law.
   /// Returns them.
   std::vector<int> release_bundle(int branch, double w);
@@ -145,6 +145,11 @@ class Dae {
   struct Bundle { std::vector<int> branches; };
   struct Follower { int branch, leader, row, own_entry, leader_entry; std::vector<int> row_entries; bool active; };
   void find_bundles();
+  /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends. `lean` as
+  /// for DeflectionBatch::hold.
+  void hold_bundle(int branch, int lean);
+  /// Another branch between the same ends has been held, and this one with it.
+  bool bundled_with_held(int branch, const std::vector<Standing>& standing) const;
   /// Rate p' of a follower, and its derivatives by p, by the leader's p and by the leader's p'.
   struct Shared { double rate, by_own, by_leader, by_leader_rate; };
   Shared share(const Follower& follower, double leader_rate) const;

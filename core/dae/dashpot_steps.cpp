@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/pending/disjoint_sets.hpp>
 #include <cmath>
 #include <functional>
 #include <map>
 
 #include "core/dae/convex.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -46,19 +46,6 @@ ConvexNetwork::Law law_of(double coefficient, double exponent) {
             return secant * step;
           }};
 }
-
-class Sets {
- public:
-  explicit Sets(std::size_t n) : rank_(n), parent_(n), sets_(rank_.data(), parent_.data()) {
-    for (std::size_t i = 0; i < n; ++i) sets_.make_set(static_cast<int>(i));
-  }
-  int find(int i) { return sets_.find_set(i); }
-  void join(int i, int j) { sets_.union_set(i, j); }
-
- private:
-  std::vector<int> rank_, parent_;
-  boost::disjoint_sets<int*, int*> sets_;
-};
 
 /// The steps that are known so far.
 class Steps {

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-
-#include "core/dae/convex.hpp"
 
 namespace rheonet {
 
@@ -20,21 +17,17 @@ constexpr double share_of_horizon = 1e-7;
 constexpr double share_of_network = 1e-3;
 // Roundings of the time: less is no time at all.
 constexpr double time_grains = 64;
-// Forces that balance but for this share of their magnitudes balance.
-constexpr double balance_rounding = 1e-12;
+// Energies that differ by this share are equal.
+constexpr double link_rounding = 1e-9;
 // Jumps in a row that refine each other.
 constexpr int most_jumps = 3;
-// Velocities that differ by this share of their magnitudes are equal.
-constexpr double velocity_rounding = 1e-14;
-// A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
-constexpr double difference_limit = 1e-6;
 
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
-    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), slipping_(network.sliders.size(), 0) {}
+    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), impulse_told_(network.scene->elements.size(), 0), slipping_(network.sliders.size(), 0) {}
 
 // What slips one way must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {
@@ -49,7 +42,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
-  change.heat += halt(fired.sliders, modes, state);
+  change.heat += halt(fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
@@ -70,10 +63,10 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   return change;
 }
 
-void Instant::check_load(double t, double then, State state, std::vector<double> slider_force) {
+void Instant::check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const {
   drive_.evaluate(then);
-  Change change;
-  jump(t, false, std::vector<double>(structure_.kind.size(), 0), state, slider_force, change);
+  const std::optional<Jump> jump = find_jump(std::vector<double>(structure_.kind.size(), 0), state, slider_force);
+  if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways());
 }
 
 /// A time in which neither the drive nor the network itself changes its course [s].
@@ -120,7 +113,8 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
 /// velocity is the rounding of the event. Rigid links do so at once, and the energy that this takes is heat.
-double Instant::halt(const std::vector<int>& events, const Modes& modes, State& state) const {
+double Instant::halt(const std::vector<int>& events, const Modes& modes, State& state,
+                     std::vector<std::string>& notes) const {
   std::vector<int> fired = events;
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     if (std::isinf(network_.sliders[k].law.breakaway)) fired.push_back(static_cast<int>(k));
@@ -164,10 +158,20 @@ double Instant::halt(const std::vector<int>& events, const Modes& modes, State& 
       }
     }
     if (std::isnan(known) && mass == 0) continue;
+    const double after = std::isnan(known) ? momentum / mass : known;
+    double lost = 0, had = 0;
     for (NodeId node : cluster) {
-      const double before = state.velocity[at(node)], after = std::isnan(known) ? momentum / mass : known;
-      if (std::isnan(known)) heat += structure_.mass[at(node)] * (before - after) * (before + after) / 2;
+      const double before = state.velocity[at(node)], m = structure_.mass[at(node)];
+      if (std::isnan(known)) lost += m * (before - after) * (before + after) / 2;
+      had += m * before * before / 2;
       state.velocity[at(node)] = after;
+    }
+    heat += lost;
+    if (const Network::Slider& link = network_.sliders[at(k)]; std::isinf(link.law.breakaway) && lost > link_rounding * had) {
+      notes.push_back(fmt::format(
+          "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
+          "at once, before the energy account begins",
+          network_.name_of(link.branch), with_unit(*network_.scene, after, Quantity::velocity), lost));
     }
   }
   return std::max(0.0, heat);
@@ -201,239 +205,6 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
     add(network_.forces[k].b, drive_.force[k]);
   }
   return result;
-}
-
-// Over a short time h the network is, with velocities v at its end, all forces counted from those at its beginning, and E, c
-// the slope and creep of a law in the direction of w,
-//
-//     (m/h) (v - v0) + sum of +-[ B (w - w0),  h E (w - c),  a slider's within its bounds ] = dF - what is unbalanced now
-//
-// Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level at which the velocity of
-// each slider lives.
-std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& state, Modes& modes,
-                                std::vector<double>& force, Change& change) {
-  const std::size_t nodes = structure_.kind.size();
-  ConvexNetwork problem(static_cast<int>(nodes));
-  drive_.evaluate(t);
-  const std::vector<double> velocity = drive_.velocity, acceleration = drive_.acceleration, load = drive_.force,
-                            load_rate = drive_.force_rate;
-  for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = velocity[m];
-  const Nodal now = nodal(state, force, true);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const int node = slot(static_cast<NodeId>(n));
-    problem.start(node, state.velocity[n]);
-    if (structure_.kind[n] == Kind::massive) problem.set_inertia(node, structure_.mass[n] / h);
-    if (std::abs(now.sum[n]) > balance_rounding * now.magnitude[n]) problem.load(node, -now.sum[n]);
-  }
-  problem.fix(slot(ground), 0);
-  drive_.evaluate(t + h);
-  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
-    // A difference of two near values says nothing; where the rate is 0 it is all there is.
-    problem.fix(slot(network_.motions[m].node),
-                acceleration[m] != 0 ? h * acceleration[m] : drive_.velocity[m] - velocity[m]);
-  }
-  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
-    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
-                                      ? load_rate[k] * h
-                                      : drive_.force[k] - load[k];
-    problem.load(slot(network_.forces[k].a), change_of_load);
-    if (network_.forces[k].b >= 0) problem.load(slot(network_.forces[k].b), -change_of_load);
-  }
-  drive_.evaluate(t);
-
-  std::vector<double> f(state.p.size()), c(f), at_rest(f);
-  std::vector<int> deflection_branch(state.p.size()), slider_branch(network_.sliders.size()), bound_side(slider_branch);
-  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-    const std::size_t k = at(laws.first);
-    laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network_.deflections[k + i];
-      double forward = h * laws.batch->slope(i, state.p[k + i], 1);
-      double backward = h * laws.batch->slope(i, state.p[k + i], -1);
-      // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
-      // look at both sides.
-      if (contains(fired.starts, static_cast<int>(k + i)) || reversed(fired, static_cast<int>(k + i))) {
-        (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
-      }
-      at_rest[k + i] = -h * laws.batch->slope(i, state.p[k + i], 0) * c[k + i];
-      double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
-      // What has stopped does not go on as before: again the event knows better.
-      if (contains(fired.turns, static_cast<int>(k + i)) && may_stand(static_cast<int>(k + i))) {
-        (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
-      }
-      ConvexNetwork::Law law{.low = low, .high = high, .backward = backward, .forward = forward};
-      if (const double slope = h * laws.batch->release_slope(i, state.p[k + i]); slope > 0) law = released(law, slope, c[k + i]);
-      deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), law);
-    }
-  }
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], now));
-    }
-  }
-  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
-    const Branch& b = network_.sliders[k].branch;
-    ConvexNetwork::Law law{.low = -bound(k, -1) - force[k], .high = bound(k, 1) - force[k]};
-    // At its bound the rate alone decides, not the rounding of the event.
-    const double limit = bound(k, force[k] > 0 ? 1 : -1);
-    const bool at_bound = std::abs(std::abs(force[k]) - limit) <= balance_rounding * limit;
-    if (modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || contains(fired.sliders, static_cast<int>(k)))) {
-      (force[k] > 0 ? law.high : law.low) = 0;
-    }
-    slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);
-    bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
-  }
-
-  if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
-    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
-    throw SimulationError(fmt::format(
-        "{} it cannot be decided which sliders begin to slip: the forces on them differ by rounding only",
-        at_time(*network_.scene, t)));
-  }
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
-  }
-  take_directions(problem, deflection_branch, fired, state, change);
-  std::vector<int> broken;
-  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
-    const int direction = problem.direction(slider_branch[k]);
-    modes.slider[k] = static_cast<signed char>(direction);
-    const Slip& law = network_.sliders[k].law;
-    if (direction != 0 && bound(k, direction) > law.coulomb) broken.push_back(static_cast<int>(k));
-  }
-  for (int k : let_slip(problem, deflection_branch, slider_branch, bound_side, at_rest, fired, modes, change)) {
-    if (bound(at(k), modes.slider[at(k)]) > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
-  }
-  return broken;
-}
-
-/// Friction at its bound, which it leaves with this slope where the velocity is below that of its creep, and keeps above.
-ConvexNetwork::Law Instant::released(ConvexNetwork::Law law, double slope, double creep) {
-  const double side = creep > 0 ? 1 : -1;
-  (side > 0 ? law.high : law.low) = -slope * creep;
-  (side > 0 ? law.forward : law.backward) = slope;
-  const ConvexNetwork::Law other = law;
-  law.beyond = [=](double w, double& tangent) {
-    if (w * side < 0) {
-      tangent = side > 0 ? other.backward : other.forward;
-      return (side > 0 ? other.low : other.high) + tangent * w;
-    }
-    tangent = std::abs(w) < std::abs(creep) ? slope : 0;
-    return side * slope * std::min(0.0, std::abs(w) - std::abs(creep));
-  };
-  return law;
-}
-
-/// What a law of velocity alone adds to its force at w0 when the velocity changes from there; where it has no finite slope,
-/// one that leads away.
-ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now) {
-  const double impulse = batch.impulse(i);
-  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
-  double scale = 0;
-  for (double f : now.magnitude) scale = std::max(scale, f);
-  if (scale == 0) scale = 1;
-  // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
-  const auto steeper = [&batch, i](double w, double f) {
-    return f == 0 ? 0 : f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
-  };
-  const double f0 = batch.force_at(i, w0), slope = w0 != 0 ? steeper(w0, f0) : scale / batch.velocity_at(i, scale);
-  return {.backward = slope, .forward = slope, .rounding = std::abs(f0), .of_change = true,
-          .beyond = [&batch, i, w0, f0, slope, steeper](double change, double& tangent) {
-            const double w = w0 + change, f = batch.force_at(i, w);
-            tangent = w != 0 ? steeper(w, f) : slope;
-            return f - f0;
-          }};
-}
-
-void Instant::take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
-                              const State& state, Change& change) {
-  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->events(i) == 0 || contains(fired.starts, laws.first + static_cast<int>(i))) continue;
-      if (reversed(fired, laws.first + static_cast<int>(i))) continue;
-      const int j = laws.first + static_cast<int>(i);
-      const Branch& b = network_.deflections[at(j)];
-      const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = problem.difference(slot(b.a), slot(b.b));
-      const int direction =
-          std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
-      if (direction == 0) {
-        if (may_stand(j)) {
-          change.standing.push_back(j);
-        } else if (!laws.batch->fits(i, 0)) {
-          laws.batch->set_direction(i, state.p[at(j)], 0, 0);
-        }
-      } else if (!laws.batch->fits(i, w)) {
-        laws.batch->set_direction(i, state.p[at(j)], w, direction);
-      }
-    }
-  }
-}
-
-bool Instant::reversed(const Fired& fired, int branch) const {
-  const Branch& b = network_.deflections[at(branch)];
-  return contains(fired.turns, branch) && (massless(b.a) || massless(b.b)) && !may_stand(branch);
-}
-
-bool Instant::may_stand(int branch) const {
-  const Branch& b = network_.deflections[at(branch)];
-  if (!massless(b.a) && !massless(b.b)) return false;
-  const auto laws = std::find_if(network_.deflection_laws.begin(), network_.deflection_laws.end(), [&](const auto& l) {
-    return branch < l.first + static_cast<int>(l.batch->size());
-  });
-  return laws->batch->can_hold(at(branch - laws->first));
-}
-
-// Where a slider and friction that relaxes keep the same ends together, the slider is the sharper of the two: the friction
-// rests (s = 0) while the slider has force left. At its bound the slider can take no more, and the friction stands with a
-// mixture of rest and the slider's direction, until it would as well rest.
-std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of,
-                                   const std::vector<int>& slider_of, const std::vector<int>& side,
-                                   const std::vector<double>& at_rest, const Fired& fired, Modes& modes,
-                                   Change& change) const {
-  std::vector<int> slipping, candidates;
-  std::vector<NodeId> firm(structure_.kind.size());
-  std::iota(firm.begin(), firm.end(), 0);
-  const auto find = [&](NodeId node) {
-    while (firm[at(node)] != node) node = firm[at(node)];
-    return node;
-  };
-  for (std::size_t k = 0; k < slider_of.size(); ++k) {
-    if (problem.direction(slider_of[k]) != 0) continue;
-    const Branch& b = network_.sliders[k].branch;
-    if (side[k] != 0) {
-      candidates.push_back(static_cast<int>(k));
-    } else {
-      firm[at(find(b.a))] = find(b.b);
-    }
-  }
-  for (int k : candidates) {
-    const NodeId a = find(network_.sliders[at(k)].branch.a), b = find(network_.sliders[at(k)].branch.b);
-    if (a == b) continue;
-    double beyond_rest = 0;
-    bool eased = false;
-    for (int other : candidates) {
-      const NodeId from = find(network_.sliders[at(other)].branch.a), to = find(network_.sliders[at(other)].branch.b);
-      if (std::minmax(from, to) != std::minmax(a, b)) continue;
-      const int sign = from == a ? 1 : -1;
-      beyond_rest += sign * problem.force(slider_of[at(other)]);
-      eased = eased || sign * side[at(other)] != side[at(k)];  // that one has force left
-    }
-    std::vector<Leaning> beside;
-    for (int j : change.standing) {
-      const NodeId from = find(network_.deflections[at(j)].a), to = find(network_.deflections[at(j)].b);
-      if (std::minmax(from, to) != std::minmax(a, b)) continue;
-      const int sign = from == a ? 1 : -1;
-      beyond_rest += sign * (problem.force(branch_of[at(j)]) - at_rest[at(j)]);
-      beside.push_back({j, sign * side[at(k)]});
-      eased = eased || contains(fired.rests, j);
-    }
-    if (beside.empty() || eased || side[at(k)] * beyond_rest <= 0) continue;
-    modes.slider[at(k)] = static_cast<signed char>(side[at(k)]);
-    slipping.push_back(k);
-    change.leaning.insert(change.leaning.end(), beside.begin(), beside.end());
-  }
-  return slipping;
 }
 
 void Instant::report_runaway(double t, const std::vector<int>& runaways) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,10 @@ class Instant {
   /// `classified` is the network's structure with every slider slipping. All must outlive this.
   Instant(const Network& network, const Structure& classified, Drive& drive);
 
-  /// A deflection branch that stands beside a slider whose bound lies to this side of the branch.
-  struct Leaning { int branch, side; };
   struct Change {
     double heat = 0;                 ///< turned into heat within the instant [J]
     std::vector<std::string> notes;  ///< impulses
-    std::vector<int> standing;       ///< deflection branches that both directions hold at rest
-    std::vector<Leaning> leaning;    ///< those of them beside a slider at its bound
+    std::vector<Standing> standing;  ///< deflection branches that both directions hold at rest
   };
   /// What has come to an event.
   struct Fired {
@@ -40,17 +38,25 @@ class Instant {
 
   /// Throws SimulationError, with names and the time t, if the loads at `then` are more than the laws can take, whatever
   /// moves.
-  void check_load(double t, double then, State state, std::vector<double> slider_force);
+  void check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const;
 
  private:
   struct Nodal { std::vector<double> sum, magnitude; };
   double time_ahead(double t, double horizon, const State& state) const;
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
-  void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const;
-  /// Displacements within the instant under the drive last evaluated; true if anything moved.
+  void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes);
+  /// The displacements within the instant, on the way to the balance of the forces under the drive last evaluated.
+  struct Jump {
+    ConvexNetwork problem;
+    ConvexNetwork::Outcome outcome;
+    std::vector<int> slider_branch;  ///< of each slider; -1 for one that cannot move
+  };
+  /// Nothing if there is nothing to balance.
+  std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force) const;
+  /// Takes the state there; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
-  double halt(const std::vector<int>& events, const Modes& modes, State& state) const;
+  double halt(const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
@@ -60,6 +66,15 @@ class Instant {
   std::vector<int> let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
                             const std::vector<int>& side, const std::vector<double>& at_rest, const Fired& fired,
                             Modes& modes, Change& change) const;
+  /// The nodes of a group move as one within an instant, its first speaks for all: its dashpots take no impulse.
+  NodeId speaker(NodeId node) const {
+    const int g = structure_.group[static_cast<std::size_t>(node)];
+    return g < 0 ? node : structure_.groups[static_cast<std::size_t>(g)].nodes.front();
+  }
+  /// Within an instant nothing moves it against the other end.
+  bool carried(NodeId a, NodeId b) const {
+    return a == b || (structure_.group[static_cast<std::size_t>(a)] < 0 && structure_.group[static_cast<std::size_t>(b)] < 0);
+  }
   bool may_stand(int branch) const;
   /// A branch that cannot stand has turned.
   bool reversed(const Fired& fired, int branch) const;
@@ -80,6 +95,7 @@ class Instant {
   Drive& drive_;
   bool stepped_ = false;      ///< the forces of the sliders are those before a step of the drive
   std::vector<char> broken_;           ///< of each slider: its bounds are those of sliding
+  std::vector<char> impulse_told_;     ///< of each element: that a step of a position gives it an impulse
   std::vector<signed char> slipping_;  ///< the direction in which it slips already
 };
 

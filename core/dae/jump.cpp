@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/dae/convex.hpp"
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/instant.hpp"
 
@@ -18,7 +18,7 @@ constexpr double balance_rounding = 1e-12;
 
 }  // namespace
 
-void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) const {
+void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = drive_.steps()[m];
   if (!go_with_dashpots(network_, structure_, dx)) {
     throw SimulationError(at_time(*network_.scene, t) +
@@ -28,43 +28,48 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
   for (std::size_t n = 0; n < dx.size(); ++n) {
     if (structure_.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / structure_.mass[n];
   }
+  const auto tell = [&](int element, const std::string& what, double by, const char* whose) {
+    char& told = impulse_told_[at(element)];
+    if (std::exchange(told, 1)) return;
+    notes.push_back(fmt::format("{} a step in position moves {} by {} in no time: {} force at such a step is an "
+                                "impulse, which no row shows and the energy account leaves out",
+                                at_time(*network_.scene, t), what, with_unit(*network_.scene, by, Quantity::position), whose));
+  };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
       if (laws.batch->impulse(i) == 0 || step_together(dx[at(b.a)], dx[at(b.b)])) continue;
-      notes.push_back(fmt::format(
-          "{} a step in position moves dashpot `{}` by {:.6g} in no time: its force there is an impulse, which no row shows "
-          "and the energy account leaves out",
-          at_time(*network_.scene, t), network_.name_of(b), dx[at(b.a)] - dx[at(b.b)]));
+      tell(b.element, fmt::format("dashpot `{}`", network_.name_of(b)), dx[at(b.a)] - dx[at(b.b)], "its");
     }
+  }
+  for (const Network::Mass& mass : network_.masses) {
+    const double by = dx[at(mass.node)];
+    if (by == 0 || structure_.kind[at(mass.node)] != Kind::known) continue;
+    tell(mass.element, fmt::format("mass `{}`", network_.scene->elements[at(mass.element)].name), by, "the motion's");
   }
 }
 
 // Within an instant forces stay finite: masses keep their places, dashpots with them, and what has neither goes where the
 // forces balance, along the laws' own curves and against the friction of the sliders.
-bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
-                   Change& change) {
+std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, const State& state,
+                                                const std::vector<double>& force) const {
   const std::size_t nodes = structure_.kind.size();
-  // The nodes of a group move as one: its dashpots take no impulse.
-  const auto node_of = [&](NodeId node) {
-    const int g = structure_.group[at(node)];
-    return g < 0 ? node : structure_.groups[at(g)].nodes.front();
-  };
   const Nodal now = nodal(state, force, false);
   std::vector<double> sum(nodes, 0), magnitude(nodes, 0);
   for (std::size_t n = 0; n < nodes; ++n) {
-    sum[at(node_of(static_cast<NodeId>(n)))] += now.sum[n];
-    magnitude[at(node_of(static_cast<NodeId>(n)))] += now.magnitude[n];
+    sum[at(speaker(static_cast<NodeId>(n)))] += now.sum[n];
+    magnitude[at(speaker(static_cast<NodeId>(n)))] += now.magnitude[n];
   }
   bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   ConvexNetwork problem(static_cast<int>(nodes));
   for (std::size_t n = 0; n < nodes; ++n) {
+    const auto node = static_cast<NodeId>(n);
     if (structure_.group[n] < 0) {
-      problem.fix(slot(static_cast<NodeId>(n)), dx[n]);
-    } else if (node_of(static_cast<NodeId>(n)) != static_cast<NodeId>(n)) {
-      problem.fix(slot(static_cast<NodeId>(n)), 0);  // spoken for by its group's first
+      problem.fix(slot(node), dx[n]);
+    } else if (speaker(node) != node) {
+      problem.fix(slot(node), 0);
     } else if (std::abs(sum[n]) > balance_rounding * magnitude[n]) {
-      problem.load(slot(static_cast<NodeId>(n)), -sum[n]);
+      problem.load(slot(node), -sum[n]);
       needed = true;
     }
   }
@@ -73,15 +78,15 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
     const Branch& b = network_.sliders[k].branch;
     needed = needed || (light(b) && std::abs(force[k]) > bound(k, force[k] > 0 ? 1 : -1) * (1 + balance_rounding));
   }
-  if (!needed) return false;
+  if (!needed) return std::nullopt;
 
   std::vector<double> f(state.p.size()), c(f);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     laws.batch->evaluate(&state.p[at(laws.first)], &f[at(laws.first)], &c[at(laws.first)]);
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
-      const NodeId a = node_of(network_.deflections[j].a), b = node_of(network_.deflections[j].b);
-      if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
+      const NodeId a = speaker(network_.deflections[j].a), b = speaker(network_.deflections[j].b);
+      if (carried(a, b)) continue;
       const DeflectionBatch& batch = *laws.batch;
       const double p = state.p[j], f0 = f[j];
       problem.add(slot(a), slot(b), {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1), .rounding = std::abs(f0),
@@ -92,16 +97,25 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
   std::vector<int> slider_branch(network_.sliders.size(), -1);
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
-    const NodeId a = node_of(network_.sliders[k].branch.a), b = node_of(network_.sliders[k].branch.b);
-    if (a == b || (structure_.group[at(a)] < 0 && structure_.group[at(b)] < 0)) continue;
+    const NodeId a = speaker(network_.sliders[k].branch.a), b = speaker(network_.sliders[k].branch.b);
+    if (carried(a, b)) continue;
     slider_branch[k] = problem.add(slot(a), slot(b), {.low = -bound(k, -1) - force[k], .high = bound(k, 1) - force[k]});
   }
-  if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
-    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
+  const ConvexNetwork::Outcome outcome = problem.solve();
+  return Jump{std::move(problem), outcome, std::move(slider_branch)};
+}
+
+bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
+                   Change& change) {
+  const std::optional<Jump> found = find_jump(dx, state, force);
+  if (!found) return false;
+  const auto& [problem, outcome, slider_branch] = *found;
+  if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
+  if (outcome != ConvexNetwork::Outcome::solved) {
     throw SimulationError(at_time(*network_.scene, t) + " the forces at the massless nodes cannot be balanced");
   }
 
-  const auto moved = [&](NodeId node) { return problem.value(slot(node_of(node))); };
+  const auto moved = [&](NodeId node) { return problem.value(slot(speaker(node))); };
   double stored = 0, work = 0, heat = 0;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -128,7 +142,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
   // A step of the drive does what work it takes; without one, what is lost becomes heat.
   change.heat += stepped ? heat : std::max(0.0, work - stored);
-  for (std::size_t n = 0; n < nodes; ++n) state.position[n] += moved(static_cast<NodeId>(n));
+  for (std::size_t n = 0; n < state.position.size(); ++n) state.position[n] += moved(static_cast<NodeId>(n));
   return true;
 }
 

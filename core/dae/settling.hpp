@@ -4,29 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 #include <vector>
 
 #include "core/dae/convex.hpp"
 #include "core/dae/steady.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
-
-/// Sets of nodes that something joins.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : leader_(n) { std::iota(leader_.begin(), leader_.end(), 0); }
-  NodeId find(NodeId node) {
-    while (up(node) != node) node = up(node) = up(up(node));
-    return node;
-  }
-  void join(const Branch& b) { up(find(b.a)) = find(b.b); }
-
- private:
-  NodeId& up(NodeId node) { return leader_[static_cast<std::size_t>(node)]; }
-  std::vector<NodeId> leader_;
-};
 
 /// How `settle` goes about it. In steady motion each law is a function of velocity alone: springs are rigid, friction slides
 /// at its full force, what creeps has the force of its creep. The velocities are those of least dissipation, a convex
@@ -56,7 +41,7 @@ class Settling {
 
   std::string kind() const { return resting_ ? "no state of rest to start from" : "no steady state to start from"; }
   std::string with_unit(double x, Quantity quantity) const {
-    return fmt::format("{:.6g} {}", x, unit_of(quantity, network_.scene->domain));
+    return rheonet::with_unit(*network_.scene, x, quantity);
   }
   std::string name(const Branch& b) const { return network_.name_of(b); }
   static std::string listed(const std::vector<std::string>& names) {

@@ -25,6 +25,7 @@ double initial_displacement(const Network& network, const Branch& branch) {
 
 /// Gives nodes whose position the user left open the one that follows from the initial displacement of an element.
 void follow_displacements(const Network& network, std::vector<double>& x, std::vector<char>& fixed) {
+  const Scene& scene = *network.scene;
   std::vector<const Branch*> open;
   const auto collect = [&](const std::vector<Branch>& branches) {
     for (const Branch& b : branches) {
@@ -43,10 +44,10 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
         if (std::abs(x[a] - x[c] - d0) > 1e-9 * (std::abs(x[a]) + std::abs(x[c]) + std::abs(d0))) {
           throw SimulationError(
               network.spot_of(b->element),
-              fmt::format("element `{}` cannot start with the displacement d0 = {:g}: nodes `{}` and `{}` start {:g} "
-                          "apart; leave out "
-                          "`d0` or a position",
-                          network.name_of(*b), d0, network.node_name(b->a), network.node_name(b->b), x[a] - x[c]));
+              fmt::format("element `{}` cannot start with the displacement d0 = {}: nodes `{}` and `{}` start {} "
+                          "apart; leave out `d0` or a position",
+                          network.name_of(*b), with_unit(scene, d0, Quantity::position), network.node_name(b->a),
+                          network.node_name(b->b), with_unit(scene, x[a] - x[c], Quantity::position)));
         }
         b = nullptr;
       } else if (fixed[a] || fixed[c]) {
@@ -93,16 +94,18 @@ Start start(const Network& network, const Structure& classified) {
       if (fixed[n] && !there_already && std::abs(x[n] - before) > tolerance) {
         throw SimulationError(
             node.spot,
-            fmt::format("node `{}` cannot start at position {:g}: motion `{}` puts it at {:g}; leave out one of them",
-                        node.name, x[n], name, after));
+            fmt::format("node `{}` cannot start at position {}: motion `{}` puts it at {}; leave out one of them",
+                        node.name, with_unit(scene, x[n], Quantity::position), name,
+                        with_unit(scene, after, Quantity::position)));
       }
       x[n] = there_already ? after : before;
     }
     if (!std::isnan(node.velocity) && std::abs(node.velocity - velocity) > 1e-9 * std::abs(velocity)) {
       throw SimulationError(
           node.spot,
-          fmt::format("node `{}` cannot start with velocity {:g}: motion `{}` gives it {:g}; leave out one of them",
-                      node.name, node.velocity, name, velocity));
+          fmt::format("node `{}` cannot start with velocity {}: motion `{}` gives it {}; leave out one of them",
+                      node.name, with_unit(scene, node.velocity, Quantity::velocity), name,
+                      with_unit(scene, velocity, Quantity::velocity)));
     }
     fixed[n] = 1;
   }
@@ -141,15 +144,15 @@ StartWords describe_start(const Start& start, const Network& network, const Stru
     if (!floating && classified.kind[n] != Kind::viscous) continue;
     if (std::abs(velocity[n] - node.velocity) > scene.accuracy * std::abs(node.velocity)) {
       words.notes.push_back(
-          fmt::format("node `{}` starts with a velocity of {:.6g} {}, not with the {:.6g} that is given: it has "
+          fmt::format("node `{}` starts with a velocity of {}, not with the {:.6g} that is given: it has "
                       "no mass, and the elements there decide",
-                      node.name, velocity[n], unit_of(Quantity::velocity, scene.domain), node.velocity));
+                      node.name, with_unit(scene, velocity[n], Quantity::velocity), node.velocity));
     }
     const double x = start.state.position[n];
     if (floating && std::isnan(node.position) && x != 0) {
       words.chosen.push_back(
-          fmt::format("node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance", node.name,
-                      x, unit_of(Quantity::position, scene.domain)));
+          fmt::format("node `{}` starts at position {}: it has no mass, and there the forces balance", node.name,
+                      with_unit(scene, x, Quantity::position)));
     }
   }
   return words;

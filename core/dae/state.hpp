@@ -12,4 +12,10 @@ struct State {
   std::vector<double> offset;    ///< displacement less deflection of each deflection branch that does not creep [m]: constant
 };
 
+/// A deflection branch that both directions hold at rest.
+struct Standing {
+  int branch;
+  int lean;  ///< side of the branch to which a slider beside it is at its bound: -1, 1, or 0 if there is none
+};
+
 }  // namespace rheonet

@@ -119,9 +119,9 @@ void Settling::report_stretching(NodeId first, NodeId last, const std::vector<co
 /// What nothing joins to a prescribed motion or to ground keeps the velocity of its centre of mass.
 void Settling::hold_what_is_free() {
   Sets sets(velocity_.size());
-  for (const Branch& b : network_.deflections) sets.join(b);
-  for (const Branch& b : network_.rates) sets.join(b);
-  for (const Network::Slider& s : network_.sliders) sets.join(s.branch);
+  for (const Branch& b : network_.deflections) sets.join(b.a, b.b);
+  for (const Branch& b : network_.rates) sets.join(b.a, b.b);
+  for (const Network::Slider& s : network_.sliders) sets.join(s.branch.a, s.branch.b);
   std::vector<char> held(velocity_.size(), 0);
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     if (known(static_cast<NodeId>(n))) held[at(sets.find(static_cast<NodeId>(n)))] = 1;
@@ -153,8 +153,9 @@ void Settling::hold_what_is_free() {
 void Settling::report_acceleration(const std::vector<NodeId>& nodes) const {
   std::vector<std::string> names, loads;
   for (NodeId node : nodes) names.push_back(network_.node_name(node));
+  const auto there = [&](NodeId node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
   for (const Network::Force& force : network_.forces) {
-    loads.push_back(network_.scene->elements[at(force.element)].name);
+    if (there(force.a) || there(force.b)) loads.push_back(network_.scene->elements[at(force.element)].name);
   }
   throw SimulationError(fmt::format(
       "{}: what is at node{} {} cannot take the force{} {} for ever, and would go ever faster; give it a dashpot or more "

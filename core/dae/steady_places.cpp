@@ -27,7 +27,7 @@ bool Settling::find_places() {
     if (law.elastic()) {
       double slope = 0;
       f[j] = law.batch->force_along(law.i, state_.p[j], 0, slope);
-      hang.join(b);
+      hang.join(b.a, b.b);
       if (!law.rigid()) sticking.push_back(name(b));
     } else {
       f[j] = law.force(difference(b));
@@ -38,7 +38,7 @@ bool Settling::find_places() {
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] == 0) {
-      hang.join(s.branch);
+      hang.join(s.branch.a, s.branch.b);
       if (!rigid(k)) sticking.push_back(name(s.branch));
     } else {
       result_.slider_force[k] = slip_[k] * s.law.coulomb;

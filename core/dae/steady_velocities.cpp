@@ -29,7 +29,7 @@ void Settling::lead(Sets& sets) {
 /// accelerates. False if sliders have broken away under more than their force of sliding.
 bool Settling::find_velocities() {
   Sets rigid(velocity_.size());
-  for_each_rigid([&](const Branch& b) { rigid.join(b); });
+  for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
   lead(rigid);
   ConvexNetwork problem = velocity_problem();
   std::vector<int> law_branch(laws_.size(), -1), slider_branch(network_.sliders.size(), -1);
@@ -150,10 +150,10 @@ void Settling::take_velocities(const ConvexNetwork& problem) {
 void Settling::refine_velocities(double scale) {
   Sets joined(velocity_.size());
   for (std::size_t j = 0; j < laws_.size(); ++j) {
-    if (laws_[j].elastic()) joined.join(network_.deflections[j]);
+    if (laws_[j].elastic()) joined.join(network_.deflections[j].a, network_.deflections[j].b);
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] == 0) joined.join(network_.sliders[k].branch);
+    if (slip_[k] == 0) joined.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
   }
   lead(joined);
   ConvexNetwork problem = velocity_problem();

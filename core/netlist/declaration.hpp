@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -39,6 +40,12 @@ struct Parameter {
   }
 };
 
+/// What is wrong with values that are each within their bounds.
+struct Misfit {
+  std::string parameter;  ///< the one to blame
+  std::string what;       ///< after its name: "is less than ..."
+};
+
 /// What an element type is, as data. Values given by a netlist are stored in the order of `parameters`.
 struct Declaration {
   enum class Ports { between, at, at_or_between };
@@ -48,6 +55,7 @@ struct Declaration {
   Ports ports = Ports::between;
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)
+  std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< of the values of an element
   std::string summary = {};  ///< one line
   std::string law = {};      ///< as a textbook prints it
   std::string source = {};   ///< citation

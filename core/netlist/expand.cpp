@@ -1,5 +1,7 @@
 #include "core/netlist/expand.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -108,7 +110,8 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
 }
 
 bool Expander::element_values(const Plan& plan, const Environment& environment, SceneElement& element) {
-  const auto& parameters = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters;
+  const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  const std::vector<Parameter>& parameters = declaration.parameters;
   const auto index_of = [&](const std::string& name) {
     std::size_t i = 0;
     while (i < parameters.size() && parameters[i].name != name) ++i;
@@ -139,6 +142,14 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (!parameters[i].same_as.empty() && !plan.values[i].given())
       element.values[i] = element.values[index_of(parameters[i].same_as)];
+  if (good && declaration.check) {
+    if (const std::optional<Misfit> misfit = declaration.check(element.values)) {
+      const Formula& formula = plan.values[index_of(misfit->parameter)];
+      context_.mistakes.error(formula.given() ? formula.source().spot : plan.spot,
+                              fmt::format("`{}` {}", misfit->parameter, misfit->what));
+      good = false;
+    }
+  }
 
   for (std::size_t i = 0; i < plan.signals.size(); ++i) {
     const auto signal = plan.signals[i].evaluate(environment, context_);

@@ -31,7 +31,7 @@ class Reader {
       : result_(result),
         options_(options),
         mistakes_(result.sources),
-        files_(result.sources, options.library),
+        files_(result.sources, options.model_folders),
         context_{declarations, Domain::translation, files_, mistakes_} {}
 
   void read(fs::path name, std::string text, fs::path folder, const fs::path& canonical) {

@@ -14,7 +14,7 @@ namespace rheonet {
 struct ReadOptions {
   std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
   std::optional<double> accuracy;             ///< as after --accuracy; wins over the file
-  std::vector<std::filesystem::path> library; ///< folders that `include` falls back on
+  std::vector<std::filesystem::path> model_folders;  ///< folders that `include` falls back on
 };
 
 struct ReadResult {

@@ -167,8 +167,6 @@ struct Component {
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is one
-  /// What is wrong with a set of values that are each within their bounds; "" if nothing.
-  std::function<std::string(std::span<const double>)> check = {};
   std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
 };
 

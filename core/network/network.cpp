@@ -60,11 +60,6 @@ std::vector<Reduced> laws_of(const Scene& scene) {
   laws.reserve(scene.elements.size());
   for (const SceneElement& element : scene.elements) {
     const Component* declared = components()[static_cast<std::size_t>(element.declaration)];
-    if (declared->check) {
-      if (const std::string wrong = declared->check(element.values); !wrong.empty()) {
-        throw SimulationError(element.spot, describe("element", element.name, wrong));
-      }
-    }
     if (!element.at && element.a == element.b) {
       throw SimulationError(element.spot, describe("element", element.name,
                                                    fmt::format("both ends are at node `{}`, so that it can do nothing; "
@@ -125,6 +120,10 @@ std::string at_time(const Scene& scene, double t) {
   const double elapsed = std::max(std::abs(t), 1e-3 * (scene.stop - scene.start));
   const int digits = 9 + static_cast<int>(std::ceil(std::max(0.0, std::log10(std::abs(scene.start) / elapsed))));
   return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, 16));
+}
+
+std::string with_unit(const Scene& scene, double value, Quantity quantity) {
+  return fmt::format("{:.6g} {}", value, unit_of(quantity, scene.domain));
 }
 
 Network build_network(const Scene& scene) {

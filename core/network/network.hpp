@@ -76,6 +76,9 @@ struct Network {
 /// "at t = 1.3 s", for messages: t counts from the scene's start, what is shown does not.
 std::string at_time(const Scene& scene, double t);
 
+/// "0.3 m" or "0.3 rad": for messages.
+std::string with_unit(const Scene& scene, double value, Quantity quantity);
+
 /// The scene must outlive the network. Throws SimulationError for elements that no network can have.
 Network build_network(const Scene& scene);
 

@@ -52,6 +52,12 @@ class Recorder final : public Observer {
     }
     if (pending_event_ && !written) write(event_time(t), channels_.read(t, y, yp));
     pending_event_ = false;
+    // The next event, or the end, may come without a step.
+    last_ = nullptr;
+    start_ = t;
+    y_ = y;
+    yp_ = yp;
+    if (scene_.output_events) before_ = channels_.read(t, y, yp);
   }
 
   void step(const Integrator& integrator) override {
@@ -79,7 +85,8 @@ class Recorder final : public Observer {
 
   void end(double) override {
     for (; next_ <= scene_.output_intervals; ++next_) {
-      write(row_time(next_), channels_.read(last_->time(), last_->y(), last_->yp(), rate(*last_)));
+      write(row_time(next_), last_ ? channels_.read(last_->time(), last_->y(), last_->yp(), rate(*last_))
+                                   : channels_.read(start_, y_, yp_));
     }
   }
 
@@ -143,7 +150,8 @@ class Recorder final : public Observer {
   std::int64_t next_ = 0;
   bool pending_event_ = false;
   int unknowns_ = -1;  ///< the most in any mode
-  const Integrator* last_ = nullptr;
+  const Integrator* last_ = nullptr;  ///< whose step was the last; none since the last start
+  double start_ = 0;                  ///< time of that [s]
   std::vector<double> y_, yp_, before_;
 };
 

@@ -1,9 +1,20 @@
 #include "core/solve/headway.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace rheonet {
+
+namespace {
+
+// So many failures of the integrator in a row: it will not get over them.
+constexpr std::size_t enough_failures = 30;
+// So many steps at one place.
+constexpr int enough_steps = 1000;
+
+}  // namespace
 
 Headway::Headway(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0) {}
 
@@ -45,6 +56,37 @@ std::vector<int> Headway::busiest() const {
     return count_[static_cast<std::size_t>(a)] > count_[static_cast<std::size_t>(b)];
   });
   return result;
+}
+
+std::string Headway::describe(const Network& network, double t) const {
+  constexpr std::size_t most = 3;
+  const auto& elements = network.scene->elements;
+  std::vector<int> busy = busiest();
+  std::erase_if(busy, [&](int cause) { return static_cast<std::size_t>(cause) >= elements.size(); });
+  std::string names;
+  for (std::size_t k = 0; k < std::min(most, busy.size()); ++k) {
+    names += fmt::format("{}`{}`", k ? ", " : "", elements[static_cast<std::size_t>(busy[k])].name);
+  }
+  if (busy.size() > most) names += fmt::format(" and {} more", busy.size() - most);
+  const bool several = busy.size() > 1;
+  return fmt::format(
+      "element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a dashpot beside {}, a mass "
+      "at {} ends or a looser accuracy would end it",
+      several ? "s" : "", names, several ? "" : "es", enough, t - since_, several ? "them" : "it", several ? "their" : "its");
+}
+
+bool Headway::failing(double t, double within) {
+  failures_.push_back(t);
+  if (failures_.size() > enough_failures) failures_.pop_front();
+  return failures_.size() == enough_failures && t - failures_.front() < within;
+}
+
+bool Headway::standing(double t, double grain) {
+  if (std::abs(t - reached_) > grain) {
+    reached_ = t;
+    steps_there_ = 0;
+  }
+  return ++steps_there_ > enough_steps;
 }
 
 }  // namespace rheonet

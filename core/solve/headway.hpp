@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <string>
 #include <vector>
 
 #include "core/dae/state.hpp"
+#include "core/network/network.hpp"
 
 namespace rheonet {
 
@@ -25,6 +28,14 @@ class Headway {
   double since() const { return since_; }
   /// What has fired since then, the busiest first.
   std::vector<int> busiest() const;
+  /// The same in words, the names and what would end it: causes beyond the elements of the network are left out.
+  std::string describe(const Network& network, double t) const;
+
+  /// The integrator has failed at t: true when it does so over and over within this time. It comes up to an instant at
+  /// which something grows without bound.
+  bool failing(double t, double within);
+  /// A step has come to t: true when step after step brings the time on by no more than `grain` in all.
+  bool standing(double t, double grain);
 
  private:
   struct Watched {
@@ -39,6 +50,9 @@ class Headway {
   Watched velocity_, deflection_;
   std::vector<int> count_;  ///< of each cause
   std::vector<int> fired_;  ///< causes with a count above 0
+  std::deque<double> failures_;  ///< the last instants [s]
+  double reached_ = 0;           ///< where the last steps have been [s]
+  int steps_there_ = 0;
 };
 
 }  // namespace rheonet

@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <map>
-#include <memory>
-#include <numeric>
 
+#include "core/dae/given_reversals.hpp"
 #include "core/dae/instant.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
-#include "core/solve/events.hpp"
 #include "core/solve/headway.hpp"
-#include "core/solve/tolerances.hpp"
+#include "core/solve/systems.hpp"
 
 namespace rheonet {
 
@@ -28,12 +24,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double local_share = 6.4e-4;
 // A first step may be wrong by this much of its tolerance (weighted root mean square of h^2 y''/2).
 constexpr double first_step_error = 0.3;
-// So many failures of the integrator within a glimpse: it will not get over them.
-constexpr std::size_t enough_failures = 30;
 // Where the integrator fails, loads that come in this share of the time until something is known to happen tell why.
 constexpr double soon = 0.1;
-// So many steps within a few roundings of the time.
-constexpr int enough_steps = 1000;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
@@ -42,27 +34,8 @@ constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
-// Equations of so many sets of modes are kept, for when the modes come back.
-constexpr std::size_t remembered_systems = 64;
 // Constant forces balance but for this share of their magnitudes.
 constexpr double tie_rounding = 1e-9;
-
-/// The equations of one set of modes, and what solves them.
-struct System {
-  Structure structure;
-  Dae dae;
-  Consistency consistency;
-  NetworkEvents events;
-  Integrator integrator;
-
-  System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
-         Tolerances& tolerances)
-      : structure(std::move(s)),
-        dae(network, structure, drive, needed),
-        consistency(dae),
-        events(dae, consistency, tolerances, modes),
-        integrator(dae, events, tolerances.values()) {}
-};
 
 class Run {
  public:
@@ -74,15 +47,15 @@ class Run {
         classified_(classify(network)),
         begin_(start(network, classified_)),
         drive_(begin_.drive),
+        given_reversals_(network, classified_, drive_),
         state_(begin_.state),
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
+        systems_(network, classified_, drive_, needed, modes_, tolerances_),
         switches_(network),
         headway_(network.scene->elements.size() + 1, settings.accuracy) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    find_what_may_tie();
-    find_known_pairs();
   }
 
   SimulationStatistics go() {
@@ -101,14 +74,14 @@ class Run {
       cross(t, true, {});
     }
     observer_.end(settings_.stop);
-    statistics_.integrator = statistics();
+    statistics_.integrator = systems_.statistics();
     return std::move(statistics_);
   }
 
   /// The start alone.
   SimulationStatistics check() {
     begin();
-    statistics_.integrator = statistics();
+    statistics_.integrator = systems_.statistics();
     return std::move(statistics_);
   }
 
@@ -138,61 +111,12 @@ class Run {
   const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
   const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
 
-  /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
-  void find_what_may_tie() {
-    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        const Branch& b = network_.deflections[at(laws.first) + i];
-        const bool floating = classified_.group[at(b.a)] >= 0 || classified_.group[at(b.b)] >= 0;
-        if (floating && laws.batch->events(i) > 0) may_tie_.push_back({laws.batch.get(), i});
-      }
-    }
-  }
-
-  /// Laws with a memory, and sliders, between nodes of which both are given: each pair of ends once.
-  void find_known_pairs() {
-    const auto known = [&](NodeId node) { return classified_.kind[at(node)] == Kind::known; };
-    const auto add = [&](const Branch& b) {
-      const auto same = [&](const Branch& o) { return o.a == b.a && o.b == b.b; };
-      if (known(b.a) && known(b.b) && std::none_of(known_.begin(), known_.end(), same)) known_.push_back(b);
-    };
-    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        if (laws.batch->events(i) > 0) add(network_.deflections[at(laws.first) + i]);
-      }
-    }
-    for (const Network::Slider& slider : network_.sliders) add(slider.branch);
-  }
-
-  Integrator::Statistics statistics() const {
-    Integrator::Statistics sum = past_;
-    for (const auto& [key, system] : systems_) sum += system->integrator.statistics();
-    return sum;
-  }
-
-  /// The equations of the present modes.
-  System& system_of_modes() {
-    std::vector<char> key;
-    for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
-    for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
-    auto found = systems_.find(key);
-    if (found == systems_.end()) {
-      if (systems_.size() >= remembered_systems) {
-        past_ = statistics();
-        systems_.clear();
-      }
-      found = systems_.emplace(key, std::make_unique<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
-                                                             tolerances_)).first;
-    }
-    return *found->second;
-  }
-
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
   void cross(double t, bool stepped, const Instant::Fired& fired) {
     if (stepped) drive_.enter(t);
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
-    system_ = &system_of_modes();
+    system_ = &systems_.of_modes();
     for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
       if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
     }
@@ -200,7 +124,7 @@ class Run {
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);
     yp_.assign(y_.size(), 0);
-    stand(t, change);
+    dae.stand(t, y_.data(), yp_.data(), change.standing);
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
     dae.view(t, y_.data(), yp_.data());
@@ -209,50 +133,6 @@ class Run {
       if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
-  }
-
-  /// Branches that both directions hold at rest: between massless nodes their force follows from their neighbours. Where
-  /// others hold the ends together already, they rest.
-  void stand(double t, const Instant::Change& change) {
-    const std::vector<int>& standing = change.standing;
-    if (standing.empty()) return;
-    Dae& dae = system_->dae;
-    const Structure& structure = system_->structure;
-    std::vector<NodeId> leader(structure.kind.size());
-    std::iota(leader.begin(), leader.end(), 0);
-    const auto find = [&](NodeId node) {
-      while (leader[at(node)] != node) node = leader[at(node)];
-      return node;
-    };
-    const auto heavy = [&](NodeId node) {
-      return structure.kind[at(node)] == Kind::known || structure.kind[at(node)] == Kind::massive;
-    };
-    for (int j : standing) {
-      dae.view(t, y_.data(), yp_.data());
-      const NodeId a = find(structure.deflections[at(j)].a), b = find(structure.deflections[at(j)].b);
-      std::size_t i = 0;
-      DeflectionBatch& batch = dae.batch_of(j, i);
-      const bool together = a == b || (heavy(a) && heavy(b));
-      if (!together && dae.view(t, y_.data(), yp_.data()).f[at(j)] != 0) {
-        const auto lean = std::find_if(change.leaning.begin(), change.leaning.end(),
-                                       [&](const Instant::Leaning& one) { return one.branch == j; });
-        dae.hold_bundle(j, lean == change.leaning.end() ? 0 : lean->side);
-        (heavy(a) ? leader[at(b)] : leader[at(a)]) = heavy(a) ? a : b;
-      } else if (!batch.holds(i) || !bundled_with_held(j, standing)) {
-        if (!batch.fits(i, 0)) batch.set_direction(i, state_.p[at(j)], 0, 0);
-      }
-    }
-    dae.update_holds();
-  }
-
-  /// Another branch between the same ends has been held, and this one with it.
-  bool bundled_with_held(int branch, const std::vector<int>& standing) const {
-    const Branch& b = system_->structure.deflections[at(branch)];
-    return std::any_of(standing.begin(), standing.end(), [&](int j) {
-      const Branch& o = system_->structure.deflections[at(j)];
-      std::size_t i = 0;
-      return j < branch && std::minmax(o.a, o.b) == std::minmax(b.a, b.b) && system_->dae.batch_of(j, i).holds(i);
-    });
   }
 
   /// What only constant forces hold on to must be in balance, and stay so.
@@ -298,19 +178,9 @@ class Run {
     return h > 0 ? h : settings_.stop;
   }
 
-  /// Reversals of laws between prescribed nodes are known beforehand, so that no step can miss them.
-  double next_given_reversal(double t) const {
-    double next = std::numeric_limits<double>::infinity();
-    for (const Branch& b : known_) {
-      next = std::min(next, drive_.next_reversal(classified_.motion[at(b.a)], classified_.motion[at(b.b)], t,
-                                                 std::min(drive_.next_break(), settings_.stop)));
-    }
-    return next;
-  }
-
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
-    const double until = std::min({drive_.next_break(), settings_.stop, next_given_reversal(t)});
+    const double until = std::min({drive_.next_break(), settings_.stop, given_reversals_.next(t, std::min(drive_.next_break(), settings_.stop))});
     if (until - t <= grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
@@ -328,7 +198,7 @@ class Run {
         system_->consistency.project(t, y_);
         system_->consistency.derivative(t, y_, yp_);
         leave(t);
-        if (gets_nowhere(t, {solver()}) || closes_in(t)) fail(outcome);
+        if (gets_nowhere(t, {solver()}) || headway_.failing(t, glimpse * horizon(t))) fail(outcome);
         restart(t, until, shrink);
         continue;
       }
@@ -351,7 +221,7 @@ class Run {
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
-        if (stands_still(t)) fail(Integrator::Outcome::stuck);
+        if (headway_.standing(t, grain(t))) fail(Integrator::Outcome::stuck);
         shrink = 1;
         continue;
       }
@@ -374,36 +244,8 @@ class Run {
     return false;
   }
 
-  /// The integrator fails ever sooner: it comes up to an instant at which something grows without bound.
-  bool closes_in(double t) {
-    failures_.push_back(t);
-    if (failures_.size() > enough_failures) failures_.pop_front();
-    return failures_.size() == enough_failures && t - failures_.front() < glimpse * horizon(failures_.front());
-  }
-
-  /// Step after step brings the time on by less than it can be told.
-  bool stands_still(double t) {
-    if (std::abs(t - reached_) > grain(t)) {
-      reached_ = t;
-      steps_there_ = 0;
-    }
-    return ++steps_there_ > enough_steps;
-  }
-
   [[noreturn]] void report_chatter(double t) const {
-    constexpr std::size_t most = 3;
-    std::vector<int> busy = headway_.busiest();
-    std::erase(busy, solver());
-    std::string names;
-    for (std::size_t k = 0; k < std::min(most, busy.size()); ++k) {
-      names += fmt::format("{}`{}`", k ? ", " : "", element_name(busy[k]));
-    }
-    if (busy.size() > most) names += fmt::format(" and {} more", busy.size() - most);
-    throw SimulationError(fmt::format(
-        "{} element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a "
-        "dashpot beside {}, a mass at {} ends or a looser accuracy would end it",
-        at_time(*network_.scene, t), busy.size() > 1 ? "s" : "", names, busy.size() > 1 ? "" : "es", Headway::enough, t - headway_.since(),
-        busy.size() > 1 ? "them" : "it", busy.size() > 1 ? "their" : "its"));
+    throw SimulationError(at_time(*network_.scene, t) + " " + headway_.describe(network_, t));
   }
 
   void switch_memories(double t) {
@@ -483,7 +325,11 @@ class Run {
     system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
     system_->events.begin(t, y_.data(), yp_.data());
-    soften_laws();
+    if (system_->dae.rough()) {
+      soften_laws();
+      system_->consistency.project(t, y_);
+      system_->consistency.derivative(t, y_, yp_);
+    }
     double sum = 0;
     for (std::size_t i = 0; i < ypp.size(); ++i) {
       const double e = ypp[i] / 2 / tolerances_.values()[i];
@@ -519,23 +365,18 @@ class Run {
   const Structure classified_;
   Start begin_;
   Drive& drive_;
+  const GivenReversals given_reversals_;
   State& state_;
   Instant instant_;
   Tolerances tolerances_;
   Modes modes_;
+  Systems systems_;
   Switches switches_;
   std::vector<double> slider_force_;
-  std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
-  std::vector<Branch> known_;
-  std::map<std::vector<char>, std::unique_ptr<System>> systems_;
   System* system_ = nullptr;
-  Integrator::Statistics past_;  ///< of systems that are remembered no more
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
-  double reached_ = 0;    ///< where the last steps have been [s]
-  int steps_there_ = 0;
-  std::deque<double> failures_;  ///< of the integrator: the last instants [s]
   std::vector<int> fired_;  ///< elements at the last event
 };
 

@@ -136,7 +136,7 @@ TEST_CASE("a step of position over a dashpot gives a mass the momentum B dx") {
   REQUIRE_EQ(s.jump.notes.size(), 1);
   CHECK_EQ(
       s.jump.notes[0],
-      "at t = 0 s a step in position moves dashpot `c` by 0.0193 in no time: its force there is an impulse, which no "
+      "at t = 0 s a step in position moves dashpot `c` by 0.0193 m in no time: its force at such a step is an impulse, which no "
       "row shows and the energy account leaves out");
 }
 
@@ -243,7 +243,7 @@ TEST_CASE("start values that contradict each other are refused, with both named"
   b.at("m", "mass", "a", {{"mass", m}});
   b.start("a", 0.3);
   CHECK(refusal(b).find(
-            "element `k` cannot start with the displacement d0 = 0.2: nodes `a` and `ground` start 0.3 apart") == 0);
+            "element `k` cannot start with the displacement d0 = 0.2 m: nodes `a` and `ground` start 0.3 m apart") == 0);
   b.start("a", 0.2);
   CHECK_EQ(refusal(b), "");
 
@@ -251,7 +251,7 @@ TEST_CASE("start values that contradict each other are refused, with both named"
   moved.motion("drive", "a", "velocity", Signal(Signal::Constant{0.7}));
   moved.between("k", "spring", "a", "ground", {{"stiffness", k}});
   moved.start("a", 0, 0.6);
-  CHECK(refusal(moved).find("node `a` cannot start with velocity 0.6: motion `drive` gives it 0.7") == 0);
+  CHECK(refusal(moved).find("node `a` cannot start with velocity 0.6 m/s: motion `drive` gives it 0.7 m/s") == 0);
   moved.start("a", 0.13, 0.7);
   CHECK_EQ(refusal(moved), "");
 
@@ -259,7 +259,7 @@ TEST_CASE("start values that contradict each other are refused, with both named"
   placed.motion("drive", "a", "position", Signal(Signal::Constant{0.7}));
   placed.between("k", "spring", "a", "ground", {{"stiffness", k}});
   placed.start("a", 0.6);
-  CHECK(refusal(placed).find("node `a` cannot start at position 0.6: motion `drive` puts it at 0.7") == 0);
+  CHECK(refusal(placed).find("node `a` cannot start at position 0.6 m: motion `drive` puts it at 0.7 m") == 0);
 }
 
 TEST_CASE("a given start position of a driven node is where it was before: it does not step from 0") {

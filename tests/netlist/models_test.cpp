@@ -148,7 +148,7 @@ elements = { m = { type = "mass", at = "a", mass = "m" } }
   folder.write("scenes/own/more.toml", "include = [\"again.toml\"]\n");
   folder.write("scenes/own/again.toml", "");
   ReadOptions options;
-  options.library = {folder.path() / "library"};
+  options.model_folders = {folder.path() / "library"};
   options.overrides = {"models.part.parameters.m=4"};
   // The same file twice is no circle, and the scene's parameters are not those of the library.
   const Scene scene = scene_of(R"~(

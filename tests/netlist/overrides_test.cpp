@@ -8,7 +8,7 @@ namespace rheonet::test {
 namespace {
 
 Scene with(const std::string& netlist, std::vector<std::string> overrides) {
-  return scene_of(netlist, {.overrides = std::move(overrides), .accuracy = {}, .library = {}});
+  return scene_of(netlist, {.overrides = std::move(overrides), .accuracy = {}, .model_folders = {}});
 }
 
 const std::string netlist = R"~(

@@ -31,7 +31,7 @@ Scene scene_of(const std::string& netlist, const ReadOptions& options, const fs:
 void check_all(const std::vector<BadNetlist>& netlists) {
   for (const BadNetlist& bad : netlists) {
     INFO(bad.what);
-    const ReadResult result = read(bad.netlist, {.overrides = bad.overrides, .accuracy = {}, .library = {}});
+    const ReadResult result = read(bad.netlist, {.overrides = bad.overrides, .accuracy = {}, .model_folders = {}});
     CHECK('\n' + messages(result) == bad.messages);
     CHECK_FALSE(result.scene);
   }

@@ -18,7 +18,7 @@ TEST_CASE("every example of the reference of the format is a scene") {
   for (std::size_t at = text.find(fence); at != text.npos; at = text.find(fence, at)) {
     at += fence.size();
     ReadOptions options;
-    options.library = {root / "netlists"};
+    options.model_folders = {root / "netlists"};
     scene_of(text.substr(at, text.find("```", at) - at), options, root / "core" / "netlist");
     ++examples;
   }

@@ -33,7 +33,7 @@ TEST_CASE("Every netlist of the project runs") {
   for (const std::filesystem::path& file : scenes()) {
     CAPTURE(file.string());
     ReadOptions options;
-    options.library = {folder};
+    options.model_folders = {folder};
     const ReadResult read = read_scene(file, declarations(), options);
     for (const Diagnostic& diagnostic : read.diagnostics) FAIL_CHECK(format(diagnostic, read.sources));
     if (!read.scene) continue;

@@ -102,12 +102,4 @@ TEST_CASE("a chain of springs and sliders makes as many pairs as fit") {
   CHECK_EQ(network.nodes(), 3);
 }
 
-TEST_CASE("more than 255 elements at a node") {
-  SceneBuilder b;
-  b.at("m", "mass", "x", {{"mass", 0.7}});
-  for (int i = 0; i < 300; ++i) b.between("k" + std::to_string(i), "spring", "x", "ground", {{"stiffness", 0.1}});
-  const Scene scene = b.finish(1, 10, 1e-6);
-  CHECK_EQ(build_network(scene).node_order.size(), 2);
-}
-
 }  // namespace rheonet::test

@@ -10,7 +10,7 @@
 namespace rheonet::test {
 
 namespace {
-// What is asked for now; the promise itself is 1.
+// Errors may be this many times the accuracy asked for.
 constexpr double margin = 10;
 }  // namespace
 

@@ -18,6 +18,8 @@ Folder::Folder() {
   path_ = pattern;
 }
 
+Folder::Folder(const std::string& scene) : Folder() { write("scene.toml", scene); }
+
 Folder::~Folder() {
   std::error_code ignored;
   fs::remove_all(path_, ignored);
@@ -47,6 +49,12 @@ Finished Folder::shell(const std::string& command) const {
   result.out = text_of(out);
   result.err = text_of(err);
   for (const fs::path& file : {out, err, script}) fs::remove(file);
+  return result;
+}
+
+Finished Folder::shell(const std::string& command, int expected_status) const {
+  Finished result = shell(command);
+  CHECK_MESSAGE(result.status == expected_status, result.err);
   return result;
 }
 

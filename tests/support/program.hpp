@@ -16,6 +16,7 @@ struct Finished {
 class Folder {
  public:
   Folder();
+  explicit Folder(const std::string& scene);  ///< with this netlist in it, `scene.toml`
   ~Folder();
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
@@ -28,6 +29,8 @@ class Folder {
 
   /// Runs a shell command in the folder; `rheonet` in it is the program just built.
   Finished shell(const std::string& command) const;
+  /// The same, where the exit status is as expected: fails the test, with what it said, if it is not.
+  Finished shell(const std::string& command, int expected_status) const;
 
  private:
   std::filesystem::path path_;

@@ -69,7 +69,7 @@ double Trajectory::scale(const std::string& name) const {
 Trajectory simulate(const std::string& toml, double accuracy) {
   ReadOptions options;
   if (accuracy > 0) options.accuracy = accuracy;
-  options.library = {std::filesystem::path(RHEONET_SOURCE_DIR) / "netlists"};
+  options.model_folders = {std::filesystem::path(RHEONET_SOURCE_DIR) / "netlists"};
   const ReadResult read = read_scene_text(toml, "scene.toml", folder_of_text, declarations(), options);
   if (!read.scene) {
     std::string text;

@@ -55,8 +55,7 @@ TEST_CASE("a wrong command line has status 2, an empty standard output, and says
       {"components sprong", "unknown element type `sprong`", "did you mean `spring`?"},
       {"schema spring", "unexpected argument `spring`", ""},
   };
-  const Folder folder;
-  folder.write("scene.toml", oscillator);
+  const Folder folder(oscillator);
   folder.write("other.toml", oscillator);
   for (const Case& c : cases) {
     CAPTURE(c.words);
@@ -71,8 +70,7 @@ TEST_CASE("a wrong command line has status 2, an empty standard output, and says
 }
 
 TEST_CASE("--set takes one value or several, before the scene or after it") {
-  const Folder folder;
-  folder.write("scene.toml", oscillator);
+  const Folder folder(oscillator);
   const std::string plain = folder.shell("rheonet run -q scene.toml").out;
   const std::string expected =
       folder.shell("rheonet run -q scene.toml --set k1.stiffness='\"300 N/m\"' --set simulate.stop=0.5").out;

@@ -20,11 +20,8 @@ std::size_t lines(const std::string& text) {
 }  // namespace
 
 TEST_CASE("run writes the rows to standard output and the summary to standard error") {
-  const Folder folder;
-  folder.write("scene.toml", oscillator);
-  const Finished result = folder.shell("rheonet run scene.toml");
-  CAPTURE(result.err);
-  CHECK(result.status == 0);
+  const Folder folder(oscillator);
+  const Finished result = folder.shell("rheonet run scene.toml", 0);
 
   std::istringstream rows(result.out);
   std::string header;
@@ -54,8 +51,7 @@ TEST_CASE("run writes the rows to standard output and the summary to standard er
 }
 
 TEST_CASE("-o writes the same rows to a file, `-o -` to standard output; -q says nothing") {
-  const Folder folder;
-  folder.write("scene.toml", oscillator);
+  const Folder folder(oscillator);
   const std::string expected = folder.shell("rheonet run -q scene.toml").out;
   CHECK(lines(expected) == 12);
   CHECK(folder.shell("rheonet run -q scene.toml -o -").out == expected);
@@ -70,11 +66,8 @@ TEST_CASE("-o writes the same rows to a file, `-o -` to standard output; -q says
 }
 
 TEST_CASE("--events writes what switches, and the summary counts it") {
-  const Folder folder;
-  folder.write("scene.toml", switching);
-  const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv");
-  CAPTURE(result.err);
-  CHECK(result.status == 0);
+  const Folder folder(switching);
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv", 0);
   const std::string events = folder.read("events.csv");
   CAPTURE(events);
   CHECK(events.starts_with("time,element,event,direction\n0.1"));
@@ -87,11 +80,8 @@ TEST_CASE("--events writes what switches, and the summary counts it") {
 }
 
 TEST_CASE("a run that fails leaves its events, and says so") {
-  const Folder folder;
-  folder.write("scene.toml", overcome);
-  const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv");
-  CAPTURE(result.err);
-  CHECK(result.status == 1);
+  const Folder folder(overcome);
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv", 1);
   CHECK(contains(result.err, "error: at t = 0.3 s nothing resists the force at node `end`"));
   CHECK(contains(result.err, "the 3 rows up to there are in `out.csv`"));
   CHECK(contains(result.err, "the 4 events up to there are in `events.csv`"));
@@ -99,8 +89,7 @@ TEST_CASE("a run that fails leaves its events, and says so") {
 }
 
 TEST_CASE("events that have no file of their own are refused before simulating; a full disk ends the run") {
-  const Folder folder;
-  folder.write("scene.toml", switching);
+  const Folder folder(switching);
   const auto run = [&folder](const std::string& options) { return folder.shell("rheonet run scene.toml " + options); };
   CHECK(run("--events -").status == 2);
   CHECK(contains(run("--events -").err, "`--output` and `--events` both write to standard output"));
@@ -120,8 +109,7 @@ TEST_CASE("events that have no file of their own are refused before simulating; 
 }
 
 TEST_CASE("--accuracy wins over the scene") {
-  const Folder folder;
-  folder.write("scene.toml", oscillator);
+  const Folder folder(oscillator);
   const std::string coarse = folder.shell("rheonet run -q scene.toml --accuracy 1e-2").out;
   const std::string fine = folder.shell("rheonet run -q scene.toml --accuracy 1e-10").out;
   const auto last = [](const std::string& csv) {
@@ -141,12 +129,9 @@ TEST_CASE("--accuracy wins over the scene") {
 }
 
 TEST_CASE("a scene with mistakes: status 2, all of them listed, earlier results untouched") {
-  const Folder folder;
-  folder.write("scene.toml", mistaken);
+  const Folder folder(mistaken);
   folder.write("out.csv", "earlier results\n");
-  const Finished result = folder.shell("rheonet run scene.toml -o out.csv");
-  CAPTURE(result.err);
-  CHECK(result.status == 2);
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv", 2);
   CHECK(contains(result.err, "scene.toml:2:"));
   CHECK(contains(result.err, "did you mean `spring`?"));
   CHECK(contains(result.err, "scene.toml:3:"));
@@ -156,12 +141,9 @@ TEST_CASE("a scene with mistakes: status 2, all of them listed, earlier results 
 }
 
 TEST_CASE("a scene that cannot be simulated: status 1, elements named, earlier results untouched") {
-  const Folder folder;
-  folder.write("scene.toml", contradictory);
+  const Folder folder(contradictory);
   folder.write("out.csv", "earlier results\n");
-  const Finished result = folder.shell("rheonet run scene.toml -o out.csv");
-  CAPTURE(result.err);
-  CHECK(result.status == 1);
+  const Finished result = folder.shell("rheonet run scene.toml -o out.csv", 1);
   CHECK(result.err.starts_with("scene.toml:3:1: error: "));
   CHECK(contains(result.err, "left"));
   CHECK(contains(result.err, "right"));
@@ -171,8 +153,7 @@ TEST_CASE("a scene that cannot be simulated: status 1, elements named, earlier r
 }
 
 TEST_CASE("an output that cannot be opened is found before simulating") {
-  const Folder folder;
-  folder.write("scene.toml", endless);
+  const Folder folder(endless);
   for (const std::string path : {"none/out.csv", "."}) {
     CAPTURE(path);
     const Finished result = folder.shell(std::string("timeout 20 rheonet run scene.toml -o ") + path);
@@ -189,8 +170,7 @@ TEST_CASE("an output that cannot be opened is found before simulating") {
 }
 
 TEST_CASE("a full disk and a reader that goes away stop the run") {
-  const Folder folder;
-  folder.write("scene.toml", endless);
+  const Folder folder(endless);
   const Finished full = folder.shell("timeout 60 rheonet run scene.toml -o /dev/full");
   CHECK(full.status == 1);
   CHECK(contains(full.err, "cannot write to `/dev/full`: No space left on device"));
@@ -203,8 +183,7 @@ TEST_CASE("a full disk and a reader that goes away stop the run") {
 }
 
 TEST_CASE("an interrupted run keeps its rows and says so") {
-  const Folder folder;
-  folder.write("scene.toml", endless);
+  const Folder folder(endless);
   for (const std::string signal : {"INT", "TERM"}) {
     CAPTURE(signal);
     const Finished result =
@@ -221,8 +200,7 @@ TEST_CASE("an interrupted run keeps its rows and says so") {
 }
 
 TEST_CASE("a long run shows its progress on a terminal and leaves no trace of it; a short one shows none") {
-  const Folder folder;
-  folder.write("scene.toml", endless);
+  const Folder folder(endless);
   folder.write("short.toml", oscillator);
   const auto on_terminal = [&folder](const std::string& command) {
     return folder.shell("script -qec '" + command + "' /dev/null").out;

@@ -1,55 +1,48 @@
 #pragma once
 
+#include <string>
+
 namespace rheonet::test {
 
-/// A mass on a spring, let go at 1 mm: x = 1 mm cos(10 t).
-inline const char* const oscillator = R"(title = "let go"
-[elements]
+/// A mass on a spring, let go at 1 mm.
+inline const std::string block_on_spring = R"([elements]
 block_mass = { type = "mass", at = "block", mass = "1 kg" }
 k1 = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
 [nodes]
 block = { position = "1 mm" }
 [simulate]
-stop = "1 s"
+)";
+
+/// It as a scene: x = 1 mm cos(10 t).
+inline const std::string oscillator = "title = \"let go\"\n" + block_on_spring + R"(stop = "1 s"
 output = { points = 11 }
 record = ["block.position", "k1.force"]
 )";
 
 /// The same for so long that a test can interrupt it: some 10^7 oscillations.
-inline const char* const endless = R"([elements]
-block_mass = { type = "mass", at = "block", mass = "1 kg" }
-k1 = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
-[nodes]
-block = { position = "1 mm" }
-[simulate]
-stop = 9e6
+inline const std::string endless = block_on_spring + R"(stop = 9e6
 output = { every = "0.1 s" }
 record = ["block.position"]
 )";
 
 /// A slider behind a spring, pulled to and fro: it slips at 0.1 s and sticks at 0.25 s.
-inline const char* const switching = R"([elements]
+inline const std::string pulled_slider = R"([elements]
 hand = { type = "motion", at = "grip", velocity = { square = "1 m/s", frequency = "2 Hz" } }
 k1 = { type = "spring", between = ["grip", "mid"], stiffness = "10 N/m" }
 s1 = { type = "slider", between = ["mid", "ground"], coulomb = "1 N" }
-[simulate]
+)";
+inline const std::string short_run = R"([simulate]
 stop = "0.4 s"
 output = { points = 5 }
 record = ["k1.force"]
 )";
 
+inline const std::string switching = pulled_slider + short_run;
+
 /// The same, and at 0.3 s a force on a slider that can take half of it: the run ends there.
-inline const char* const overcome = R"([elements]
-hand = { type = "motion", at = "grip", velocity = { square = "1 m/s", frequency = "2 Hz" } }
-k1 = { type = "spring", between = ["grip", "mid"], stiffness = "10 N/m" }
-s1 = { type = "slider", between = ["mid", "ground"], coulomb = "1 N" }
-s2 = { type = "slider", between = ["end", "ground"], coulomb = "1 N" }
+inline const std::string overcome = pulled_slider + R"(s2 = { type = "slider", between = ["end", "ground"], coulomb = "1 N" }
 push = { type = "force", at = "end", force = { step = "2 N", time = "0.3 s" } }
-[simulate]
-stop = "0.4 s"
-output = { points = 5 }
-record = ["k1.force"]
-)";
+)" + short_run;
 
 /// Two prescriptions for one node: it can be read, not simulated.
 inline const char* const contradictory = R"([elements]

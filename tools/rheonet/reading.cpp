@@ -9,7 +9,7 @@ namespace rheonet::tool {
 ReadResult read_and_report(const Arguments& arguments) {
   ReadResult result =
       read_scene(arguments.scene, declarations(),
-                 {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .library = library_folders()});
+                 {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()});
   int errors = 0;
   for (const Diagnostic& diagnostic : result.diagnostics) {
     std::string text = format(diagnostic, result.sources);

@@ -1,0 +1,157 @@
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/dae/convex.hpp"
+#include "core/network/sets.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Of the forces around: more than this that is left over where nothing has a slope any more will not be taken up.
+constexpr double flat_share = 1e-9;
+// Forces within a bound by this much of it are within.
+constexpr double bound_rounding = 1e-12;
+// It may carry this share of a force: more means that nothing else does.
+constexpr double weak_limit = 1e-2;
+
+}  // namespace
+
+/// Forces of least norm in the branches that stick: see bonds.cpp.
+void ConvexNetwork::find_bond_forces() {
+  std::vector<double> left(u_.size(), 0);
+  bond_force_.assign(branches_.size(), 0);
+  for (const Branch& b : branches_) {
+    if (b.stuck) continue;
+    const double f = force(b, difference(b), b.side);
+    left[at(b.a)] += f;
+    left[at(b.b)] -= f;
+  }
+  std::vector<int> row(u_.size(), -1);
+  int rows = 0;
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    left[k] += inertia_[k] * u_[k] - applied_[k];
+    // Phi is 0 at fixed nodes, and at the heaviest node of each other cluster: what rounding leaves stays there.
+    const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
+    if (!fixed_[k] && !reference) row[k] = rows++;
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd phi = Eigen::VectorXd::Zero(rows);
+  std::vector<char> touched(at(rows), 0);
+  for (const Branch& b : branches_) {
+    if (!b.stuck) continue;
+    const int i = row[at(b.a)], j = row[at(b.b)];
+    for (int r : {i, j}) {
+      if (r < 0) continue;
+      entries.emplace_back(r, r, 1);
+      touched[at(r)] = 1;
+    }
+    if (i >= 0 && j >= 0) {
+      entries.emplace_back(i, j, -1);
+      entries.emplace_back(j, i, -1);
+    }
+  }
+  for (int r = 0; r < rows; ++r) {
+    if (!touched[at(r)]) entries.emplace_back(r, r, 1);
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
+  }
+  if (rows > 0) {
+    Eigen::SparseMatrix<double> matrix(rows, rows);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    phi = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(phi);
+  }
+  const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    if (branches_[k].stuck) bond_force_[k] = potential(branches_[k].a) - potential(branches_[k].b);
+  }
+}
+
+/// Lets go of the branches whose force is beyond its jump; false if there are none.
+bool ConvexNetwork::release() {
+  find_bond_forces();
+  const std::vector<double>& f = bond_force_;
+  std::vector<std::pair<double, int>> beyond;
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const Branch& b = branches_[k];
+    if (!b.stuck) continue;
+    const bool above = f[k] > b.law.high;
+    const double over = above ? f[k] - b.law.high : b.law.low - f[k];
+    if (over > bound_rounding * std::abs(above ? b.law.high : b.law.low)) beyond.push_back({over, static_cast<int>(k)});
+  }
+  std::sort(beyond.begin(), beyond.end(), std::greater<>());
+  released_.clear();
+  for (const auto& [over, k] : beyond) {
+    Branch& b = branches_[at(k)];
+    b.stuck = false;
+    b.side = f[at(k)] > b.law.high ? 1 : -1;
+    released_.push_back(k);
+  }
+  return !beyond.empty();
+}
+
+/// Sum of the magnitudes of the powers of all branches and loads.
+double ConvexNetwork::power() const {
+  double sum = 0;
+  for (const Branch& b : branches_) {
+    if (const double w = difference(b); w != 0) sum += std::abs(force(b, w, b.side) * w);
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    sum += (std::abs(applied_[k]) + std::abs(inertia_[k] * u_[k])) * std::abs(base_[k] + u_[k]);
+  }
+  return sum;
+}
+
+/// True if only what decides among equals has held something back.
+bool ConvexNetwork::run_away() {
+  double scale = 0;
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
+  }
+  for (const Branch& b : branches_) {
+    for (double f : {b.law.low, b.law.high, force(b, difference(b), b.side)}) {
+      if (std::isfinite(f)) scale = std::max(scale, std::abs(f));
+    }
+  }
+  // What has inertia does not run away.
+  std::vector<char> heavy(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
+  }
+  for (const Branch& b : branches_) {
+    if (b.stuck || std::abs(b.weak * difference(b)) <= weak_limit * scale) continue;
+    for (int node : {b.a, b.b}) {
+      if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);
+    }
+  }
+  return !runaways_.empty();
+}
+
+/// True if laws that come to a bound only in the limit have done so, and forces are left over.
+bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
+  // What is left when the flat ones are cut: parts of the network that only bounds hold.
+  Sets parts(u_.size());
+  for (const Branch& b : branches_) {
+    const double w = difference(b);
+    if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > flat_share * std::abs(force(b, w, b.side)) || w == 0) {
+      parts.join(b.a, b.b);
+    }
+  }
+  std::vector<double> left(u_.size(), 0), forces(left);
+  std::vector<char> held(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (fixed_[k] || inertia_[k] > 0) held[at(parts.find(static_cast<int>(k)))] = 1;
+    forces[at(parts.find(static_cast<int>(k)))] += std::abs(applied_[k]);
+    const int column = column_[at(cluster_[k])];
+    if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += gradient[at(column)];
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const std::size_t part = at(parts.find(static_cast<int>(k)));
+    if (!held[part] && std::abs(left[part]) > flat_share * forces[part]) runaways_.push_back(static_cast<int>(k));
+  }
+  return !runaways_.empty();
+}
+
+}  // namespace rheonet

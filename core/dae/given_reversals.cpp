@@ -1,0 +1,35 @@
+#include "core/dae/given_reversals.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace rheonet {
+
+namespace {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+}  // namespace
+
+GivenReversals::GivenReversals(const Network& network, const Structure& classified, Drive& drive)
+    : structure_(classified), drive_(drive) {
+  const auto known = [&](NodeId node) { return classified.kind[at(node)] == Kind::known; };
+  const auto add = [&](const Branch& b) {
+    const auto same = [&](const Branch& o) { return o.a == b.a && o.b == b.b; };
+    if (known(b.a) && known(b.b) && std::none_of(pairs_.begin(), pairs_.end(), same)) pairs_.push_back(b);
+  };
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->events(i) > 0) add(network.deflections[at(laws.first) + i]);
+    }
+  }
+  for (const Network::Slider& slider : network.sliders) add(slider.branch);
+}
+
+double GivenReversals::next(double t, double limit) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Branch& b : pairs_) {
+    next = std::min(next, drive_.next_reversal(structure_.motion[at(b.a)], structure_.motion[at(b.b)], t, limit));
+  }
+  return next;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,284 @@
+#include "core/network/forest.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <map>
+#include <queue>
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+[[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<int>& lost) {
+  std::string names;
+  int count = 0;
+  NodeId first = ground;
+  for (int g : lost) {
+    for (NodeId node : s.groups[at(g)].nodes) {
+      if (first == ground || s.rank[at(node)] < s.rank[at(first)]) first = node;
+      if (++count <= 5) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", network.node_name(node));
+    }
+  }
+  if (count > 5) names += fmt::format(" and {} more", count - 5);
+  throw SimulationError(network.spot_of_node(first), fmt::format(
+      "nothing determines the motion of node{} {}: no mass there, and no element that resists motion leads from there to "
+      "ground, to a mass or to a prescribed motion; add one, or a mass",
+      count > 1 ? "s" : "", names));
+}
+
+/// An element whose force is constant at present: it leads somewhere, but holds nothing.
+struct Weak { int element; NodeId a, b; };
+
+/// Spanning trees of the deflection branches, breadth first, so that loops stay short.
+class Forest {
+ public:
+  Forest(const Network& network, Structure& s) : network_(network), s_(s), branches_of_(s.groups.size()) {
+    reached_.assign(s.groups.size(), 0);
+    for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const int j = laws.first + static_cast<int>(i);
+        const Branch& b = s.deflections[at(j)];
+        if (b.a == b.b) continue;
+        if (laws.batch->constant(i)) {
+          weak_.push_back({b.element, b.a, b.b});
+          continue;
+        }
+        const int ga = s.group[at(b.a)], gb = s.group[at(b.b)];
+        if (ga >= 0) branches_of_[at(ga)].push_back(j);
+        if (gb >= 0 && gb != ga) branches_of_[at(gb)].push_back(j);
+      }
+    }
+    for (std::size_t k = 0; k < s.sliders.size(); ++k) {
+      if (!s.stuck[k] && s.sliders[k].a != s.sliders[k].b) {
+        weak_.push_back({s.sliders[k].element, s.sliders[k].a, s.sliders[k].b});
+      }
+    }
+  }
+
+  /// Grows from the nodes that are in no group; then ties what no tree reaches, and grows from there.
+  void grow() {
+    for (std::size_t g = 0; g < branches_of_.size(); ++g) {
+      for (int j : branches_of_[g]) attach_from_outside(j);
+    }
+    spread();
+    while (order_.size() < s_.groups.size()) {
+      tie();
+      spread();
+    }
+    renumber();
+    if (!s_.ties.empty()) solve_ties();
+  }
+
+ private:
+  bool in_group(NodeId node) const { return s_.group[at(node)] >= 0; }
+
+  void attach_from_outside(int j) {
+    const Branch& b = s_.deflections[at(j)];
+    if (in_group(b.a) && !in_group(b.b)) attach(j, b.a, b.b, 1);
+    if (in_group(b.b) && !in_group(b.a)) attach(j, b.b, b.a, 1);
+  }
+
+  void attach(int branch, NodeId node, NodeId parent, int depth) {
+    const int g = s_.group[at(node)];
+    if (reached_[at(g)]) return;
+    reached_[at(g)] = 1;
+    Structure::Group& group = s_.groups[at(g)];
+    group.tree_branch = branch;
+    group.node = node;
+    group.parent = parent;
+    group.sign = s_.deflections[at(branch)].a == node ? 1 : -1;
+    group.depth = depth;
+    queue_.push(g);
+  }
+
+  void spread() {
+    while (!queue_.empty()) {
+      const int g = queue_.front();
+      queue_.pop();
+      order_.push_back(g);
+      for (int j : branches_of_[at(g)]) {
+        const Branch& b = s_.deflections[at(j)];
+        if (s_.group[at(b.a)] == g && in_group(b.b)) attach(j, b.b, b.a, s_.groups[at(g)].depth + 1);
+        if (s_.group[at(b.b)] == g && in_group(b.a)) attach(j, b.a, b.b, s_.groups[at(g)].depth + 1);
+      }
+    }
+  }
+
+  /// All groups that hang together with `first` through deflection branches.
+  std::vector<int> piece(int first) const {
+    std::vector<char> seen(s_.groups.size(), 0);
+    std::vector<int> members{first};
+    seen[at(first)] = 1;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      for (int j : branches_of_[at(members[k])]) {
+        for (NodeId node : {s_.deflections[at(j)].a, s_.deflections[at(j)].b}) {
+          const int g = s_.group[at(node)];
+          if (g < 0 || seen[at(g)]) continue;
+          seen[at(g)] = 1;
+          members.push_back(g);
+        }
+      }
+    }
+    return members;
+  }
+
+  void tie() {
+    const auto lost = std::find(reached_.begin(), reached_.end(), 0);
+    const int root = static_cast<int>(lost - reached_.begin());
+    const std::vector<int> members = piece(root);
+    Structure::Tie tie;
+    for (int g : members) {
+      for (NodeId node : s_.groups[at(g)].nodes) tie.nodes.push_back(node);
+    }
+    std::vector<char> inside(s_.kind.size(), 0);
+    for (NodeId node : tie.nodes) inside[at(node)] = 1;
+    for (const Weak& w : weak_) {
+      if (inside[at(w.a)] != inside[at(w.b)]) tie.elements.push_back(w.element);
+    }
+    for (std::size_t n = 0; n < inside.size(); ++n) {
+      if (s_.kind[n] == Kind::joined && inside[at(s_.rigid[n])]) tie.nodes.push_back(static_cast<NodeId>(n));
+    }
+    if (tie.elements.empty()) report_undefined(network_, s_, members);
+    reached_[at(root)] = 1;
+    s_.groups[at(root)].tie = static_cast<int>(s_.ties.size());
+    s_.groups[at(root)].depth = 1;
+    s_.ties.push_back(std::move(tie));
+    queue_.push(root);
+  }
+
+  /// Groups are numbered by depth.
+  void renumber() {
+    std::vector<Structure::Group> sorted;
+    sorted.reserve(order_.size());
+    for (int g : order_) {
+      for (NodeId node : s_.groups[at(g)].nodes) s_.group[at(node)] = static_cast<int>(sorted.size());
+      sorted.push_back(std::move(s_.groups[at(g)]));
+    }
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const Structure::Group& x, const Structure::Group& y) { return x.depth < y.depth; });
+    for (std::size_t g = 0; g < sorted.size(); ++g) {
+      for (NodeId node : sorted[g].nodes) s_.group[at(node)] = static_cast<int>(g);
+    }
+    s_.groups = std::move(sorted);
+  }
+
+  void solve_ties();
+
+  const Network& network_;
+  Structure& s_;
+  std::vector<std::vector<int>> branches_of_;
+  std::vector<Weak> weak_;
+  std::vector<char> reached_;
+  std::vector<int> order_;
+  std::queue<int> queue_;
+};
+
+/// Terms by deflection branch, by node and by tie.
+struct Sum {
+  std::map<int, double> flows, velocities, ties;
+
+  void add(const Structure::Loop& loop, double factor) {
+    for (const Structure::Term& x : loop.flows) flows[x.index] += factor * x.sign;
+    for (const Structure::Term& x : loop.velocities) velocities[x.index] += factor * x.sign;
+  }
+
+  Structure::Loop loop(const Structure& s, int branch) const {
+    constexpr double rounding = 1e-12;  // coefficients are shares of the nodes around a tie
+    Structure::Loop result{.branch = branch, .flows = {}, .velocities = {}};
+    for (auto [j, sign] : flows) {
+      if (std::abs(sign) > rounding) result.flows.push_back({j, sign});
+    }
+    for (auto [node, sign] : velocities) {
+      if (std::abs(sign) > rounding && node != ground) result.velocities.push_back({node, sign});
+    }
+    std::sort(result.velocities.begin(), result.velocities.end(), [&](const Structure::Term& x, const Structure::Term& y) {
+      return s.rank[at(x.index)] < s.rank[at(y.index)];
+    });
+    return result;
+  }
+};
+
+/// -(v_a - v_b), expressed along the trees from both nodes up to where their paths meet.
+Sum difference(const Structure& s, NodeId a, NodeId b) {
+  Sum sum;
+  // velocity(node) = v_node + base(group), base(group) = base(parent's group) + v_parent - v_node' + sign (p' + creep)
+  const auto climb = [&](int group, double sign) {
+    const Structure::Group& g = s.groups[at(group)];
+    if (g.tie >= 0) {
+      sum.ties[g.tie] -= sign;
+      return -1;
+    }
+    sum.velocities[g.parent] -= sign;
+    sum.velocities[g.node] += sign;
+    sum.flows[g.tree_branch] -= sign * g.sign;
+    return s.group[at(g.parent)];
+  };
+  sum.velocities[a] -= 1;
+  sum.velocities[b] += 1;
+  int ga = s.group[at(a)], gb = s.group[at(b)];
+  while (ga != gb) {
+    const int da = ga < 0 ? 0 : s.groups[at(ga)].depth, db = gb < 0 ? 0 : s.groups[at(gb)].depth;
+    if (da >= db) {
+      ga = climb(ga, 1);
+    } else {
+      gb = climb(gb, -1);
+    }
+  }
+  return sum;
+}
+
+/// The sum of the relative velocities of all that leads away from a tie is 0: the condition of least squares.
+void Forest::solve_ties() {
+  const auto count = static_cast<Eigen::Index>(s_.ties.size());
+  std::vector<int> tie_of(s_.kind.size(), -1);
+  for (std::size_t k = 0; k < s_.ties.size(); ++k) {
+    for (NodeId node : s_.ties[k].nodes) tie_of[at(node)] = static_cast<int>(k);
+  }
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
+  std::vector<Sum> rest(s_.ties.size());
+  for (const Weak& w : weak_) {
+    const int ta = tie_of[at(w.a)], tb = tie_of[at(w.b)];
+    if (ta == tb) continue;
+    const Sum term = difference(s_, w.a, w.b);
+    for (const auto& [tie, sign] : {std::pair{ta, 1.0}, std::pair{tb, -1.0}}) {
+      if (tie < 0) continue;
+      for (auto [j, x] : term.flows) rest[at(tie)].flows[j] += sign * x;
+      for (auto [node, x] : term.velocities) rest[at(tie)].velocities[node] += sign * x;
+      for (auto [other, x] : term.ties) matrix(tie, other) += sign * x;
+    }
+  }
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(matrix);
+  if (!lu.isInvertible()) {
+    std::vector<int> lost;
+    for (std::size_t g = 0; g < s_.groups.size(); ++g) {
+      if (s_.groups[g].tie >= 0) lost.push_back(static_cast<int>(g));
+    }
+    report_undefined(network_, s_, lost);
+  }
+  const Eigen::MatrixXd inverse = lu.inverse();
+  for (Eigen::Index k = 0; k < count; ++k) {
+    Sum sum;
+    for (Eigen::Index l = 0; l < count; ++l) {
+      for (auto [j, x] : rest[static_cast<std::size_t>(l)].flows) sum.flows[j] += inverse(k, l) * x;
+      for (auto [node, x] : rest[static_cast<std::size_t>(l)].velocities) sum.velocities[node] += inverse(k, l) * x;
+    }
+    s_.ties[static_cast<std::size_t>(k)].velocity = sum.loop(s_, -1);
+  }
+}
+
+}  // namespace
+
+void grow_forest(const Network& network, Structure& structure) { Forest(network, structure).grow(); }
+
+Structure::Loop express(const Structure& s, NodeId a, NodeId b, int branch) {
+  Sum sum = difference(s, a, b);
+  if (branch >= 0) sum.flows[branch] += 1;
+  for (auto [tie, sign] : sum.ties) sum.add(s.ties[at(tie)].velocity, -sign);
+  return sum.loop(s, branch);
+}
+
+}  // namespace rheonet

@@ -1,0 +1,55 @@
+#include "core/solve/systems.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr std::size_t most_kept = 64;
+
+}  // namespace
+
+System::System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
+               Tolerances& tolerances)
+    : structure(std::move(s)),
+      dae(network, structure, drive, needed),
+      consistency(dae),
+      events(dae, consistency, tolerances, modes),
+      integrator(dae, events, tolerances.values()) {}
+
+Systems::Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
+                 const Modes& modes, Tolerances& tolerances)
+    : network_(network), drive_(drive), needed_(needed), modes_(modes), tolerances_(tolerances) {
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.deflections[at(laws.first) + i];
+      const bool floating = classified.group[at(b.a)] >= 0 || classified.group[at(b.b)] >= 0;
+      if (floating && laws.batch->events(i) > 0) may_tie_.push_back({laws.batch.get(), i});
+    }
+  }
+}
+
+System& Systems::of_modes() {
+  std::vector<char> key;
+  for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
+  for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
+  auto found = systems_.find(key);
+  if (found == systems_.end()) {
+    if (systems_.size() >= most_kept) {
+      past_ = statistics();
+      systems_.clear();
+    }
+    found = systems_.emplace(key, std::make_unique<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
+                                                           tolerances_)).first;
+  }
+  return *found->second;
+}
+
+Integrator::Statistics Systems::statistics() const {
+  Integrator::Statistics sum = past_;
+  for (const auto& [key, system] : systems_) sum += system->integrator.statistics();
+  return sum;
+}
+
+}  // namespace rheonet

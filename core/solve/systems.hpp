@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/dae/consistency.hpp"
+#include "core/solve/events.hpp"
+#include "core/solve/integrator.hpp"
+#include "core/solve/tolerances.hpp"
+
+namespace rheonet {
+
+/// The equations of one set of modes, and what solves them.
+struct System {
+  Structure structure;
+  Dae dae;
+  Consistency consistency;
+  NetworkEvents events;
+  Integrator integrator;
+
+  System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
+         Tolerances& tolerances);
+};
+
+/// The systems of the modes that a run has been in: some are kept, for when their modes come back.
+class Systems {
+ public:
+  /// `classified` is the network's structure with every slider slipping. All must outlive this.
+  Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
+          const Modes& modes, Tolerances& tolerances);
+
+  /// That of the present modes, of sliders and of laws that are constant forces now. Valid until the next call. Throws
+  /// SimulationError as `analyse` does.
+  System& of_modes();
+  /// Of all systems that have been.
+  Integrator::Statistics statistics() const;
+
+ private:
+  const Network& network_;
+  Drive& drive_;
+  const std::vector<char>& needed_;
+  const Modes& modes_;
+  Tolerances& tolerances_;
+  /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
+  std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
+  std::map<std::vector<char>, std::unique_ptr<System>> systems_;
+  Integrator::Statistics past_;  ///< of systems that are kept no more
+};
+
+}  // namespace rheonet

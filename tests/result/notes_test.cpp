@@ -1,0 +1,62 @@
+// What a run says of itself beside its rows.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/support/scene_builder.hpp"
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+std::vector<std::string> notes_of(const SceneBuilder& builder, double stop = 1) {
+  Summary summary;
+  simulate(builder.finish(stop, 10, 1e-6), &summary);
+  return summary.notes;
+}
+
+}  // namespace
+
+TEST_CASE("steps in position are told once for each element that they give an impulse, with the first amount") {
+  constexpr double amplitude = 0.0193;
+  SceneBuilder b;
+  b.motion("drive", "a", "position", Signal(Signal::Square{amplitude, 3.1, 0, 0.1, 0}));
+  b.between("c1", "dashpot", "a", "ground", {{"damping", 2.3}});
+  b.between("k1", "spring", "a", "ground", {{"stiffness", 71}});
+  b.at("m1", "mass", "a", {{"mass", 0.7}});
+  const std::vector<std::string> notes = notes_of(b);
+  REQUIRE_EQ(notes.size(), 2);
+  CHECK_EQ(notes[0], "at t = 0.1 s a step in position moves dashpot `c1` by 0.0193 m in no time: its force at such a step is "
+                     "an impulse, which no row shows and the energy account leaves out");
+  CHECK_EQ(notes[1], "at t = 0.1 s a step in position moves mass `m1` by 0.0193 m in no time: the motion's force at such a "
+                     "step is an impulse, which no row shows and the energy account leaves out");
+}
+
+TEST_CASE("masses that a rigid link joins go on with their common momentum; what that costs is told") {
+  constexpr double m1 = 0.7, m2 = 2.3, v1 = 1.1, v2 = -0.4;
+  const auto linked = [&](double first, double second) {
+    SceneBuilder b;
+    b.at("m1", "mass", "a", {{"mass", m1}});
+    b.at("m2", "mass", "b", {{"mass", m2}});
+    b.between("link", "slider", "a", "b", {{"coulomb", INFINITY}, {"breakaway", INFINITY}});
+    b.start("a", 0, first);
+    b.start("b", 0, second);
+    return b;
+  };
+  const double common = (m1 * v1 + m2 * v2) / (m1 + m2), lost = m1 * m2 / (m1 + m2) * (v1 - v2) * (v1 - v2) / 2;
+  const std::vector<std::string> notes = notes_of(linked(v1, v2));
+  REQUIRE_EQ(notes.size(), 1);
+  CHECK_EQ(notes[0], fmt::format("rigid link `link` joins masses that start with different velocities: they go on together "
+                                 "at {:.6g} m/s, and lose {:.6g} J at once, before the energy account begins",
+                                 common, lost));
+  Summary summary;
+  const Trajectory run = simulate(linked(v1, v2).finish(1, 10, 1e-6), &summary);
+  CHECK_EQ(run["a.velocity"].back(), doctest::Approx(common).epsilon(1e-12));
+  CHECK_EQ(summary.dissipated, 0);
+  CHECK(notes_of(linked(v1, v1)).empty());
+}
+
+}  // namespace rheonet::test
