@@ -18,8 +18,8 @@ std::vector<std::string> start_pairs(const Network& network, const std::vector<d
     const double middle = std::isnan(node.position) ? 0 : node.position;
     const double stretch = position[at(pair.spring_end)] - middle;  // from the spring's end on
     const bool given = !std::isnan(pair.law.force);
-    const double f = given ? pair.spring_sign * pair.law.force
-                           : pair.law.stiffness * (stretch - pair.spring_sign * pair.law.rest);
+    const double f =
+        given ? pair.spring_sign * pair.law.force : pair.law.stiffness * (stretch - pair.spring_sign * pair.law.rest);
     const double rest = given ? stretch - f / pair.law.stiffness : pair.spring_sign * pair.law.rest;
     const double kept = std::clamp(f, -pair.coulomb, pair.coulomb);
     const double slid = (f - kept) / pair.law.stiffness;
@@ -27,8 +27,9 @@ std::vector<std::string> start_pairs(const Network& network, const std::vector<d
     (*network.bundles)[at(pair.bundle)].place(pair.index, pair.sign * rest,
                                               pair.sign * (middle + slid - position[at(pair.slider_end)]));
     if (slid != 0) {
-      chosen.push_back(fmt::format("node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance",
-                                   node.name, middle + slid, unit_of(Quantity::position, network.scene->domain)));
+      chosen.push_back(
+          fmt::format("node `{}` starts at position {:.6g} {}: it has no mass, and there the forces balance", node.name,
+                      middle + slid, unit_of(Quantity::position, network.scene->domain)));
     }
   }
   for (std::size_t b = 0; b < forces.size(); ++b) (*network.bundles)[b].begin(0, std::move(forces[b]), 1);

@@ -9,8 +9,8 @@ namespace rheonet {
 
 namespace {
 
-// Yields this near to each other, relative to the way there, are one kink: more than their rounding, and too little to be
-// seen in the force.
+// Yields this near to each other, relative to the way there, are one kink: more than their rounding, and too little to
+// be seen in the force.
 constexpr double same_kink = 1e-13;
 
 }  // namespace
@@ -22,7 +22,13 @@ struct Iwan::Back {
 };
 
 Iwan::Iwan(std::vector<Pair> pairs, double kink_share)
-    : pairs_(std::move(pairs)), rest_(pairs_.size(), 0), slide_(rest_), kink_share_(kink_share), bound_(rest_), order_(pairs_.size()), rank_(pairs_.size()) {
+    : pairs_(std::move(pairs)),
+      rest_(pairs_.size(), 0),
+      slide_(rest_),
+      kink_share_(kink_share),
+      bound_(rest_),
+      order_(pairs_.size()),
+      rank_(pairs_.size()) {
   for (const Pair& pair : pairs_) {
     total_stiffness_ += pair.stiffness;
     total_force_ += pair.coulomb;

@@ -8,22 +8,22 @@
 
 namespace rheonet {
 
-/// Springs in series with sliders, side by side between the same two ends: each pair is a stop operator (Prandtl 1928;
+/// Springs in series with sliders, side by side between the same two ends: each pair is a stop operator (L. Prandtl, ZAMM 8 (1928) 85;
 /// with a name of its own Jenkins's element), all of them an Iwan bundle (W. D. Iwan, J. Appl. Mech. 34 (1967) 612).
 ///
 /// From a reversal at p_ref, where pair i has the force f_i, a motion in direction s = +-1 gives with x = s (p - p_ref)
 ///
 ///     s F(x) = sum of min(s f_i + k_i x, Fc_i),      pair i yields at x = y_i = (Fc_i - s f_i)/k_i
 ///
-/// whatever the speed. The pairs in the order of y_i, and the sums over those that have yielded and over those that have
-/// not, make F, its slope and its energies a search among the y_i, O(log N). A reversal makes them anew, O(N): the f_i are
-/// all that is remembered of the past, so that inner loops close and are wiped out by themselves, and any initial forces
-/// are as good as those of a virgin bundle. (Once all have yielded the y_i are in the order of 2 Fc_i/k_i for good,
-/// Masing's rule: nothing is left to sort.)
+/// whatever the speed. The pairs in the order of y_i, and the sums over those that have yielded and over those that
+/// have not, make F, its slope and its energies a search among the y_i, O(log N). A reversal makes them anew, O(N): the
+/// f_i are all that is remembered of the past, so that inner loops close and are wiped out by themselves, and any
+/// initial forces are as good as those of a virgin bundle. (Once all have yielded the y_i are in the order of 2
+/// Fc_i/k_i for good, Masing's rule: nothing is left to sort.)
 ///
-/// A yield is a kink of F. Kinks of many small pairs are left to the integrator's error control; one that takes more than
-/// `kink_share` of the bundle's stiffness, and the last one, beyond which F is constant, are events. Up to the next of these
-/// F goes on straight beyond it, so that an integrator may look over it.
+/// A yield is a kink of F. Kinks of many small pairs are left to the integrator's error control; one that takes more
+/// than `kink_share` of the bundle's stiffness, and the last one, beyond which F is constant, are events. Up to the
+/// next of these F goes on straight beyond it, so that an integrator may look over it.
 class Iwan {
  public:
   struct Pair {
@@ -64,12 +64,15 @@ class Iwan {
   double total_force() const { return total_force_; }
 
   double pair_force(std::size_t pair, double p) const;
-  /// Displacements of its spring where that is free of force and of its slider at present [m]: nothing to the law itself.
+  /// Displacements of its spring where that is free of force and of its slider at present [m]: nothing to the law
+  /// itself.
   void place(std::size_t pair, double rest, double slide);
   /// Something has moved them both without a law: their displacement together is `displacement`, at deflection p.
   void follow(double p, double displacement);
   /// Displacements of its spring and of its slider: that of one which sticks stays the same to the last digit.
-  double stretch(std::size_t pair, double p) const { return rest_[pair] + pair_force(pair, p) / pairs_[pair].stiffness; }
+  double stretch(std::size_t pair, double p) const {
+    return rest_[pair] + pair_force(pair, p) / pairs_[pair].stiffness;
+  }
   double slide(std::size_t pair, double p) const;
   bool pair_yields(std::size_t pair, double p) const { return rank_[pair] < yielded(p); }
   /// How many have yielded since the reversal: the pairs in_order(0), in_order(1), ... one after the other.
@@ -108,14 +111,14 @@ class Iwan {
   // Since the last reversal:
   int s_ = 1;
   double p_ref_ = 0;
-  std::vector<double> f_;                 ///< of each pair, at the reversal [N]
-  std::vector<double> bound_;             ///< of each pair: where it yields, in the direction s [N]
+  std::vector<double> f_;                  ///< of each pair, at the reversal [N]
+  std::vector<double> bound_;              ///< of each pair: where it yields, in the direction s [N]
   std::vector<std::size_t> order_, rank_;  ///< pairs by y, and the inverse
-  std::vector<double> y_;                 ///< by rank [m]
-  std::vector<Sums> sums_;                ///< by rank, 0 .. size()
-  double stiffness_back_ = 0;             ///< slope with which a motion would go back at the reversal itself
-  std::size_t passed_ = 0;                ///< so many have yielded for good
-  std::size_t next_ = 0, next_end_ = 0;   ///< ranks [next_, next_end_) make the next kink that is an event
+  std::vector<double> y_;                  ///< by rank [m]
+  std::vector<Sums> sums_;                 ///< by rank, 0 .. size()
+  double stiffness_back_ = 0;              ///< slope with which a motion would go back at the reversal itself
+  std::size_t passed_ = 0;                 ///< so many have yielded for good
+  std::size_t next_ = 0, next_end_ = 0;    ///< ranks [next_, next_end_) make the next kink that is an event
   long branch_ = 0;
   struct Back;
   mutable std::shared_ptr<const Back> back_;  ///< the way back from some point, if it has been asked for
@@ -154,7 +157,9 @@ class IwanBatch final : public DeflectionBatch {
   Steady steady(std::size_t i) const override { return {bundles_[i].total_force(), 0, bundles_[i].total_force()}; }
   double settle(std::size_t i, double p, double f, int direction) override;
   double stored_energy(std::size_t i, double p) const override { return bundles_[i].stored_energy(p); }
-  double dissipated_power(std::size_t i, double p, double, double w) const override { return bundles_[i].heating(p, w); }
+  double dissipated_power(std::size_t i, double p, double, double w) const override {
+    return bundles_[i].heating(p, w);
+  }
   bool knows_heat() const override { return true; }
   double heat(std::size_t i, double p) const override { return bundles_[i].heat(p); }
 

@@ -12,8 +12,8 @@ namespace rheonet {
 namespace {
 
 // A kink that takes a larger share of a bundle's stiffness is an event. Measured on a mass that N equal springs hold
-// (tests/analytic/iwan_test.cpp), at accuracies from 1e-3 to 1e-9: the error is within the accuracy either way; up to about
-// 30 pairs events cost no more steps than the error test does without them, from 50 on up to twice as many.
+// (tests/analytic/iwan_test.cpp), at accuracies from 1e-3 to 1e-9: the error is within the accuracy either way; up to
+// about 30 pairs events cost no more steps than the error test does without them, from 50 on up to twice as many.
 constexpr double kink_worth_an_event = 0.03;
 
 Reduced take_limits(const Component* component, std::vector<double> values) {
@@ -94,7 +94,8 @@ void tie_up_pairs(Network& network) {
   for (Pair& pair : network.pairs) {
     pair.spring_end = network.node_of[static_cast<std::size_t>(pair.spring_end)];
     pair.slider_end = network.node_of[static_cast<std::size_t>(pair.slider_end)];
-    const auto [found, fresh] = bundle_of.try_emplace(std::minmax(pair.spring_end, pair.slider_end), static_cast<int>(bundles.size()));
+    const auto [found, fresh] =
+        bundle_of.try_emplace(std::minmax(pair.spring_end, pair.slider_end), static_cast<int>(bundles.size()));
     if (fresh) {
       bundles.emplace_back();
       network.deflections.push_back({pair.slider, pair.spring_end, pair.slider_end});
@@ -102,7 +103,8 @@ void tie_up_pairs(Network& network) {
     pair.bundle = found->second;
     std::vector<Iwan::Pair>& bundle = bundles[static_cast<std::size_t>(pair.bundle)];
     pair.index = bundle.size();
-    pair.sign = network.deflections[static_cast<std::size_t>(network.first_bundle + pair.bundle)].a == pair.spring_end ? 1 : -1;
+    pair.sign =
+        network.deflections[static_cast<std::size_t>(network.first_bundle + pair.bundle)].a == pair.spring_end ? 1 : -1;
     bundle.push_back({pair.law.stiffness, pair.coulomb});
   }
   auto batch = std::make_unique<IwanBatch>();
@@ -135,7 +137,8 @@ Network build_network(const Scene& scene) {
   for (std::size_t k = 0; k < network.pairs.size(); ++k) {
     const Pair& pair = network.pairs[k];
     for (const int e : {pair.spring, pair.slider}) {
-      network.places[static_cast<std::size_t>(e)] = {laws[static_cast<std::size_t>(e)].component->role, static_cast<int>(k), true};
+      network.places[static_cast<std::size_t>(e)] = {laws[static_cast<std::size_t>(e)].component->role,
+                                                     static_cast<int>(k), true};
     }
   }
   number_nodes(network);

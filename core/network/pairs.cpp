@@ -13,7 +13,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 struct Touch {
   int count = 0;
   int spring = -1, slider = -1;
-  bool firm = false;  ///< ground, a mass or a motion: its start value is its own
+  bool firm = false;          ///< ground, a mass or a motion: its start value is its own
   std::vector<double> start;  ///< where it may start [m]; NaN where that follows from something else
 };
 
@@ -95,8 +95,8 @@ std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& law
     if (pair.spring_end == pair.slider_end) continue;
     // A start displacement of the spring may be what places its end. (NaN: not given.)
     if (!std::isnan(pair.law.displacement)) continue;
-    // Where an end has no place of its own, what is given here may have to balance what is given there; and a slider that
-    // cannot hold its spring slides as far as all others there let it.
+    // Where an end has no place of its own, what is given here may have to balance what is given there; and a slider
+    // that cannot hold its spring slides as far as all others there let it.
     const bool firm = touched[at(pair.spring_end)].firm && touched[at(pair.slider_end)].firm;
     const bool given = !std::isnan(pair.law.force) || !std::isnan(scene.nodes[at(node)].position);
     if (!firm && (given || !holds_at_start(pair, touched[at(pair.spring_end)]))) continue;

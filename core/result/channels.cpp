@@ -146,7 +146,8 @@ double Channels::displacement(const Record& record, const Dae::View& view) const
     const Network::Place& place = network_.places[at(record.index)];
     if (!place.paired) return dae_->displacement(place.index);
     const PairView pair(network_, place.index, view);
-    return record.index == pair.pair.spring ? pair.pair.spring_sign * pair.stretch() : pair.pair.slider_sign * pair.slide();
+    return record.index == pair.pair.spring ? pair.pair.spring_sign * pair.stretch()
+                                            : pair.pair.slider_sign * pair.slide();
   }
   const Ends ends = ends_of(scene_, record);
   return position(ends.a, view) - position(ends.b, view);

@@ -8,8 +8,8 @@ namespace rheonet {
 
 namespace {
 
-/// Where g falls through 0 between two times, by the Illinois variant of the rule of false position (Dowell and Jarratt,
-/// BIT 11 (1971) 168): at once where it is about straight.
+/// Where g falls through 0 between two times, by the Illinois variant of the rule of false position (Dowell and
+/// Jarratt, BIT 11 (1971) 168): at once where it is about straight.
 template <class G>
 double first_below_zero(const G& g, double left, double right) {
   constexpr int most = 60;
@@ -58,8 +58,11 @@ Switches::Switches(const Network& network) : network_(network) {
   }
   for (std::size_t k = 0; network.bundles && k < network.bundles->size(); ++k) {
     const Iwan& law = (*network.bundles)[k];
-    bundles_.push_back({.branch = network.first_bundle + static_cast<int>(k), .law = &law, .pairs = std::vector<int>(law.size()),
-                        .mode = std::vector<signed char>(law.size(), 0), .slipping = {}});
+    bundles_.push_back({.branch = network.first_bundle + static_cast<int>(k),
+                        .law = &law,
+                        .pairs = std::vector<int>(law.size()),
+                        .mode = std::vector<signed char>(law.size(), 0),
+                        .slipping = {}});
   }
   for (std::size_t k = 0; k < network.pairs.size(); ++k) {
     const Pair& pair = network.pairs[k];
@@ -134,8 +137,8 @@ const std::vector<Event>& Switches::follow_step(const Integrator& integrator, Da
   for (Bundle& bundle : bundles_) {
     const Iwan& law = *bundle.law;
     double t = integrator.previous_time();
-    const std::size_t yielded =
-        law.yielded(dae.view(end, integrator.y().data(), integrator.yp().data()).p[static_cast<std::size_t>(bundle.branch)]);
+    const std::size_t yielded = law.yielded(
+        dae.view(end, integrator.y().data(), integrator.yp().data()).p[static_cast<std::size_t>(bundle.branch)]);
     for (std::size_t rank = bundle.slipping.size(); rank < yielded; ++rank) {
       const auto left = [&](double at) { return law.direction() * (law.yield_point(rank) - deflection(bundle, at)); };
       t = timed ? first_below_zero(left, t, end) : end;

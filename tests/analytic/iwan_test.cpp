@@ -140,7 +140,8 @@ TEST_CASE("Iwan bundle: each spring and slider is recorded as if it were alone")
         double sum = 0;
         for (std::size_t i = 0; i < std::size_t(n); ++i) {
           sum += exact.force(i);
-          CHECK(std::abs(run.rows[fmt::format("iwan.{}.s.force", i)][row]) <= 2 * FC * (double(i) + 0.5) / (double(n) * n));
+          CHECK(std::abs(run.rows[fmt::format("iwan.{}.s.force", i)][row]) <=
+                2 * FC * (double(i) + 0.5) / (double(n) * n));
         }
         near("iwan.force", sum, largest);
       }
@@ -204,7 +205,8 @@ TEST_CASE("Iwan bundle: forces at the start, given or from where the nodes start
       CAPTURE(accuracy);
       std::vector<IwanOscillator::Pair> with = pairs(n);
       std::string toml = fmt::format("[elements]\nm = {{ type = \"mass\", at = \"x\", mass = {} }}\n", mass);
-      toml += fmt::format("f = {{ type = \"force\", at = \"x\", force = {{ sine = {}, frequency = {} }} }}\n", force, frequency);
+      toml += fmt::format("f = {{ type = \"force\", at = \"x\", force = {{ sine = {}, frequency = {} }} }}\n", force,
+                          frequency);
       std::string nodes = fmt::format("[nodes]\nx = {{ position = {:.17g} }}\n", x0);
       for (int i = 0; i < n; ++i) {
         IwanOscillator::Pair& pair = with[std::size_t(i)];
@@ -213,11 +215,14 @@ TEST_CASE("Iwan bundle: forces at the start, given or from where the nodes start
         pair.force = std::clamp(f, -pair.coulomb, pair.coulomb);
         // Either end first, with or without a rest of its own.
         const double rest = i % 3 == 0 ? 0 : 0.0031 * i;
-        std::string start = by_place ? fmt::format(", rest = {:.17g}", i % 2 ? rest : -rest) : fmt::format(", f0 = {:.17g}", i % 2 ? f : -f);
+        std::string start = by_place ? fmt::format(", rest = {:.17g}", i % 2 ? rest : -rest)
+                                     : fmt::format(", f0 = {:.17g}", i % 2 ? f : -f);
         toml += fmt::format("k{} = {{ type = \"spring\", between = [{}], stiffness = {:.17g}{} }}\n", i,
-                            i % 2 ? fmt::format("\"x\", \"n{}\"", i) : fmt::format("\"n{}\", \"x\"", i), pair.stiffness, start);
+                            i % 2 ? fmt::format("\"x\", \"n{}\"", i) : fmt::format("\"n{}\", \"x\"", i), pair.stiffness,
+                            start);
         toml += fmt::format("s{} = {{ type = \"slider\", between = [{}], coulomb = {:.17g} }}\n", i,
-                            i % 3 ? fmt::format("\"n{}\", \"ground\"", i) : fmt::format("\"ground\", \"n{}\"", i), pair.coulomb);
+                            i % 3 ? fmt::format("\"n{}\", \"ground\"", i) : fmt::format("\"ground\", \"n{}\"", i),
+                            pair.coulomb);
         if (by_place) nodes += fmt::format("n{} = {{ position = {:.17g} }}\n", i, x0 - rest - f / pair.stiffness);
       }
       toml += nodes + fmt::format("[simulate]\nstop = {}\noutput = {{ points = 41 }}\n", stop);

@@ -1,5 +1,6 @@
-// A spring in series with a slider is solved as one element, many of them as one bundle: nothing that can be recorded may
-// tell. A velocity that is given at the node in the middle, which has no mass and makes nothing of it, keeps them apart.
+// A spring in series with a slider is solved as one element, many of them as one bundle: nothing that can be recorded
+// may tell. A velocity that is given at the node in the middle, which has no mass and makes nothing of it, keeps them
+// apart.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -31,11 +32,14 @@ class Maker {
     const std::string far = scenery.behind.empty() ? "ground" : "far";
     drive(scenery.drive);
     for (int i = 0; i < pairs; ++i) pair("end", far);
-    if (scenery.behind == "spring" || scenery.behind == "mass") b_.between("k", "spring", far, "ground", {{"stiffness", 61.3}});
+    if (scenery.behind == "spring" || scenery.behind == "mass")
+      b_.between("k", "spring", far, "ground", {{"stiffness", 61.3}});
     if (scenery.behind == "mass") b_.at("m2", "mass", far, {{"mass", 0.23}});
     if (scenery.behind == "dashpot") b_.between("c", "dashpot", far, "ground", {{"damping", 1.93}});
-    if (scenery.behind == "slider") b_.between("s", "slider", far, "ground", {{"coulomb", 0.613 * total_}, {"breakaway", 0.613 * total_}});
-    if (scenery.behind == "sfm") b_.between("f", "sfm", far, "ground", {{"stiffness", 83.7}, {"coulomb", 0.713 * total_}});
+    if (scenery.behind == "slider")
+      b_.between("s", "slider", far, "ground", {{"coulomb", 0.613 * total_}, {"breakaway", 0.613 * total_}});
+    if (scenery.behind == "sfm")
+      b_.between("f", "sfm", far, "ground", {{"stiffness", 83.7}, {"coulomb", 0.713 * total_}});
     if (scenery.behind == "dashpot beside") {
       b_.between("c", "dashpot", "end", far, {{"damping", 0.193}});
       b_.between("k", "spring", far, "ground", {{"stiffness", 61.3}});
@@ -59,7 +63,8 @@ class Maker {
     if (by == "position") b_.motion("drive", "end", "position", Signal(Signal::Sine{0.0931, 1.37, 0, 0, 0}));
     if (by == "steps") b_.motion("drive", "end", "position", Signal(Signal::Square{0.0613, 1.37, 0.4, 0.05, 0.01}));
     if (by == "velocity") b_.motion("drive", "end", "velocity", Signal(Signal::Triangle{0.731, 1.13, 0, 0, 0}));
-    if (by == "force" || by == "load") b_.force("drive", "end", Signal(Signal::Sine{by == "load" ? 1.37 : 2.37, 1.73, 0, 0, 0}));
+    if (by == "force" || by == "load")
+      b_.force("drive", "end", Signal(Signal::Sine{by == "load" ? 1.37 : 2.37, 1.73, 0, 0, 0}));
     if (by == "force") b_.at("m1", "mass", "end", {{"mass", 0.0713}});
   }
 
@@ -87,8 +92,8 @@ class Maker {
 
 bool jumps(const std::string& column) { return column.ends_with(".velocity"); }
 
-/// The largest magnitude of what is recorded in the same unit: beside it a slider that hardly slips shows what the solver
-/// leaves open.
+/// The largest magnitude of what is recorded in the same unit: beside it a slider that hardly slips shows what the
+/// solver leaves open.
 double scale_of(const std::string& column, const Trajectory& run) {
   const auto kind = [](const std::string& path) {
     const std::string channel = path.substr(path.rfind('.') + 1);
@@ -112,8 +117,8 @@ void compare(const Trajectory& together, const Trajectory& apart, double accurac
     }
     // A jump may come a little earlier or later than a row.
     const std::size_t allowed = jumps(column) ? 1 : 0;
-    CHECK_MESSAGE(off <= allowed, column << ": " << off << " rows differ, the last at t = " << apart.time()[worst] << ": "
-                                         << together[column][worst] << " and " << apart[column][worst] << " of "
+    CHECK_MESSAGE(off <= allowed, column << ": " << off << " rows differ, the last at t = " << apart.time()[worst]
+                                         << ": " << together[column][worst] << " and " << apart[column][worst] << " of "
                                          << scale);
   }
 }

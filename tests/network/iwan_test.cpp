@@ -1,12 +1,12 @@
 // The bundle law against a plain sum of N springs, each cut off at its slider's force.
+#include "core/network/iwan.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
-
-#include "core/network/iwan.hpp"
 
 namespace rheonet::test {
 
@@ -20,7 +20,8 @@ struct Plain {
   std::vector<double> force, slide;
   double p = 0, heat = 0;
 
-  Plain(std::vector<Iwan::Pair> of, std::vector<double> start) : pairs(std::move(of)), force(std::move(start)), slide(pairs.size(), 0) {}
+  Plain(std::vector<Iwan::Pair> of, std::vector<double> start)
+      : pairs(std::move(of)), force(std::move(start)), slide(pairs.size(), 0) {}
 
   void move(double to) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -97,7 +98,8 @@ TEST_CASE("a bundle is the sum of its pairs, whatever the path and the forces at
         Random random(static_cast<unsigned>(n) + 11);
         const std::vector<Iwan::Pair> pairs = random_pairs(n, random);
         std::vector<double> start(n, 0);
-        for (std::size_t i = 0; loaded && i < n; ++i) start[i] = pairs[i].coulomb * std::clamp(random(-1.2, 1.2), -1.0, 1.0);
+        for (std::size_t i = 0; loaded && i < n; ++i)
+          start[i] = pairs[i].coulomb * std::clamp(random(-1.2, 1.2), -1.0, 1.0);
         Plain plain(pairs, start);
         Iwan bundle(pairs, share);
         bundle.begin(0, start, 1);

@@ -63,7 +63,8 @@ void IwanOscillator::turn() {
   s_ = -s_;
   x_ref_ = x_;
   std::vector<Real> way;
-  for (std::size_t i = 0; i < pairs_.size(); ++i) way.push_back((pairs_[i].coulomb - s_ * at_ref_[i]) / pairs_[i].stiffness);
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    way.push_back((pairs_[i].coulomb - s_ * at_ref_[i]) / pairs_[i].stiffness);
   order_.resize(pairs_.size());
   rank_.resize(pairs_.size());
   std::iota(order_.begin(), order_.end(), 0);

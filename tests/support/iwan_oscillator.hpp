@@ -4,14 +4,22 @@
 
 namespace rheonet::test {
 
-/// A mass m driven by the force F sin(2 pi f t) and held by spring-slider pairs in parallel, from rest at x = 0: from kink
-/// to kink a linear equation, x'' = (F sin(2 pi f t) - force - k (x - x_k))/m, solved by its Taylor series in long double.
-/// Yields and reversals are roots of the series; every pair has its own force. Nothing here is shared with the solver.
+/// A mass m driven by the force F sin(2 pi f t) and held by spring-slider pairs in parallel, from rest at x = 0: from
+/// kink to kink a linear equation, x'' = (F sin(2 pi f t) - force - k (x - x_k))/m, solved by its Taylor series in long
+/// double. Yields and reversals are roots of the series; every pair has its own force. Nothing here is shared with the
+/// solver.
 class IwanOscillator {
  public:
-  struct Pair { double stiffness, coulomb, force = 0; };
+  struct Pair {
+    double stiffness, coulomb, force = 0;
+  };
   /// One of the pairs begins to slip, or sticks again (direction 0), at this velocity of the mass.
-  struct Yield { double t; std::size_t pair; int direction; double velocity; };
+  struct Yield {
+    double t;
+    std::size_t pair;
+    int direction;
+    double velocity;
+  };
 
   IwanOscillator(double mass, double force, double frequency, std::vector<Pair> pairs);
 

@@ -1,6 +1,6 @@
 // What does an Iwan bundle of N pairs cost? A mass of 1 kg driven by 8 N sin(2 pi t/s) for 3 s, held by N springs of
-// K/N = 400/N N/m in series with sliders of 2 FC (i + 1/2)/N^2, FC = 10 N: from its netlist, read and simulated. Prints a
-// table for iwan.md.
+// K/N = 400/N N/m in series with sliders of 2 FC (i + 1/2)/N^2, FC = 10 N: from its netlist, read and simulated. Prints
+// a table for iwan.md.
 
 #include <fmt/format.h>
 
@@ -59,8 +59,8 @@ int main() {
         summary = run(*read.scene);
         simulation = std::min(simulation, summary.cpu_seconds);
       }
-      fmt::print("| {} | {:g} | {:.1f} | {:.1f} | {} | {} |\n", pairs, accuracy, 1e3 * reading, 1e3 * simulation, summary.steps,
-                 summary.restarts);
+      fmt::print("| {} | {:g} | {:.1f} | {:.1f} | {} | {} |\n", pairs, accuracy, 1e3 * reading, 1e3 * simulation,
+                 summary.steps, summary.restarts);
     }
   }
 }
