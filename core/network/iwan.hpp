@@ -8,8 +8,9 @@
 
 namespace rheonet {
 
-/// Springs in series with sliders, side by side between the same two ends: each pair is a stop operator (L. Prandtl, ZAMM 8 (1928) 85;
-/// with a name of its own Jenkins's element), all of them an Iwan bundle (W. D. Iwan, J. Appl. Mech. 34 (1967) 612).
+/// Springs in series with sliders, side by side between the same two ends: each pair is a stop operator (L. Prandtl,
+/// ZAMM 8 (1928) 85; also called Jenkins's element), all of them an Iwan bundle (W. D. Iwan, J. Appl. Mech. 34 (1967)
+/// 612).
 ///
 /// From a reversal at p_ref, where pair i has the force f_i, a motion in direction s = +-1 gives with x = s (p - p_ref)
 ///
