@@ -361,10 +361,12 @@ ReferenceSolution integrate_reference(const Scene& scene, Declarations declarati
       const std::vector<Rows>& solutions = smooth ? third : second;
       const Rows &fine = solutions.back(), &coarse = solutions[solutions.size() - 2];
       ReferenceSolution::Column& column = result.columns[k];
-      column = {.value = std::vector<double>(common), .error = std::vector<double>(common), .scale = 0};
+      column.value = column.before = column.error = std::vector<double>(common);
+      column.scale = 0;
       for (std::size_t i = 0; i < common; ++i) column.scale = std::max(column.scale, std::abs(fine[i][k]));
       for (std::size_t i = 0; i < common; ++i) {
         column.value[i] = fine[i][k];
+        column.before[i] = coarse[i][k];
         column.error[i] = std::abs(fine[i][k] - coarse[i][k]);
         // Two solutions may agree by chance: what the halving before changed counts too, by the quarter that it should.
         if (solutions.size() > 2) {

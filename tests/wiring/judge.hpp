@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "tests/wiring/catalogue.hpp"
+
+namespace rheonet::test {
+
+enum class Verdict {
+  agrees,     ///< with the reference
+  refused,    ///< as physics demands, and up to then it agrees
+  undecided,  ///< the reference doubts too much of its own values
+  wrong,
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::wrong;
+  double deviation = 0;  ///< the worst, of a record's scale
+  double judged = 0;     ///< share of the values that the reference is sure of
+  int reference_steps = 0;
+  std::string text;      ///< where the worst deviation is; what is wrong
+};
+
+/// Runs the scene, integrates it independently, and compares.
+Judgement judge(const Wiring& wiring);
+
+}  // namespace rheonet::test
