@@ -27,6 +27,9 @@ constexpr int most_searches = 300;
 // Implicit Euler is late, or early, for a turn by a few steps; what comes between has another side of the corner.
 constexpr double late = 6;
 
+// So many rows before and after have a say in the error of one.
+constexpr std::size_t around = 2;
+
 /// One run with steps of a given length.
 class Run {
  public:
@@ -37,6 +40,7 @@ class Run {
   bool go();
   const std::vector<std::vector<double>>& rows() const { return rows_; }
   const std::vector<char>& open() const { return open_; }
+  const std::vector<std::vector<double>>& late() const { return late_; }
   /// For each row, the pieces of its laws' maps that the network is on.
   const std::vector<std::vector<ReferenceLaw::Piece>>& pieces() const { return pieces_; }
   /// True if a law turned within `distance` of t.
@@ -59,7 +63,8 @@ class Run {
   bool jump(const std::vector<double>& steps);
   double next_break() const;
   double row_time(std::int64_t k) const;
-  void record();
+  std::vector<double> values() const;
+  void record(const std::vector<double>* early = nullptr);
   double element_force(int element) const;
   double force_of(const Record& record) const;
 
@@ -75,6 +80,7 @@ class Run {
   std::vector<double> acceleration_;  ///< of each node, at the end of the last step
   std::vector<double> applied_;
   std::vector<std::vector<double>> rows_;
+  std::vector<std::vector<double>> late_;  ///< for each row, what it changes by in the time that it is late
   std::vector<char> open_;
   std::vector<std::vector<ReferenceLaw::Piece>> pieces_;
   double t_ = 0;
@@ -237,8 +243,11 @@ bool Run::go() {
       if (row <= scene_.output_intervals && row_time(row) <= t_ + slack) {
         // The row holds the values just after the instant.
         const double just_after = std::min(scene_.stop, t_ + instant * (scene_.stop - scene_.start));
-        if (just_after > t_ && !advance(just_after, instant_steps)) return false;
-        record();
+        const double before = t_ + (just_after - t_) / instant_steps;
+        if (just_after > t_ && !advance(before, 1)) return false;
+        const std::vector<double> early = values();
+        if (just_after > t_ && !advance(just_after, instant_steps - 1)) return false;
+        record(&early);
         ++row;
       }
     } else if (row <= scene_.output_intervals && row_time(row) <= t_ + slack) {
@@ -279,7 +288,8 @@ double Run::force_of(const Record& record) const {
   return sum;
 }
 
-void Run::record() {
+/// The records as they are now.
+std::vector<double> Run::values() const {
   std::vector<double> row;
   for (const Record& r : scene_.records) {
     if (r.channel == Record::Channel::force) {
@@ -294,7 +304,14 @@ void Run::record() {
     const ReferenceNetwork::Node &from = network_.nodes()[at(a)], &to = network_.nodes()[at(b)];
     row.push_back(r.channel == Record::Channel::velocity ? from.velocity - to.velocity : from.position - to.position);
   }
-  rows_.push_back(std::move(row));
+  return row;
+}
+
+/// A row just after an instant is a little late for it: what changes between `early` in that time and now is in doubt.
+void Run::record(const std::vector<double>* early) {
+  rows_.push_back(values());
+  late_.emplace_back(rows_.back().size(), 0);
+  for (std::size_t k = 0; early && k < early->size(); ++k) late_.back()[k] = std::abs(rows_.back()[k] - (*early)[k]);
   open_.push_back(network_.ambiguous());
   pieces_.emplace_back();
   for (const ReferenceBundle& b : network_.bundles()) {
@@ -373,7 +390,19 @@ ReferenceSolution integrate_reference(const Scene& scene, Declarations declarati
           const Rows& coarsest = solutions[solutions.size() - 3];
           column.error[i] = std::max(column.error[i], std::abs(coarse[i][k] - coarsest[i][k]) / 4);
         }
+        // Beyond a corner that the extrapolation has smoothed over, what it gains by its order is not to be trusted.
+        if (!third.empty()) {
+          column.error[i] = std::max(column.error[i], std::abs(third.back()[i][k] - second.back()[i][k]));
+        }
+      }
+      // The difference of two solutions changes its sign now and then, and is no measure of their error there.
+      const std::vector<double> alone = column.error;
+      for (std::size_t i = 0; i < common; ++i) {
+        for (std::size_t j = i - std::min(i, around); j < std::min(common, i + around + 1); ++j) {
+          column.error[i] = std::max(column.error[i], alone[j]);
+        }
         good = good && (turning[i] || column.error[i] <= settings.target * column.scale);
+        column.error[i] += run.late()[i][k];
         if (turning[i]) column.error[i] = INFINITY;
         if (scene.records[k].channel == Record::Channel::force && run.open()[i]) column.error[i] = INFINITY;
       }

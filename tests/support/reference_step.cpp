@@ -10,7 +10,7 @@ namespace {
 
 // The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed.
 constexpr double stiffer = 1e3;
-constexpr int corrections = 200;
+constexpr int corrections = 200, stiffen_after = 20;
 constexpr int newton_steps = 200;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
@@ -153,7 +153,16 @@ bool ReferenceNetwork::newton(const Input& input) {
     std::vector<double> direction(n);
     for (std::size_t i = 0; i < n; ++i) direction[i] = -gradient_[i];
     solve(matrix_, direction);
-    if (!search(input, direction)) return false;
+    // A full step that does well needs no search, which sees nothing of a node that moves too little: its share of the
+    // slope is lost in the rounding of the others'.
+    const std::vector<double> from = x_, slope = gradient_;
+    for (std::size_t i = 0; i < n; ++i) x_[at(node_of_[i])] += direction[i];
+    evaluate(input);
+    if (!(unbalance_ <= 0.5 * worst)) {
+      x_ = from;
+      gradient_ = slope;
+      if (!search(input, direction)) return false;
+    }
     worst = unbalance_;
     // Rounding sets a floor that the estimate of it may miss by a little.
     stalled = worst < 0.5 * before ? 0 : stalled + 1;
@@ -163,7 +172,7 @@ bool ReferenceNetwork::newton(const Input& input) {
   return worst <= 1e4;
 }
 
-/// The spring in series with a steep bundle: stiffer than what it works against, the bundle itself and the way around it.
+/// The spring in series with a steep bundle: stiffer than what it works against, the way around the bundle.
 double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
   double compliance = 0;
   for (const NodeId end : {bundles_[bundle].a, bundles_[bundle].b}) {
@@ -174,8 +183,8 @@ double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
     }
     compliance += 1 / stiffness;
   }
-  const double sum = 1 / compliance + bundles_[bundle].typical_slope(h);
-  return stiffer * (sum > 0 ? sum : 1);
+  const double stiffness = 1 / compliance;
+  return stiffer * (stiffness > 0 ? stiffness : 1);
 }
 
 /// Where a law is steep, the minimum is sought with a stiff spring in series. The spring is then given the force found as
@@ -189,13 +198,19 @@ bool ReferenceNetwork::minimise(const Input& input) {
   }
   for (int correction = 0; correction < corrections; ++correction) {
     if (!newton(input)) return false;
-    double change = 0;
+    bool settled = true;
     for (std::size_t k = 0; k < bundles_.size(); ++k) {
       if (K_[k] == 0) continue;
-      change = std::max(change, std::abs(points_[k].force - preload_[k]));
+      const double stretching = K_[k] * (std::abs(x_[at(bundles_[k].a)]) + std::abs(x_[at(bundles_[k].b)]));
+      const double change = std::abs(points_[k].force - preload_[k]);
+      if (change > unstretched * largest_force_ + 10 * rounding_ + 10 * balanced * stretching) settled = false;
       preload_[k] = points_[k].force;
     }
-    if (!any || change <= unstretched * largest_force_ + 10 * rounding_) return true;
+    if (settled) return true;
+    // Where there is little motion, or nothing but friction around, it was not stiff enough.
+    if (correction % stiffen_after == stiffen_after - 1) {
+      for (double& K : K_) K *= 10;
+    }
   }
   return false;
 }

@@ -54,10 +54,12 @@ std::string wrong_end(const Scene& scene, const std::string& refusal, const Refe
 
 }  // namespace
 
-Judgement judge(const Wiring& wiring) {
-  const Scene scene = scene_of(netlist_of(wiring));
+Judgement judge(const Wiring& wiring, bool closer) {
+  const Scene scene = scene_of(netlist_of(wiring), closer ? 1e-9 : 0);
   const Attempt run = attempt(scene);
-  const ReferenceSolution reference = integrate_reference(scene, declarations());
+  ReferenceSettings settings;
+  if (closer) settings.halvings += 4, settings.target *= 1e-2;
+  const ReferenceSolution reference = integrate_reference(scene, declarations(), settings);
   const Comparison comparison = compare(scene, run.rows, reference);
   Judgement result{.verdict = Verdict::wrong,
                    .deviation = comparison.deviation,

@@ -21,7 +21,8 @@ struct Judgement {
   std::string text;      ///< where the worst deviation is; what is wrong
 };
 
-/// Runs the scene, integrates it independently, and compares.
-Judgement judge(const Wiring& wiring);
+/// Runs the scene, integrates it independently, and compares. `closer`: both with more effort, to see which of them is
+/// nearer to the truth where they disagree.
+Judgement judge(const Wiring& wiring, bool closer = false);
 
 }  // namespace rheonet::test

@@ -22,7 +22,7 @@ struct Options {
   int jobs = 1;
   std::string part, name, log;
   std::vector<int> numbers;
-  bool toml = false, identities = false;
+  bool toml = false, identities = false, closer = false;
 };
 
 std::vector<int> chosen(const Options& options) {
@@ -47,7 +47,8 @@ int go(const Options& options) {
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(
       options.log.empty() ? nullptr : std::fopen(options.log.c_str(), "w"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
-  const Tally tally = judge_all(numbers, options.jobs, judge, log.get());
+  const Tally tally = judge_all(
+      numbers, options.jobs, [&](const Wiring& wiring) { return judge(wiring, options.closer); }, log.get());
   for (const std::string& line : tally.undecided) fmt::print("{}\n", line);
   for (const std::string& line : tally.wrong) fmt::print("{}\n", line);
   fmt::print("{} scenes: {} agree, {} refused as expected, {} undecided, {} wrong; {:.0f} s of a core\n", numbers.size(),
@@ -70,6 +71,7 @@ int main(int argc, char** argv) {
   app.add_option("--number", options.numbers, "these alone");
   app.add_flag("--toml", options.toml, "print their netlists instead");
   app.add_flag("--identities", options.identities, "the identities of mechanics instead of the reference");
+  app.add_flag("--closer", options.closer, "with a smaller step and a tighter accuracy: who is nearer to the truth");
   app.add_option("--log", options.log, "a line for each scene goes to this file");
   try {
     app.parse(argc, argv);
