@@ -14,7 +14,7 @@ namespace rheonet::test {
 struct ReferenceSolution {
   struct Column {
     std::vector<double> value;  ///< at each output time
-    std::vector<double> before; ///< the same before the last halving of the step
+    std::vector<double> coarse; ///< the same from the two longest steps
     std::vector<double> error;  ///< estimated; infinite where the laws leave the value open, or a turn lies too near
     double scale = 0;           ///< largest magnitude in the rows
   };

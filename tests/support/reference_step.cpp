@@ -10,12 +10,14 @@ namespace {
 
 // The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed.
 constexpr double stiffer = 1e3;
-constexpr int corrections = 200, stiffen_after = 20;
+constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
 // The stretch of a series spring that is left, against a force of the network in the spring.
 constexpr double unstretched = 1e-8;
+// The same, as a length, against the largest displacement in the step.
+constexpr double little_stretch = 1e-6;
 
 /// Solves a symmetric positive definite system in place; `a` is overwritten by its Cholesky factor.
 void solve(std::vector<double>& a, std::vector<double>& b) {
@@ -79,6 +81,7 @@ void ReferenceNetwork::evaluate(const Input& input) {
     const double total = x_[at(b.a)] - x_[at(b.b)];
     points_[k] = K_[k] > 0 ? b.with_spring(total, K_[k], preload_[k], input.h) : b.at(total, input.h);
     const double f = points_[k].force;
+    largest_step_ = std::max(largest_step_, std::abs(total));
     // The rounding of the positions of both ends shows in the force.
     const double magnitude = std::abs(f) + points_[k].slope * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
     largest_force_ = std::max(largest_force_, std::abs(f));
@@ -174,16 +177,18 @@ bool ReferenceNetwork::newton(const Input& input) {
 
 /// The spring in series with a steep bundle: stiffer than what it works against, the way around the bundle.
 double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
-  double compliance = 0;
-  for (const NodeId end : {bundles_[bundle].a, bundles_[bundle].b}) {
-    if (unknown_[at(end)] < 0) continue;
-    double stiffness = nodes_[at(end)].mass / (h * h);
+  double compliance = 0, largest = 0;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    double stiffness = nodes_[n].mass / (h * h);
     for (std::size_t k = 0; k < bundles_.size(); ++k) {
-      if (k != bundle && (bundles_[k].a == end || bundles_[k].b == end)) stiffness += bundles_[k].typical_slope(h);
+      if (k != bundle && (at(bundles_[k].a) == n || at(bundles_[k].b) == n)) stiffness += bundles_[k].typical_slope(h);
     }
-    compliance += 1 / stiffness;
+    largest = std::max(largest, stiffness);
+    const bool end = at(bundles_[bundle].a) == n || at(bundles_[bundle].b) == n;
+    if (end && unknown_[n] >= 0 && stiffness > 0) compliance += 1 / stiffness;
   }
-  const double stiffness = 1 / compliance;
+  // Between sliders alone, what is beyond them.
+  const double stiffness = compliance > 0 ? 1 / compliance : largest;
   return stiffer * (stiffness > 0 ? stiffness : 1);
 }
 
@@ -203,7 +208,10 @@ bool ReferenceNetwork::minimise(const Input& input) {
       if (K_[k] == 0) continue;
       const double stretching = K_[k] * (std::abs(x_[at(bundles_[k].a)]) + std::abs(x_[at(bundles_[k].b)]));
       const double change = std::abs(points_[k].force - preload_[k]);
-      if (change > unstretched * largest_force_ + 10 * rounding_ + 10 * balanced * stretching) settled = false;
+      if (change > 10 * rounding_ + 10 * balanced * stretching &&
+          (change > unstretched * largest_force_ || change > little_stretch * K_[k] * largest_step_)) {
+        settled = false;
+      }
       preload_[k] = points_[k].force;
     }
     if (settled) return true;
@@ -216,7 +224,7 @@ bool ReferenceNetwork::minimise(const Input& input) {
 }
 
 bool ReferenceNetwork::step(const Input& input) {
-  largest_force_ = 0;
+  largest_force_ = largest_step_ = 0;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     x_[n] = nodes_[n].prescribed ? input.displacement[n] : nodes_[n].velocity * input.h;
   }

@@ -65,7 +65,7 @@ class ReferenceNetwork {
   std::vector<double> matrix_;
   std::vector<double> nodal_;
   double unbalance_ = 0;                ///< the worst, of what rounding may leave
-  double largest_force_ = 0;
+  double largest_force_ = 0, largest_step_ = 0;  ///< seen in this step
   double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
   bool ambiguous_ = false;
 };

@@ -56,7 +56,7 @@ Comparison compare(const Scene& scene, const Trajectory& rows, const ReferenceSo
       const double allowed = of_error * column.error[i] + of_accuracy * scene.accuracy * scale + unstretched * most;
       if (!(allowed <= largest_doubt * scale)) continue;
       ++here;
-      const double off = std::abs(found[i] - column.value[i]), before = std::abs(found[i] - column.before[i]);
+      const double off = std::abs(found[i] - column.value[i]), before = std::abs(found[i] - column.coarse[i]);
       if (scale > 0) fine += std::pow(off / scale, 2), coarse += std::pow(before / scale, 2);
       const double part = allowed > 0 ? off / allowed : off > 0 ? HUGE_VAL : 0;
       if (part <= result.worst) continue;

@@ -16,7 +16,7 @@ struct Comparison {
   std::string where;    ///< record, time and both values of it
   double judged = 0;    ///< share of the values that count
   std::string unjudged; ///< a record of which no value counts; "" if there is none
-  /// Root mean squares, in parts of the scale, of the deviation from the reference and from the one with twice the step.
+  /// Root mean squares, in parts of the scale, of the deviation from the reference and from its longest steps.
   double from_fine = 0, from_coarse = 0;
 };
 

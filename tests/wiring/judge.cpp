@@ -73,7 +73,7 @@ Judgement judge(const Wiring& wiring, bool closer) {
     result.text = end;
   } else if (comparison.worst > 1) {
     result.text = fmt::format("off by {:.3g} times what is allowed: {}", comparison.worst, comparison.where);
-  } else if (comparison.from_fine > comparison.from_coarse && comparison.from_fine > told) {
+  } else if (comparison.from_fine > 0.5 * comparison.from_coarse && comparison.from_fine > told) {
     result.text = fmt::format("the reference comes no nearer with its step: {:.2g} after {:.2g}", comparison.from_fine,
                               comparison.from_coarse);
   } else if (!reference.complete) {
