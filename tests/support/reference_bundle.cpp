@@ -20,6 +20,10 @@ bool ReferenceBundle::set_valued() const {
                      [](const Member& m) { return m.law.type() == Type::slider || m.law.type() == Type::cfm; });
 }
 
+bool ReferenceBundle::relaxing() const {
+  return std::any_of(members_.begin(), members_.end(), [](const Member& m) { return m.law.type() == Type::cfm; });
+}
+
 bool ReferenceBundle::ambiguous_at_rest() const {
   return std::count_if(members_.begin(), members_.end(),
                        [](const Member& m) { return m.law.type() == Type::slider; }) > 1;

@@ -47,6 +47,7 @@ ReferenceSolution integrate_reference(const Scene& scene, Declarations declarati
     const ReferenceRun& run = *all.back();
     result.complete = all.back()->go();
     result.end = run.end();
+    result.fork = halving == 0 ? run.fork() : std::min(result.fork, run.fork());
     result.steps = settings.base_steps << halving;
     runs.push_back(run.rows());
     if (halving >= 1) second.push_back(extrapolate(runs, 2));
@@ -97,9 +98,9 @@ ReferenceSolution integrate_reference(const Scene& scene, Declarations declarati
         for (std::size_t j = i - std::min(i, around); j < std::min(common, i + around + 1); ++j) {
           column.error[i] = std::max(column.error[i], alone[j]);
         }
-        good = good && (turning[i] || column.error[i] <= settings.target * column.scale);
+        good = good && (turning[i] || result.time[i] > result.fork || column.error[i] <= settings.target * column.scale);
         column.error[i] += run.late()[i][k];
-        if (turning[i]) column.error[i] = INFINITY;
+        if (turning[i] || result.time[i] > result.fork) column.error[i] = INFINITY;
         if (scene.records[k].channel == Record::Channel::force && run.open()[i]) column.error[i] = INFINITY;
       }
     }

@@ -22,6 +22,7 @@ struct ReferenceSolution {
   std::vector<Column> columns;  ///< one for each record of the scene
   double end = 0;               ///< s: the stop, or where the forces could no longer be balanced
   bool complete = true;         ///< false: nothing resists what is applied at `end`
+  double fork = 0;              ///< s: the laws leave open what comes after; infinite if they decide all
   int steps = 0;                ///< of the finest run
 };
 

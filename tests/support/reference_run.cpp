@@ -169,6 +169,7 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
     return false;
   }
   if (network_.turned_since(start)) turns_.push_back(after);
+  if (network_.forked() && !start.forked()) fork_ = before;
   for (std::size_t i = 0; i < acceleration_.size(); ++i) {
     acceleration_[i] = (network_.nodes()[i].velocity - start.nodes()[i].velocity) / h;
   }

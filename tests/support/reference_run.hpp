@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -29,6 +30,8 @@ class ReferenceRun {
   /// True if a law turned within `distance` of t.
   bool turned_near(double t, double distance) const;
   double end() const { return t_; }
+  /// When the laws left open how it goes on; infinite if they never did.
+  double fork() const { return fork_; }
 
  private:
   struct Motion { Signal signal; bool by_position; NodeId node; int element; Piece piece; };
@@ -71,6 +74,7 @@ class ReferenceRun {
   std::vector<std::vector<ReferenceLaw::Piece>> pieces_;
   double t_ = 0;
   int searches_ = 0;
+  double fork_ = INFINITY;
   std::optional<Start> last_;  ///< of the step before, if it was without a turn
   std::vector<double> turns_;  ///< when they were [s]
   ReferenceNetwork network_;  ///< last, because it is built from what is above

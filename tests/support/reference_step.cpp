@@ -281,9 +281,11 @@ void ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetw
   }
 }
 
-/// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it.
+/// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it. A cfm there goes on to
+/// relax from its own.
 void ReferenceNetwork::note_ambiguity() {
   ambiguous_ = false;
+  bool loop = false, relaxing = false;
   std::vector<std::size_t> part(nodes_.size());
   std::iota(part.begin(), part.end(), std::size_t{0});
   const auto root = [&](NodeId node) {
@@ -299,9 +301,13 @@ void ReferenceNetwork::note_ambiguity() {
       return m.law.type() == ReferenceLaw::Type::slider;
     });
     const bool given = unknown_[at(b.a)] < 0 && unknown_[at(b.b)] < 0;
-    if (b.ambiguous_at_rest() || (i == j && !(cfms && given))) ambiguous_ = true;
+    if (b.ambiguous_at_rest()) ambiguous_ = true;
+    if (i == j && !(cfms && given)) loop = true;
+    if (b.relaxing() && !given) relaxing = true;
     part[i] = j;
   }
+  ambiguous_ = ambiguous_ || loop;
+  forked_ = forked_ || (loop && relaxing);
 }
 
 }  // namespace rheonet::test

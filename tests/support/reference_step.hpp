@@ -43,6 +43,8 @@ class ReferenceNetwork {
   /// True if in the last step forces at rest did not follow from the balance alone, as with sliders that form a loop: the
   /// laws leave them open.
   bool ambiguous() const { return ambiguous_; }
+  /// True if that has been so at a law that remembers its force: all that follows is then one of many solutions.
+  bool forked() const { return forked_; }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -67,7 +69,7 @@ class ReferenceNetwork {
   double unbalance_ = 0;                ///< the worst, of what rounding may leave
   double largest_force_ = 0, largest_step_ = 0;  ///< seen in this step
   double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
-  bool ambiguous_ = false;
+  bool ambiguous_ = false, forked_ = false;
 };
 
 }  // namespace rheonet::test

@@ -19,6 +19,8 @@ constexpr double largest_doubt = 1e-3;
 // What sticks moves in the reference by as much as the force on it is not balanced, in parts of the largest value of its
 // kind. A record of which that is all has no scale of its own.
 constexpr double unstretched = 1e-8, nothing = 1e-4;
+// m | m/s | N: where nothing moves at all, what is little in the scenes of the catalogue.
+constexpr double least = 1e-6;
 
 std::size_t kind_of(const Record& record) {
   switch (record.channel) {
@@ -38,12 +40,13 @@ std::size_t kind_of(const Record& record) {
 Comparison compare(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference) {
   Comparison result;
   if (rows.header.empty()) return result;  // refused before the first row
-  std::array<double, 3> largest{};
+  std::array<double, 3> largest{least, least, least};
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
     double& kind = largest[kind_of(scene.records[k])];
     kind = std::max(kind, reference.columns[k].scale);
   }
-  const std::size_t count = std::min(rows.time().size(), reference.time.size());
+  std::size_t count = std::min(rows.time().size(), reference.time.size());
+  while (count > 0 && reference.time[count - 1] > reference.fork) --count;
   std::size_t all = 0, judged = 0;
   double fine = 0, coarse = 0;
   for (std::size_t k = 0; k < scene.records.size(); ++k) {

@@ -66,13 +66,17 @@ Judgement judge(const Wiring& wiring, bool closer) {
                    .judged = comparison.judged,
                    .reference_steps = reference.steps,
                    .text = comparison.where};
-  if (const std::string why = contradiction(scene, reference); !why.empty()) {
+  const bool forked = reference.fork < reference.end;
+  if (comparison.worst > 1) {
+    result.text = fmt::format("off by {:.3g} times what is allowed: {}", comparison.worst, comparison.where);
+  } else if (forked) {
+    result.verdict = run.refusal.empty() || says(run.refusal, overload) ? Verdict::open : Verdict::wrong;
+    result.text = run.refusal;
+  } else if (const std::string why = contradiction(scene, reference); !why.empty()) {
     result.text = why;
     result.verdict = Verdict::undecided;
   } else if (const std::string end = wrong_end(scene, run.refusal, reference); !end.empty()) {
     result.text = end;
-  } else if (comparison.worst > 1) {
-    result.text = fmt::format("off by {:.3g} times what is allowed: {}", comparison.worst, comparison.where);
   } else if (comparison.from_fine > 0.5 * comparison.from_coarse && comparison.from_fine > told) {
     result.text = fmt::format("the reference comes no nearer with its step: {:.2g} after {:.2g}", comparison.from_fine,
                               comparison.from_coarse);

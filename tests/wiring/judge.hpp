@@ -9,6 +9,7 @@ namespace rheonet::test {
 enum class Verdict {
   agrees,     ///< with the reference
   refused,    ///< as physics demands, and up to then it agrees
+  open,       ///< agrees up to where the laws leave open how it goes on
   undecided,  ///< the reference doubts too much of its own values
   wrong,
 };

@@ -51,8 +51,8 @@ int go(const Options& options) {
       numbers, options.jobs, [&](const Wiring& wiring) { return judge(wiring, options.closer); }, log.get());
   for (const std::string& line : tally.undecided) fmt::print("{}\n", line);
   for (const std::string& line : tally.wrong) fmt::print("{}\n", line);
-  fmt::print("{} scenes: {} agree, {} refused as expected, {} undecided, {} wrong; {:.0f} s of a core\n", numbers.size(),
-             tally.of(Verdict::agrees), tally.of(Verdict::refused), tally.of(Verdict::undecided),
+  fmt::print("{} scenes: {} agree, {} refused as expected, {} open, {} undecided, {} wrong; {:.0f} s of a core\n", numbers.size(),
+             tally.of(Verdict::agrees), tally.of(Verdict::refused), tally.of(Verdict::open), tally.of(Verdict::undecided),
              tally.of(Verdict::wrong), tally.cpu_seconds);
   return tally.of(Verdict::wrong) > 0 ? 1 : 0;
 }

@@ -11,7 +11,7 @@ namespace rheonet::test {
 
 namespace {
 
-constexpr std::array<const char*, 4> verdict_names = {"agrees", "refused", "undecided", "wrong"};
+constexpr std::array<const char*, 5> verdict_names = {"agrees", "refused", "open", "undecided", "wrong"};
 
 // A scene takes a fraction of a second; the slowest, a few.
 constexpr int most_seconds = 60;

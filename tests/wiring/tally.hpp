@@ -13,7 +13,7 @@ namespace rheonet::test {
 
 /// What came of many scenes.
 struct Tally {
-  std::array<int, 4> count{};  ///< of each verdict
+  std::array<int, 5> count{};  ///< of each verdict
   std::vector<std::string> wrong, undecided;  ///< a line each
   double cpu_seconds = 0;
   int of(Verdict verdict) const { return count[static_cast<std::size_t>(verdict)]; }
