@@ -8,8 +8,9 @@ namespace rheonet::test {
 
 namespace {
 
-// The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed.
-constexpr double stiffer = 1e3;
+// The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed. If
+// its rounding is then too much, less has to do.
+constexpr double stiffer[] = {1e3, 10};
 constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // A balance is found to this part of the forces that meet there: some rounding errors.
@@ -175,8 +176,8 @@ bool ReferenceNetwork::newton(const Input& input) {
   return worst <= 1e4;
 }
 
-/// The spring in series with a steep bundle: stiffer than what it works against, the way around the bundle.
-double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
+/// The stiffness of what a bundle works against, the way around it.
+double ReferenceNetwork::around(std::size_t bundle, double h) const {
   double compliance = 0, largest = 0;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     double stiffness = nodes_[n].mass / (h * h);
@@ -189,16 +190,25 @@ double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
   }
   // Between sliders alone, what is beyond them.
   const double stiffness = compliance > 0 ? 1 / compliance : largest;
-  return stiffer * (stiffness > 0 ? stiffness : 1);
+  return stiffness > 0 ? stiffness : 1;
 }
 
 /// Where a law is steep, the minimum is sought with a stiff spring in series. The spring is then given the force found as
 /// its preload, so that it need not stretch for it, and so on until it is not stretched (method of multipliers).
 bool ReferenceNetwork::minimise(const Input& input) {
+  const std::vector<double> from = x_;
+  for (const double factor : stiffer) {
+    if (minimise(input, factor)) return true;
+    x_ = from;
+  }
+  return false;
+}
+
+bool ReferenceNetwork::minimise(const Input& input, double factor) {
   bool any = false;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const bool free = unknown_[at(bundles_[k].a)] >= 0 || unknown_[at(bundles_[k].b)] >= 0;
-    K_[k] = free && bundles_[k].steep() ? series_spring(k, input.h) : 0;
+    K_[k] = free && bundles_[k].steep() ? factor * around(k, input.h) : 0;
     any = any || K_[k] > 0;
   }
   for (int correction = 0; correction < corrections; ++correction) {
@@ -295,7 +305,8 @@ void ReferenceNetwork::note_ambiguity() {
   };
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
-    if (points_[k].step != 0 || !b.set_valued()) continue;
+    // Where several solutions fit, the one found may leave some a little beside rest.
+    if (std::abs(points_[k].step) > little_stretch * largest_step_ || !b.set_valued()) continue;
     const std::size_t i = root(b.a), j = root(b.b);
     const bool cfms = std::none_of(b.members().begin(), b.members().end(), [](const ReferenceBundle::Member& m) {
       return m.law.type() == ReferenceLaw::Type::slider;

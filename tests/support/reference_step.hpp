@@ -49,7 +49,8 @@ class ReferenceNetwork {
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   bool minimise(const Input& input);
-  double series_spring(std::size_t bundle, double h) const;
+  bool minimise(const Input& input, double factor);
+  double around(std::size_t bundle, double h) const;
   void evaluate(const Input& input);
   bool newton(const Input& input);
   bool search(const Input& input, const std::vector<double>& direction);

@@ -60,7 +60,8 @@ Comparison compare(const Scene& scene, const Trajectory& rows, const ReferenceSo
       if (!(allowed <= largest_doubt * scale)) continue;
       ++here;
       const double off = std::abs(found[i] - column.value[i]), before = std::abs(found[i] - column.coarse[i]);
-      if (scale > 0) fine += std::pow(off / scale, 2), coarse += std::pow(before / scale, 2);
+      fine += std::pow(std::max(0.0, off - unstretched * most) / scale, 2);
+      coarse += std::pow(std::max(0.0, before - unstretched * most) / scale, 2);
       const double part = allowed > 0 ? off / allowed : off > 0 ? HUGE_VAL : 0;
       if (part <= result.worst) continue;
       result.worst = part;
