@@ -54,8 +54,10 @@ class ReferenceLaw {
   }
 
   /// If this law has not turned since `before` but `other` has, as `other`.
-  void follow(const ReferenceLaw& other, const ReferenceLaw& before) {
-    if (piece_.direction == before.piece_.direction) piece_.direction = piece_.leaving = other.piece_.direction;
+  bool follow(const ReferenceLaw& other, const ReferenceLaw& before) {
+    if (piece_.direction != before.piece_.direction || piece_.direction == other.piece_.direction) return false;
+    piece_.direction = piece_.leaving = other.piece_.direction;
+    return true;
   }
 
   /// A slider's direction of slip; 0 if it sticks. It sticks up to `breakaway`, and slips at `coulomb`.

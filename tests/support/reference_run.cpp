@@ -160,7 +160,7 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
     if (depth == bisections) ++searches_;
     if (!step(before + h / 2, depth - 1, ahead) || !step(after, depth - 1, ahead)) return false;
     // A motion may be too slow to be told from rounding in the shortest steps.
-    if (done) network_.follow(whole, start);
+    if (done && network_.follow(whole, start)) turns_.push_back(after);
     return true;
   }
   if (!done) {

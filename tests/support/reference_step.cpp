@@ -96,10 +96,13 @@ void ReferenceNetwork::evaluate(const Input& input) {
     const double inertia = node.mass * (x / input.h - node.velocity) / input.h;
     gradient_[i] += inertia - F;
     size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / input.h;
-    worst = std::max(worst, std::abs(gradient_[i]) / (balanced * (size_[i] + 1e-2 * largest_force_) + rounding_));
+    worst = std::max(worst, std::abs(gradient_[i]) / tolerance(size_[i]));
   }
   unbalance_ = worst;
 }
+
+/// What rounding may leave out of balance where the magnitudes of the forces sum to `size`.
+double ReferenceNetwork::tolerance(double size) const { return balanced * (size + 1e-2 * largest_force_) + rounding_; }
 
 double ReferenceNetwork::slope_along(const Input& input, const std::vector<double>& direction) {
   evaluate(input);
@@ -114,12 +117,20 @@ bool ReferenceNetwork::search(const Input& input, const std::vector<double>& dir
     for (std::size_t i = 0; i < node_of_.size(); ++i) x_[at(node_of_[i])] = from[at(node_of_[i])] + t * direction[i];
     return slope_along(input, direction);
   };
+  // Far away rounding is more than what there is to be seen.
+  const auto blurred = [&](double slope) {
+    double noise = 0;
+    for (std::size_t i = 0; i < node_of_.size(); ++i) noise += 1e-15 * size_[i] * std::abs(direction[i]);
+    return !(noise <= 0.1 * slope);
+  };
   const double first = std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
   if (first >= 0) return true;  // rounding: no way down any more
   double low = 0, high = 1, at_low = first, at_high = go(1);
+  const bool close = blurred(-first);
+  while (close && high > 1e-60 && blurred(-first)) at_high = go(high /= 16);
   while (at_high < 0.5 * first) {
     low = high, at_low = at_high;
-    if ((high *= 4) > 1e12) return false;
+    if (close || (high *= 4) > 1e12) return false;
     at_high = go(high);
   }
   for (int iteration = 0; iteration < 100 && at_high > -0.5 * first; ++iteration) {
@@ -153,16 +164,19 @@ bool ReferenceNetwork::newton(const Input& input) {
       matrix_[i * n + i] += nodes_[at(node_of_[i])].mass / (input.h * input.h);
       largest = std::max(largest, matrix_[i * n + i]);
     }
-    for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += 1e-14 * largest + 1e-200;
+    for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += 1e-14 * matrix_[i * n + i] + 1e-30 * largest + 1e-200;
     std::vector<double> direction(n);
     for (std::size_t i = 0; i < n; ++i) direction[i] = -gradient_[i];
     solve(matrix_, direction);
     // A full step that does well needs no search, which sees nothing of a node that moves too little: its share of the
     // slope is lost in the rounding of the others'.
-    const std::vector<double> from = x_, slope = gradient_;
+    const std::vector<double> from = x_, slope = gradient_, size = size_;
     for (std::size_t i = 0; i < n; ++i) x_[at(node_of_[i])] += direction[i];
     evaluate(input);
-    if (!(unbalance_ <= 0.5 * worst)) {
+    // By the measure that held before: far away any force is small beside the rounding there.
+    double left = 0;
+    for (std::size_t i = 0; i < n; ++i) left = std::max(left, std::abs(gradient_[i]) / tolerance(size[i]));
+    if (!(left <= 0.5 * worst)) {
       x_ = from;
       gradient_ = slope;
       if (!search(input, direction)) return false;
@@ -283,12 +297,14 @@ bool ReferenceNetwork::turned_since(const ReferenceNetwork& before) const {
   return false;
 }
 
-void ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetwork& before) {
+bool ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetwork& before) {
+  bool any = false;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     for (std::size_t m = 0; m < bundles_[k].members().size(); ++m) {
-      bundles_[k].law(m).follow(other.bundles_[k].members()[m].law, before.bundles_[k].members()[m].law);
+      any = bundles_[k].law(m).follow(other.bundles_[k].members()[m].law, before.bundles_[k].members()[m].law) || any;
     }
   }
+  return any;
 }
 
 /// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it. A cfm there goes on to

@@ -38,8 +38,9 @@ class ReferenceNetwork {
   double nodal_force(NodeId node) const { return nodal_[at(node)]; }
   /// True if a law is on another piece of its map than in `before`, or about to be: a reversal, a stop, a yield.
   bool turned_since(const ReferenceNetwork& before) const;
-  /// Takes over the directions of those laws of `other` that have turned since `before`, though not here.
-  void follow(const ReferenceNetwork& other, const ReferenceNetwork& before);
+  /// Takes over the directions of those laws of `other` that have turned since `before`, though not here. False if there
+  /// are none.
+  bool follow(const ReferenceNetwork& other, const ReferenceNetwork& before);
   /// True if in the last step forces at rest did not follow from the balance alone, as with sliders that form a loop: the
   /// laws leave them open.
   bool ambiguous() const { return ambiguous_; }
@@ -52,6 +53,7 @@ class ReferenceNetwork {
   bool minimise(const Input& input, double factor);
   double around(std::size_t bundle, double h) const;
   void evaluate(const Input& input);
+  double tolerance(double size) const;
   bool newton(const Input& input);
   bool search(const Input& input, const std::vector<double>& direction);
   double slope_along(const Input& input, const std::vector<double>& direction);
