@@ -20,7 +20,7 @@ constexpr double largest_doubt = 1e-3;
 // kind. A record of which that is all has no scale of its own.
 constexpr double unstretched = 1e-8, nothing = 1e-4;
 // m | m/s | N: where nothing moves at all, what is little in the scenes of the catalogue.
-constexpr double least = 1e-6;
+constexpr double least = 0.1;
 
 std::size_t kind_of(const Record& record) {
   switch (record.channel) {

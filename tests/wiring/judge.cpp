@@ -52,24 +52,16 @@ std::string wrong_end(const Scene& scene, const std::string& refusal, const Refe
   return "";
 }
 
-}  // namespace
-
-Judgement judge(const Wiring& wiring, bool closer) {
-  const Scene scene = scene_of(netlist_of(wiring), closer ? 1e-9 : 0);
-  const Attempt run = attempt(scene);
-  ReferenceSettings settings;
-  if (closer) settings.halvings += 4, settings.target *= 1e-2;
-  const ReferenceSolution reference = integrate_reference(scene, declarations(), settings);
+Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution& reference) {
   const Comparison comparison = compare(scene, run.rows, reference);
   Judgement result{.verdict = Verdict::wrong,
                    .deviation = comparison.deviation,
                    .judged = comparison.judged,
                    .reference_steps = reference.steps,
                    .text = comparison.where};
-  const bool forked = reference.fork < reference.end;
   if (comparison.worst > 1) {
     result.text = fmt::format("off by {:.3g} times what is allowed: {}", comparison.worst, comparison.where);
-  } else if (forked) {
+  } else if (reference.fork < reference.end) {
     result.verdict = run.refusal.empty() || says(run.refusal, overload) ? Verdict::open : Verdict::wrong;
     result.text = run.refusal;
   } else if (const std::string why = contradiction(scene, reference); !why.empty()) {
@@ -87,6 +79,24 @@ Judgement judge(const Wiring& wiring, bool closer) {
     result.text = fmt::format("only {:.0f} % of the reference's values are sure", 100 * comparison.judged);
   } else {
     result.verdict = Verdict::agrees;
+  }
+  return result;
+}
+
+}  // namespace
+
+Judgement judge(const Wiring& wiring, bool closer) {
+  const Scene scene = scene_of(netlist_of(wiring), closer ? 1e-9 : 0);
+  const Attempt run = attempt(scene);
+  Judgement result;
+  for (const int more : {closer ? 4 : 0, 2, 4}) {
+    ReferenceSettings settings;
+    settings.halvings += more;
+    // What did not do is not to be taken for good again.
+    if (more > 0) settings.target *= 1e-2;
+    result = beside(scene, run, integrate_reference(scene, declarations(), settings));
+    const bool refused_without_need = !run.refusal.empty() && !says(run.refusal, overload);
+    if (closer || refused_without_need || (result.verdict != Verdict::wrong && result.verdict != Verdict::undecided)) break;
   }
   return result;
 }
