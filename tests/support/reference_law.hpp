@@ -40,6 +40,7 @@ class ReferenceLaw {
   void accept(double step, double force, double h);
   double force() const { return force_; }
   double coulomb() const { return coulomb_; }
+  double breakaway() const { return breakaway_; }
 
   /// The piece of its map that the last step was on: another one means a corner in the force.
   struct Piece {

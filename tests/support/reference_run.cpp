@@ -120,13 +120,15 @@ bool ReferenceRun::whole_step(double after) {
   const double shortest = std::ldexp(after - start.time, -bisections);
   const std::size_t turns = turns_.size();
   const int searches = searches_;
+  first_turn_.reset();
   bool done = step(after, bisections, 0);
-  const bool at_once = turns_.size() > turns ? turns_[turns] <= start.time + 1.5 * shortest : !done && t_ <= start.time;
-  if (at_once && last_ && searches_ > searches) {
+  if (!done && !first_turn_) first_turn_ = Step{t_, shortest};
+  if (first_turn_ && first_turn_->from <= start.time + 0.5 * shortest && last_ && searches_ > searches) {
+    const double ahead = first_turn_->length;
     turns_.resize(turns);
     network_ = last_->network;
     t_ = last_->time;
-    done = step(start.time, bisections, shortest) && step(after, bisections, 0);
+    done = step(start.time, bisections, ahead) && step(after, bisections, 0);
   }
   if (turns_.size() > turns) {
     last_.reset();
@@ -134,6 +136,12 @@ bool ReferenceRun::whole_step(double after) {
     last_ = start;
   }
   return done;
+}
+
+void ReferenceRun::note_turn(double from, double to) {
+  turns_.push_back(to);
+  // The shortest steps may have been too short to show it: it lies anywhere in the first one that does.
+  if (!first_turn_ || from < first_turn_->from) first_turn_ = Step{from, to - from};
 }
 
 /// True if a law turns in a short step from now on.
@@ -160,7 +168,7 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
     if (depth == bisections) ++searches_;
     if (!step(before + h / 2, depth - 1, ahead) || !step(after, depth - 1, ahead)) return false;
     // A motion may be too slow to be told from rounding in the shortest steps.
-    if (done && network_.follow(whole, start)) turns_.push_back(after);
+    if (done && network_.follow(whole, start)) note_turn(before, after);
     return true;
   }
   if (!done) {
@@ -168,8 +176,8 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
     t_ = before;
     return false;
   }
-  if (network_.turned_since(start)) turns_.push_back(after);
-  if (network_.forked() && !start.forked()) fork_ = before;
+  if (network_.turned_since(start)) note_turn(before, after);
+  if ((network_.forked() && !start.forked()) || network_.could_slip_on(start)) fork_ = std::min(fork_, before);
   for (std::size_t i = 0; i < acceleration_.size(); ++i) {
     acceleration_[i] = (network_.nodes()[i].velocity - start.nodes()[i].velocity) / h;
   }

@@ -40,6 +40,7 @@ class ReferenceRun {
 
   /// Where a step began, on the present stretches of the signals.
   struct Start { double time; ReferenceNetwork network; };
+  struct Step { double from, length; };
 
   const std::string& type_of(const SceneElement& e) const { return declarations_[static_cast<std::size_t>(e.declaration)]->type; }
   ReferenceNetwork build();
@@ -48,6 +49,7 @@ class ReferenceRun {
   bool whole_step(double after);
   bool step(double after, int depth, double ahead);
   bool turns_ahead(double ahead) const;
+  void note_turn(double from, double to);
   ReferenceNetwork::Input input(double before, double after) const;
   bool jump(const std::vector<double>& steps);
   double next_break() const;
@@ -75,6 +77,7 @@ class ReferenceRun {
   double t_ = 0;
   int searches_ = 0;
   double fork_ = INFINITY;
+  std::optional<Step> first_turn_;  ///< of those within a step, the shortest step that shows it
   std::optional<Start> last_;  ///< of the step before, if it was without a turn
   std::vector<double> turns_;  ///< when they were [s]
   ReferenceNetwork network_;  ///< last, because it is built from what is above

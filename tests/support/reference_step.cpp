@@ -297,6 +297,13 @@ bool ReferenceNetwork::turned_since(const ReferenceNetwork& before) const {
   return false;
 }
 
+bool ReferenceNetwork::could_slip_on(const ReferenceNetwork& before) const {
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    if (bundles_[k].could_slip_on(before.bundles_[k])) return true;
+  }
+  return false;
+}
+
 bool ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetwork& before) {
   bool any = false;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {

@@ -46,6 +46,8 @@ class ReferenceNetwork {
   bool ambiguous() const { return ambiguous_; }
   /// True if that has been so at a law that remembers its force: all that follows is then one of many solutions.
   bool forked() const { return forked_; }
+  /// True if a slider has stopped since `before` where it could as well have gone on.
+  bool could_slip_on(const ReferenceNetwork& before) const;
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
