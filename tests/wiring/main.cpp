@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "tests/wiring/catalogue.hpp"
+#include "tests/wiring/identities.hpp"
+#include "tests/wiring/judge.hpp"
 #include "tests/wiring/tally.hpp"
 
 using namespace rheonet::test;
@@ -47,8 +49,10 @@ int go(const Options& options) {
   }
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(
       options.log.empty() ? nullptr : std::fopen(options.log.c_str(), "w"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
-  const Tally tally = judge_all(
-      numbers, options.jobs, [&](const Wiring& wiring) { return judge(wiring, options.closer); }, log.get());
+  const auto how = [&](const Wiring& wiring) {
+    return options.identities ? check_identities(wiring) : judge(wiring, options.closer);
+  };
+  const Tally tally = judge_all(numbers, options.jobs, how, log.get());
   for (const std::string& line : tally.undecided) fmt::print("{}\n", line);
   for (const std::string& line : tally.wrong) fmt::print("{}\n", line);
   fmt::print("{} scenes: {} agree, {} refused as expected, {} open, {} undecided, {} wrong; {:.0f} s of a core\n", numbers.size(),
