@@ -75,6 +75,7 @@ ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<Referenc
 void ReferenceNetwork::evaluate(const Input& input) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   std::fill(size_.begin(), size_.end(), 0.0);
+  largest_force_ = largest_step_ = 0;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
     const int i = unknown_[at(b.a)], j = unknown_[at(b.b)];
@@ -227,13 +228,14 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
   }
   for (int correction = 0; correction < corrections; ++correction) {
     if (!newton(input)) return false;
+    typical_step_ = std::max(typical_step_, largest_step_);
     bool settled = true;
     for (std::size_t k = 0; k < bundles_.size(); ++k) {
       if (K_[k] == 0) continue;
       const double stretching = K_[k] * (std::abs(x_[at(bundles_[k].a)]) + std::abs(x_[at(bundles_[k].b)]));
       const double change = std::abs(points_[k].force - preload_[k]);
       if (change > 10 * rounding_ + 10 * balanced * stretching &&
-          (change > unstretched * largest_force_ || change > little_stretch * K_[k] * largest_step_)) {
+          (change > unstretched * largest_force_ || change > little_stretch * K_[k] * typical_step_)) {
         settled = false;
       }
       preload_[k] = points_[k].force;
@@ -248,7 +250,7 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
 }
 
 bool ReferenceNetwork::step(const Input& input) {
-  largest_force_ = largest_step_ = 0;
+  typical_step_ = 0;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     x_[n] = nodes_[n].prescribed ? input.displacement[n] : nodes_[n].velocity * input.h;
   }
@@ -329,7 +331,7 @@ void ReferenceNetwork::note_ambiguity() {
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
     // Where several solutions fit, the one found may leave some a little beside rest.
-    if (std::abs(points_[k].step) > little_stretch * largest_step_ || !b.set_valued()) continue;
+    if (std::abs(points_[k].step) > little_stretch * typical_step_ || !b.set_valued()) continue;
     const std::size_t i = root(b.a), j = root(b.b);
     const bool cfms = std::none_of(b.members().begin(), b.members().end(), [](const ReferenceBundle::Member& m) {
       return m.law.type() == ReferenceLaw::Type::slider;

@@ -72,7 +72,8 @@ class ReferenceNetwork {
   std::vector<double> matrix_;
   std::vector<double> nodal_;
   double unbalance_ = 0;                ///< the worst, of what rounding may leave
-  double largest_force_ = 0, largest_step_ = 0;  ///< seen in this step
+  double largest_force_ = 0, largest_step_ = 0;  ///< at the present point
+  double typical_step_ = 0;             ///< at any balance found in this step
   double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
   bool ambiguous_ = false, forked_ = false;
 };
