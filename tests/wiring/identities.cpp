@@ -132,6 +132,7 @@ Judgement check_identities(const Wiring& wiring) {
       result.deviation = std::max(result.deviation, off.worst);
       if (off.worst > of_accuracy * scene.accuracy) result.text = fmt::format("{:.3g} of the scale: {}", off.worst, off.where);
     }
+    if (result.text.empty() && !seen.rows.header.empty()) result.text = wrong_friction(view.scene, seen.rows);
     if (result.text.empty()) continue;
     result.text = view.name + ": " + result.text;
     return result;
