@@ -8,7 +8,7 @@
 #include "core/network/component.hpp"
 #include "tests/support/reference_integrator.hpp"
 #include "tests/support/simulate.hpp"
-#include "tests/wiring/compare.hpp"
+#include "tests/wiring/agreement.hpp"
 #include "tests/wiring/overload.hpp"
 #include "tests/wiring/refusals.hpp"
 
@@ -53,14 +53,14 @@ std::string wrong_end(const Scene& scene, const std::string& refusal, const Refe
 }
 
 Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution& reference) {
-  const Comparison comparison = compare(scene, run.rows, reference);
+  const Agreement found = agreement(scene, run.rows, reference);
   Judgement result{.verdict = Verdict::wrong,
-                   .deviation = comparison.deviation,
-                   .judged = comparison.judged,
+                   .deviation = found.deviation,
+                   .judged = found.judged,
                    .reference_steps = reference.steps,
-                   .text = comparison.where};
-  if (comparison.worst > 1) {
-    result.text = fmt::format("off by {:.3g} times what is allowed: {}", comparison.worst, comparison.where);
+                   .text = found.where};
+  if (found.worst > 1) {
+    result.text = fmt::format("off by {:.3g} times what is allowed: {}", found.worst, found.where);
   } else if (reference.fork < reference.end) {
     result.verdict = run.refusal.empty() || says(run.refusal, overload) ? Verdict::open : Verdict::wrong;
     result.text = run.refusal;
@@ -69,14 +69,14 @@ Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution
     result.verdict = Verdict::undecided;
   } else if (const std::string end = wrong_end(scene, run.refusal, reference); !end.empty()) {
     result.text = end;
-  } else if (comparison.from_fine > 0.5 * comparison.from_coarse && comparison.from_fine > told) {
-    result.text = fmt::format("the reference comes no nearer with its step: {:.2g} after {:.2g}", comparison.from_fine,
-                              comparison.from_coarse);
+  } else if (found.from_fine > 0.5 * found.from_coarse && found.from_fine > told) {
+    result.text = fmt::format("the reference comes no nearer with its step: {:.2g} after {:.2g}", found.from_fine,
+                              found.from_coarse);
   } else if (!reference.complete) {
     result.verdict = Verdict::refused;
-  } else if (comparison.judged < enough) {
+  } else if (found.judged < enough) {
     result.verdict = Verdict::undecided;
-    result.text = fmt::format("only {:.0f} % of the reference's values are sure", 100 * comparison.judged);
+    result.text = fmt::format("only {:.0f} % of the reference's values are sure", 100 * found.judged);
   } else {
     result.verdict = Verdict::agrees;
   }

@@ -1,4 +1,4 @@
-#include "tests/wiring/compare.hpp"
+#include "tests/wiring/agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -37,8 +37,8 @@ std::size_t kind_of(const Record& record) {
 
 }  // namespace
 
-Comparison compare(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference) {
-  Comparison result;
+Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference) {
+  Agreement result;
   if (rows.header.empty()) return result;  // refused before the first row
   std::array<double, 3> largest{least, least, least};
   for (std::size_t k = 0; k < scene.records.size(); ++k) {

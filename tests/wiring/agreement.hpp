@@ -10,7 +10,7 @@ namespace rheonet::test {
 
 /// How the rows of a run lie beside those of the reference. A value of the reference counts if its own estimate of its
 /// error is small beside the scale of its record; what it holds to be doubtful is left out.
-struct Comparison {
+struct Agreement {
   double worst = 0;     ///< largest deviation, in parts of what the reference's doubt and the accuracy allow: <= 1 is agreement
   double deviation = 0; ///< the same one in parts of the record's scale
   std::string where;    ///< record, time and both values of it
@@ -20,6 +20,6 @@ struct Comparison {
   double from_fine = 0, from_coarse = 0;
 };
 
-Comparison compare(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference);
+Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference);
 
 }  // namespace rheonet::test
