@@ -26,6 +26,8 @@ struct Child {
   const auto limit = static_cast<rlim_t>(apart.seconds);
   const rlimit limits{limit, limit + 1};
   setrlimit(RLIMIT_CPU, &limits);
+  // A crash is reported by what started this process, not by a handler that it has inherited.
+  for (const int fatal : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS}) std::signal(fatal, SIG_DFL);
   int status = 1;
   std::string text;
   try {
