@@ -36,6 +36,11 @@ struct SolidFriction {
   T force(const T& p) const {
     using std::expm1, std::log1p, std::pow;
     if (held) return T(s * Fc);
+    if (i == 0) {
+      // A straight line up to the bound, and on: a step that goes beyond finds its way back to where the law yields.
+      const T f = f_ref + sigma * (p - p_ref);
+      return std::abs(s * value_of(f) - Fc) <= yield_rounding * Fc ? T(f + (s * Fc - value_of(f))) : f;
+    }
     const double q = 1 - i;
     const T z = (sigma / Fc * s) * (p - p_ref);
     if (u_ref == 0) {  // leaving the bound backwards (i < 1), or on it for good
@@ -46,11 +51,6 @@ struct SolidFriction {
     // Where u = 2 the force is -s Fc: no state of the law lies beyond. Iterates of a solver may: go on along the tangent.
     const double z2 = q == 0 ? std::log(u_ref / 2) : (std::pow(u_ref, q) - std::pow(2, q)) / q;
     if (value_of(z) < z2) return beyond(z, z2);
-    if (i == 0) {
-      // A straight line up to the bound, and on: a step that goes beyond finds its way back to where the law yields.
-      const T f = f_ref + sigma * (p - p_ref);
-      return std::abs(s * value_of(f) - Fc) <= yield_rounding * Fc ? T(f + (s * Fc - value_of(f))) : f;
-    }
     const T y = z * std::pow(u_ref, -q);
     if (q * value_of(y) >= 1) return T(s * Fc);
     // Counted from f_ref, so that a small force keeps all its digits.
