@@ -42,10 +42,12 @@ bool is_place(const Record& record) {
 
 std::vector<char> needed_positions(const Network& network) {
   std::vector<char> needed(network.scene->nodes.size(), 0);
-  for (const Record& record : network.scene->records) {
-    if (!is_place(record) || own_displacement(network, record)) continue;
-    const Ends ends = ends_of(*network.scene, record);
-    needed[at(ends.a)] = needed[at(ends.b)] = 1;
+  for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
+    for (const Record& record : *records) {
+      if (!is_place(record) || own_displacement(network, record)) continue;
+      const Ends ends = ends_of(*network.scene, record);
+      needed[at(ends.a)] = needed[at(ends.b)] = 1;
+    }
   }
   // Positions go over sliders that stick, so both ends must be known when they begin to.
   if (std::find(needed.begin(), needed.end(), 1) == needed.end()) return needed;
@@ -53,7 +55,8 @@ std::vector<char> needed_positions(const Network& network) {
   return needed;
 }
 
-Channels::Channels(const Network& network) : network_(network), scene_(*network.scene), row_(scene_.records.size()) {}
+Channels::Channels(const Network& network, const std::vector<Record>& records)
+    : network_(network), scene_(*network.scene), records_(records), row_(records.size()) {}
 
 void Channels::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
@@ -61,7 +64,7 @@ void Channels::attach(Dae& dae, Consistency& consistency) {
   const Structure& structure = dae.structure();
   const auto floating = [&](NodeId node) { return structure.group[at(structure.rigid[at(node)])] >= 0; };
   rates_needed_ = false;
-  for (const Record& record : scene_.records) {
+  for (const Record& record : records_) {
     if (record.channel != Record::Channel::velocity) continue;
     const Ends ends = ends_of(scene_, record);
     rates_needed_ = rates_needed_ || floating(ends.a) || floating(ends.b);
@@ -132,7 +135,7 @@ const std::vector<double>& Channels::read_state(double t, const std::vector<doub
   }
   const Dae::View& view = dae_->view(t, y.data(), rates->data());
   for (std::size_t k = 0; k < row_.size(); ++k) {
-    const Record& record = scene_.records[k];
+    const Record& record = records_[k];
     switch (record.channel) {
       case Record::Channel::position:
       case Record::Channel::displacement:

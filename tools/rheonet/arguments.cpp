@@ -29,7 +29,8 @@ constexpr const char* of_run =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
     "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written; 2 the scene or the command line is wrong.";
+    "rows or events could not be written, or a claim of its [expect] fails; 2 the scene or the command line\n"
+    "is wrong.";
 constexpr const char* of_check =
     "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
     "line is wrong.";

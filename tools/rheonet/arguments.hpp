@@ -8,7 +8,7 @@
 namespace rheonet::tool {
 
 /// What a process ends with; part of the contract with scripts that call the program.
-enum ExitStatus { done = 0, not_simulated = 1, wrong_input = 2 };
+enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input = 2 };
 
 /// A command line, read.
 struct Arguments {

@@ -9,6 +9,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/result/run.hpp"
+#include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/progress.hpp"
@@ -121,7 +122,7 @@ ExitStatus run_scene(const Arguments& arguments) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
     }
-    return done;
+    return report_claims(*read.scene, summary, read.sources, arguments.quiet) ? done : not_as_claimed;
   } catch (const SimulationError& error) {
     progress.erase();
     const bool closed = outputs.close();
