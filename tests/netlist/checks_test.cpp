@@ -99,7 +99,7 @@ scene.toml:8:44: error: check `c` has both `warn` and `error`
     8 | c = { that = "k > k/2", warn = "too soft", error = "much too soft" }
       |                                            ^
   only one of them can be given: a run goes on after a warning
-scene.toml:9:32: error: `warn` must be a string, but is true
+scene.toml:9:32: error: `warn` must be a string, but is `true`
     9 | d = { that = "k > k/2", warn = true }
       |                                ^
   it is the text that is shown where the comparison does not hold
@@ -166,17 +166,18 @@ scene.toml:7:14: error: check `more`: `k` is a stiffness (N/m), `a` is a length 
 scene.toml:8:14: error: check `less`: `k` is a stiffness (N/m), `a` is a length (m): they cannot be compared
     8 | less  = "k < a"
       |              ^
-scene.toml:9:14: error: check `plain`: `a` is a length (m), `3` is a number: they cannot be compared
+scene.toml:9:14: error: check `plain`: `a` is a length (m), `3` is a pure number: they cannot be compared
     9 | plain = "a > 3"
       |              ^
   a parameter without a unit counts as a pure number here: give it one
 scene.toml:10:14: error: check `named`: unknown name `kmax`
    10 | named = "k < kmax"
       |              ^
-  did you mean `k`?
-scene.toml:11:17: error: check `unit`: unexpected `mm`
+  it must be a parameter
+scene.toml:11:16: error: check `unit`: there is no parameter `mm`, and a unit cannot stand in an expression
    11 | unit  = "a < 3 mm"
       |                ^
+  a quantity is one number, a space and a unit: "0.5 mm"
 )~"},
       {"a table that is none",
        R"~(

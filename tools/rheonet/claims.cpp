@@ -82,7 +82,7 @@ bool report_claims(const Scene& scene, const Summary& summary, const Sources& so
     all_hold = false;
     std::string message = fmt::format("the claim fails: {} ", name);
     if (std::isnan(finding.found)) {
-      message += fmt::format("does not exist, claimed {}", claimed);
+      message += fmt::format("{}, claimed {}", claim.per < 0 ? "never comes" : "is no number", claimed);
     } else {
       const double off = std::max(claim.least - finding.found, finding.found - claim.most);
       message += fmt::format("is {}, claimed {}: it is off by {:.3g}{}{}", with_unit(finding.found, unit), claimed, off,
