@@ -173,6 +173,22 @@ void resolve_records(const TomlEntry* record, const std::set<std::string>& doubt
     if (found) scene.records.push_back(std::move(*found));
 }
 
+void add_records(const std::vector<std::string>& paths, const std::set<std::string>& doubtful, Context& context,
+                 Sources& sources, Scene& scene) {
+  std::vector<TomlValue> wanted;
+  for (const std::string& path : paths) {
+    const auto is_recorded = [&path](const Record& record) { return record.path == path; };
+    if (std::any_of(scene.records.begin(), scene.records.end(), is_recorded)) continue;
+    sources.command_line.push_back(path);
+    wanted.emplace_back();
+    wanted.back().kind = TomlValue::Kind::string;
+    wanted.back().spot = {-1, static_cast<int>(sources.command_line.size()), 1};
+    wanted.back().text = path;
+  }
+  for (auto& found : find_records(wanted, doubtful, context, scene))
+    if (found) scene.records.push_back(std::move(*found));
+}
+
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,
                          Context& context, Scene& scene) {
   Mistakes& mistakes = context.mistakes;

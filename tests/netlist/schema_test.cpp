@@ -159,7 +159,7 @@ TEST_CASE("a check is a comparison, alone or with a message for one of two level
 }
 
 TEST_CASE("a claim has one figure, and a time where that needs one; a record has one claim or several") {
-  const json& alternatives = schema()["properties"]["expect"]["additionalProperties"]["anyOf"];
+  const json& alternatives = schema()["$defs"]["expect"]["additionalProperties"]["anyOf"];
   const json& claim = alternatives[0];
   CHECK(alternatives[1]["items"] == claim);
   CHECK(claim["oneOf"] == required({"value", "final", "max", "min", "mean", "rms", "crosses"})["oneOf"]);

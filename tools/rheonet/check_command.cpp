@@ -97,7 +97,7 @@ void print_network(const Scene& scene) {
 }  // namespace
 
 ExitStatus check_scene(const Arguments& arguments) {
-  const ReadResult read = read_and_report(arguments);
+  const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
   const Scene& scene = *read.scene;
   if (arguments.verbose) print_network(scene);
