@@ -180,7 +180,11 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
 
   CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
-  compare->add_option("SCENES", arguments.scenes, "two netlists or more")->required()->expected(2, 26)->type_name("");
+  compare
+      ->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
+      ->required()
+      ->expected(2, 26)
+      ->option_text("A B [C ...]");
   add_overrides(compare);
   add_accuracy(compare);
   compare

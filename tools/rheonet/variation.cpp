@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -78,7 +79,8 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
     const double value = i == *count - 1 ? to->value
                          : logarithmic   ? from->value * std::pow(to->value / from->value, fraction)
                                          : from->value + fraction * (to->value - from->value);
-    variation.values.push_back(fmt::format("{}{}{}", value, to->unit.empty() ? "" : " ", to->unit));
+    // Six digits are enough for a table, and what stands there is what has been simulated.
+    variation.values.push_back(fmt::format("{:.6g}{}{}", value, to->unit.empty() ? "" : " ", to->unit));
   }
   return variation;
 }
