@@ -27,8 +27,12 @@ std::string unit_of(const Claim& claim, const Scene& scene) {
   if (claim.figure == Figure::crossing) return "s";
   const Record& record = record_of(scene, claim.record);
   if (claim.per < 0) return unit_of(record, scene);
-  const Quantity one = quantity_of(record.channel), other = quantity_of(record_of(scene, claim.per).channel);
-  return one == other ? "1" : to_string(dimension_of(one, scene.domain) / dimension_of(other, scene.domain));
+  const Dimension dimension = dimension_of(quantity_of(record.channel), scene.domain) /
+                              dimension_of(quantity_of(record_of(scene, claim.per).channel), scene.domain);
+  // A damping as N*s/m, not as kg/s.
+  for (const Quantity known : {Quantity::number, Quantity::stiffness, Quantity::damping, Quantity::time})
+    if (dimension.same(dimension_of(known, scene.domain))) return rheonet::unit_of(known, scene.domain);
+  return to_string(dimension);
 }
 
 /// "k1.force at 0.2 s", "largest k1.force from 1 s to 2 s".

@@ -22,11 +22,16 @@ std::string unit_of(const Compared& compared, const Pairing& pairing) {
 }
 
 std::string list_of_scenes(const Compared& compared) {
-  Rows rows;
-  for (std::size_t i = 0; i < compared.scenes.size(); ++i)
-    rows.push_back({fmt::format("{} = {}", letter(i), printable(compared.files[i])),
-                    compared.scenes[i].title.empty() ? "" : "\"" + printable(compared.scenes[i].title) + "\""});
-  return aligned(rows);
+  std::size_t width = 0;
+  for (const std::string& file : compared.files) width = std::max(width, count_characters(printable(file)));
+  std::string text;
+  for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
+    const std::string file = printable(compared.files[i]), title = printable(compared.scenes[i].title);
+    text += fmt::format("  {} = {}", letter(i), file);
+    if (!title.empty()) text += fmt::format("{:<{}}  \"{}\"", "", width - count_characters(file), title);
+    text += '\n';
+  }
+  return text;
 }
 
 std::string energy_line(const Compared& compared, std::size_t other) {
