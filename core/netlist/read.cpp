@@ -108,7 +108,7 @@ class Reader {
     // A million default records of a scene that is refused would be for nothing.
     if (record || mistakes_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
-    if (const TomlEntry* expect = document_.find("expect"))
+    if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
       read_claims(expect->value, environment, doubtful, context_, scene_);
   }
 

@@ -92,6 +92,13 @@ TEST_CASE("compare: --set and --accuracy are for all scenes") {
   CHECK(contains(folder.shell("rheonet compare one.toml two.toml --accuracy 1e-4").out, "up to 0.0002 may be"));
 }
 
+TEST_CASE("compare: claims are not its business") {
+  const Three folder;
+  folder.write("one.toml", folder.read("one.toml") + "[expect]\n\"c.force\" = { at = 1, value = 0 }\n");
+  folder.shell("rheonet compare one.toml two.toml --set simulate.stop=0.5", 0);
+  folder.shell("rheonet run one.toml --set simulate.stop=0.5", 2);
+}
+
 TEST_CASE("compare: --vary goes through a range and gives a table") {
   const Three folder;
   folder.write("three.toml", dragged("c", "3.3 N*s/m", short_rows));

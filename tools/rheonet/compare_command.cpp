@@ -56,6 +56,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
   compared.pairings = named_pairs(arguments);
   for (std::size_t i = 0; i < arguments.scenes.size(); ++i) {
     ReadOptions options = options_of(arguments);
+    options.claims = false;  // they are about each scene as it stands, alone
     if (!override.empty()) options.overrides.push_back(override);
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);

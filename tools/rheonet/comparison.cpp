@@ -41,9 +41,6 @@ void to_one_time_base(std::vector<Scene>& scenes) {
     scene.output_every = every;
     scene.output_intervals = static_cast<std::int64_t>(std::floor((stop - start) / every + rounding));
     scene.output_events = false;
-    // Claims are about the run as the scene has it.
-    scene.claims.clear();
-    scene.claimed.clear();
   }
 }
 

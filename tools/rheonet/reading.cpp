@@ -11,10 +11,7 @@
 namespace rheonet::tool {
 
 ReadOptions options_of(const Arguments& arguments) {
-  return {.overrides = arguments.overrides,
-          .accuracy = arguments.accuracy,
-          .records = {},
-          .model_folders = library_folders()};
+  return {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()};
 }
 
 ReadResult read_and_report(const std::string& scene, const ReadOptions& options) {
