@@ -68,6 +68,10 @@ TEST_CASE("compare: pairs by name, more scenes, the first one's rows up to the s
   CHECK(contains(result.out, "C 13.2 J; C 1.2 J more"));
   CHECK(folder.read("overlay.csv") ==
         "time,A.c.force,B.c.force,C.d.force\n0,6,6.3,6.6\n0.25,6,6.3,6.6\n0.5,6,6.3,6.6\n0.75,6,6.3,6.6\n1,6,6.3,6.6\n");
+  const Finished piped = folder.shell(three + "--pair c.force=c.force=d.force -o - --within 0.1", 0);
+  CHECK(piped.out == folder.read("overlay.csv"));
+  CHECK(contains(piped.err, result.out));
+  CHECK(contains(piped.err, "\nwithin 0.1: "));
   // What is paired need not be recorded; the first scene decides over the rows.
   const Finished other = folder.shell("rheonet compare three.toml one.toml --pair d.displacement=c.displacement", 0);
   CHECK(contains(other.out, "0 s to 1 s, 11 rows, 0.1 s apart"));
@@ -140,6 +144,8 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
       {"one.toml two.toml --pair c.force=d.force", "nothing is called `d`"},
       {"one.toml two.toml --pair c.force=c.velocity", "`c.force` and `c.velocity` are different quantities"},
       {"one.toml two.toml --within much", "`--within` takes a number such as 1e-6, not `much`"},
+      {"one.toml two.toml --within -1", "`--within` must be at least 0, but is -1"},
+      {"one.toml two.toml --within nan", "`--within` must be at least 0, but is nan"},
       {"one.toml two.toml --withn 1", "did you mean `--within`?"},
       {"one.toml two.toml -o two.toml", "`--output two.toml` would overwrite the scene itself"},
       {"one.toml two.toml -o no/x.csv", "cannot write to `no/x.csv`"},

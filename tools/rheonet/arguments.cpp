@@ -196,7 +196,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   compare->add_option("--vary", arguments.vary, "a value of all scenes, that is to go through a range")
       ->type_name("PATH=RANGE");
   compare->add_option("--within", within, "relative difference that is allowed: sets the exit status")->type_name("E");
-  compare->add_option("-o,--output", arguments.output, "where the rows of all scenes go, side by side")->type_name("FILE");
+  compare->add_option("-o,--output", arguments.overlay, "where the rows of all scenes go, side by side; `-` is standard output")
+      ->type_name("FILE");
 
   CLI::App* components = add_command("components", "describe the element types");
   components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
@@ -219,6 +220,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     refuse_extra_words(app);
     if (accuracy) arguments.accuracy = read_number("--accuracy", *accuracy);
     if (within) arguments.within = read_number("--within", *within);
+    if (within && !(*arguments.within >= 0))
+      throw WrongCommandLine{fmt::format("`--within` must be at least 0, but is {}", *within), ""};
     if (app.get_subcommands().empty())
       throw WrongCommandLine{"no command given", "to simulate a scene: `rheonet run SCENE`"};
   } catch (const WrongCommandLine& mistake) {

@@ -20,6 +20,7 @@ struct Arguments {
   std::vector<std::string> pairs;      ///< PATH=PATH, of `compare`
   std::string vary;                    ///< PATH=RANGE, of `compare`; "": nothing
   std::optional<double> within;        ///< of `compare`
+  std::string overlay;                 ///< where the data of `compare` go; "": nowhere
   std::string output = "-";            ///< "-": standard output
   std::string events;                  ///< where the events go; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE

@@ -112,8 +112,9 @@ ExitStatus check_scene(const Arguments& arguments) {
     report(error, read.sources);
     return not_simulated;
   }
-  fmt::print("{}: no mistake found ({}, {})\n", printable(arguments.scene),
-             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"));
+  const std::string claims = scene.claims.empty() ? "" : ", " + count(scene.claims.size(), "claim", "claims");
+  fmt::print("{}: no mistake found ({}, {}{})\n", printable(arguments.scene),
+             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"), claims);
   return done;
 }
 

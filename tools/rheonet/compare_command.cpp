@@ -60,7 +60,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     if (!override.empty()) options.overrides.push_back(override);
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);
-    if (!read.scene || is_source(arguments.output, "--output", read.sources)) throw Ended{wrong_input};
+    if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
     compared.scenes.push_back(std::move(*read.scene));
     compared.sources.push_back(std::move(read.sources));
   }
@@ -140,7 +140,7 @@ ExitStatus compare(const Arguments& arguments) {
   }
   Compared compared = read_all(arguments, variation ? variation->path + '=' + variation->values.front() : "");
   std::unique_ptr<Output> output;
-  if (arguments.output != "-" && !(output = open_output(arguments.output))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
 
   Furthest furthest;
   std::string text, data;
@@ -162,11 +162,11 @@ ExitStatus compare(const Arguments& arguments) {
     text = describe(variation->path, rows, compared);
     if (output) data = table(variation->path, rows, compared);
   }
-  fmt::print("{}", text);
+  if (arguments.within) text += '\n' + verdict(*arguments.within, furthest, variation ? variation->path : "");
+  // Data on standard output are for a program to read: the report is then a message beside them.
+  arguments.overlay == "-" ? say("{}", text) : fmt::print("{}", text);
   if (output) write(*output, data);
-  if (!arguments.within) return done;
-  fmt::print("\n{}", verdict(*arguments.within, furthest, variation ? variation->path : ""));
-  return furthest.difference.relative() <= *arguments.within ? done : not_as_claimed;
+  return !arguments.within || furthest.difference.relative() <= *arguments.within ? done : not_as_claimed;
 }
 
 }  // namespace
