@@ -37,7 +37,8 @@ void gather(const TomlValue& table, const std::string& before, const Spot* begin
   for (const TomlEntry& entry : table.entries) {
     const Spot& spot = begin ? *begin : entry.spot;
     const auto& inner = entry.value.entries;
-    if (!inner.empty() && std::all_of(inner.begin(), inner.end(), [](const auto& e) { return holds_tables(e.value); })) {
+    if (!inner.empty() &&
+        std::all_of(inner.begin(), inner.end(), [](const auto& e) { return holds_tables(e.value); })) {
       gather(entry.value, before + entry.key + '.', &spot, subjects);
     } else {
       TomlValue path;
@@ -133,9 +134,9 @@ class ClaimReader {
 
   void check_in_run(const TomlEntry* entry, double t) {
     if (entry && (t < scene_.start || t > scene_.stop))
-      mistakes_.error(entry->value.spot, fmt::format("`{}` must be within the run, {} s to {} s, but is {} s", entry->key,
-                                                     number_text(scene_.start), number_text(scene_.stop),
-                                                     number_text(t)));
+      mistakes_.error(entry->value.spot,
+                      fmt::format("`{}` must be within the run, {} s to {} s, but is {} s", entry->key,
+                                  number_text(scene_.start), number_text(scene_.stop), number_text(t)));
   }
 
   /// One value, with a tolerance; or two, between which it lies.
@@ -154,10 +155,8 @@ class ClaimReader {
     claim.least = value(entry.value.items[0], name);
     claim.most = value(entry.value.items[1], name);
     claim.within = 0;
-    if (claim.least > claim.most)
-      mistakes_.error(entry.value.spot, name + " must name the lesser of two values first");
-    if (within)
-      mistakes_.error(within->spot, "`within` does not go with two values, which say how far it may be");
+    if (claim.least > claim.most) mistakes_.error(entry.value.spot, name + " must name the lesser of two values first");
+    if (within) mistakes_.error(within->spot, "`within` does not go with two values, which say how far it may be");
   }
 
   void read_within(Claim& claim, const TomlEntry& within) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> top_level{"title", "domain",  "parameters", "check",    "elements",
+const std::vector<std::string> top_level{"title", "domain", "parameters", "check",    "elements",
                                          "nodes", "models", "include",    "simulate", "expect"};
 
 bool is_top_level(const std::string& name) {

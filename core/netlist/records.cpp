@@ -122,8 +122,9 @@ Quantity quantity_of(Channel channel) {
   return Quantity::force;
 }
 
-std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths, const std::set<std::string>& doubtful,
-                                                Context& context, const Scene& scene) {
+std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
+                                                const std::set<std::string>& doubtful, Context& context,
+                                                const Scene& scene) {
   Mistakes& mistakes = context.mistakes;
   std::vector<Path> parts;
   std::vector<std::string> objects;

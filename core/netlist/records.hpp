@@ -20,8 +20,9 @@ void add_records(const std::vector<std::string>& paths, const std::set<std::stri
                  Sources& sources, Scene& scene);
 
 /// The records of these paths, each a string with its place; absent where that is a mistake.
-std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths, const std::set<std::string>& doubtful,
-                                                Context& context, const Scene& scene);
+std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
+                                                const std::set<std::string>& doubtful, Context& context,
+                                                const Scene& scene);
 
 /// Initial values from `[nodes]`.
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,

@@ -245,8 +245,9 @@ Json expect_schema() {
                        {"from", described(value, "[s]; where max, min, mean, rms, crosses look; the start if absent")},
                        {"to", described(value, "[s]; the end if absent")},
                        {"per", text("another record: the claim is on the ratio to its figure")},
-                       {"within", described(value, "tolerance: with a unit absolute, without one a fraction of the record's "
-                                              "largest magnitude in the run; the run's accuracy if absent")}});
+                       {"within", described(value,
+                                            "tolerance: with a unit absolute, without one a fraction of the record's "
+                                            "largest magnitude in the run; the run's accuracy if absent")}});
   claim.update(one_required({"value", "final", "max", "min", "mean", "rms", "crosses"}));
   claim["dependentRequired"] = {{"value", {"at"}}, {"crosses", {"at"}}};
   // The last: k1.force without quotes is a table in a table.

@@ -195,8 +195,7 @@ std::vector<Finding> Claims::findings() const {
       finding.tolerance = accuracy_ * scale;
     else
       finding.tolerance = claim.within * (claim.fraction ? scale : 1);
-    finding.holds =
-        finding.found >= claim.least - finding.tolerance && finding.found <= claim.most + finding.tolerance;
+    finding.holds = finding.found >= claim.least - finding.tolerance && finding.found <= claim.most + finding.tolerance;
     findings.push_back(finding);
   }
   return findings;

@@ -14,8 +14,8 @@ struct Finding {
   bool holds = false;
 };
 
-/// Follows the records that a scene's claims are about through a run. Each step is looked at in pieces no longer than an
-/// output interval: by the 4-point Lobatto rule for means, by the cubic through its points for extrema.
+/// Follows the records that a scene's claims are about through a run. Each step is looked at in pieces no longer than
+/// an output interval: by the 4-point Lobatto rule for means, by the cubic through its points for extrema.
 class Claims {
  public:
   /// The claimed records at a time of the last step, counted from the start of the run.
@@ -38,8 +38,8 @@ class Claims {
     double at = not_given;
   };
   struct State {
-    Claim claim;     ///< its times count from the start of the run
-    Course of, per;  ///< per: of the record that it is divided by
+    Claim claim;      ///< its times count from the start of the run
+    Course of, per;   ///< per: of the record that it is divided by
     double side = 0;  ///< of the level, that the record was on last: 1, -1; 0 not known yet
     double crossed = not_given;
   };

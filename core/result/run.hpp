@@ -17,7 +17,8 @@ struct RunSettings {
   std::FILE* events = nullptr;  ///< receives what switches, as it does: time, element, event, direction
   std::function<void(double time, const std::vector<double>& values)> row = {};  ///< is called with each row
   const std::atomic<bool>* interrupt = nullptr;  ///< becomes true when the user wants to stop: the run throws SimulationError
-  std::function<void(double fraction)> progress = {};  ///< called now and then with the fraction of the run that is done
+  std::function<void(double fraction)> progress =
+      {};  ///< called now and then with the fraction of the run that is done
 };
 
 /// What a run took, and its energy account [J].

@@ -37,7 +37,8 @@ chosen = "n > 3 ? k < k_max : k > k_max"
 }
 
 TEST_CASE("checks: a warning has its place, its message and the values, and the scene is read") {
-  CHECK(warnings("soft = { that = \"k > k_max\", warn = \"too soft\" }\n") == R"~(scene.toml:9:17: warning: check `soft`: too soft
+  CHECK(warnings("soft = { that = \"k > k_max\", warn = \"too soft\" }\n") ==
+        R"~(scene.toml:9:17: warning: check `soft`: too soft
     9 | soft = { that = "k > k_max", warn = "too soft" }
       |                 ^
   `k > k_max` does not hold: k = 3 kg*s^-2, k_max = 5 kg*s^-2

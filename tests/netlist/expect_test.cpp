@@ -90,7 +90,9 @@ k1 = { type = "sprong", between = ["a", "ground"], stiffness = 1 }
 TEST_CASE("bad netlists: claims") {
   const auto claims = [](const char* what, const std::string& lines, const std::string& expected) {
     INFO(what);
-    const std::string begin = "[elements]\nk1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n[simulate]\nstop = 1\n[expect]\n";
+    const std::string begin =
+        "[elements]\nk1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n[simulate]\nstop = "
+        "1\n[expect]\n";
     CHECK('\n' + messages(read(begin + lines)) == expected);
   };
   claims("records of nothing", R"~("k2.force" = { max = 1 }

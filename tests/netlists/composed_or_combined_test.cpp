@@ -24,8 +24,8 @@ struct Project : Folder {
 
 }  // namespace
 
-// A command whose line ends in `# exit status 1` ends so, any other with 0. A text block, and every figure such as 1.39e-01
-// in what follows, is part of what the commands of the last block have printed.
+// A command whose line ends in `# exit status 1` ends so, any other with 0. A text block, and every figure such
+// as 1.39e-01 in what follows, is part of what the commands of the last block have printed.
 TEST_CASE("every statement of composed-or-combined.md is backed by its command") {
   const Project project;
   const std::regex figure(R"(\d\.\d\de[-+]\d\d)");
@@ -40,7 +40,8 @@ TEST_CASE("every statement of composed-or-combined.md is backed by its command")
         printed += project.shell(enter + line, line.ends_with("# exit status 1") ? 1 : 0).out;
       }
     } else if (part.language == "text") {
-      for (std::string line; std::getline(lines, line); ++figures) CHECK_MESSAGE(contains(printed, line + "\n"), printed);
+      for (std::string line; std::getline(lines, line); ++figures)
+        CHECK_MESSAGE(contains(printed, line + "\n"), printed);
     } else if (part.language == "-") {
       for (std::sregex_iterator i(part.text.begin(), part.text.end(), figure), end; i != end; ++i, ++figures)
         CHECK_MESSAGE(contains(printed, i->str()), i->str(), " is not in\n", printed);

@@ -44,8 +44,8 @@ TEST_CASE("Every netlist of the project runs, and its claims hold") {
     CHECK_NOTHROW(summary = run(*read.scene));
     CHECK_GT(summary.steps, 0);
     for (std::size_t i = 0; i < summary.findings.size(); ++i)
-      CHECK_MESSAGE(summary.findings[i].holds, fmt::format("line {}: {:.10g}", read.scene->claims[i].spot.line,
-                                                           summary.findings[i].found));
+      CHECK_MESSAGE(summary.findings[i].holds,
+                    fmt::format("line {}: {:.10g}", read.scene->claims[i].spot.line, summary.findings[i].found));
     CHECK_LE(std::abs(summary.missing), 10 * read.scene->accuracy * summary.largest);
   }
 }

@@ -91,7 +91,8 @@ c = { type = "dashpot", between = ["a", "ground"], damping = 1 }
 [simulate]
 stop = 1
 [expect]
-"a.position" = )" + text + "\n")
+"a.position" = )" + text +
+                    "\n")
         .at(0);
   };
   for (const auto& [text, holds] : std::initializer_list<std::pair<const char*, bool>>{

@@ -52,10 +52,11 @@ TEST_CASE("run says of each claim whether it holds, with the figures; status 1 i
   const std::string stiffer = " --set k1.stiffness='110 N/m'";
   const Finished bad = folder.shell("rheonet run -q scene.toml -o out.csv" + stiffer, 1);
   CHECK(bad.err.starts_with("scene.toml:"));
-  CHECK(contains(bad.err, ": error: the claim fails: largest k1.force is 0.11 N, claimed 0.1 N within 1.1e-07 N: it is "
-                          "off by 0.01 N\n"));
+  CHECK(contains(bad.err,
+                 ": error: the claim fails: largest k1.force is 0.11 N, claimed 0.1 N within 1.1e-07 N: it is "
+                 "off by 0.01 N\n"));
   CHECK_FALSE(contains(bad.err, "root mean square"));
-  CHECK(folder.read("out.csv").find("\n1,") != std::string::npos);  // all rows are there
+  CHECK(folder.read("out.csv").find("\n1,") != std::string::npos);        // all rows are there
   CHECK(folder.shell("rheonet check scene.toml" + stiffer).status == 0);  // nothing has been simulated
 }
 

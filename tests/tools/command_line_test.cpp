@@ -7,7 +7,8 @@ using namespace rheonet::test;
 
 TEST_CASE("help and version go to standard output with status 0") {
   const Folder folder;
-  for (const std::string words : {"--help", "-h", "run --help", "check --help", "compare --help", "components --help", "schema --help"}) {
+  for (const std::string words :
+       {"--help", "-h", "run --help", "check --help", "compare --help", "components --help", "schema --help"}) {
     CAPTURE(words);
     const Finished help = folder.shell(std::string("rheonet ") + words);
     CHECK(help.status == 0);

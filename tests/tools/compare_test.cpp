@@ -49,8 +49,8 @@ TEST_CASE("compare: what two scenes record under one name, and the energy") {
   CHECK(result.err == "");
   CHECK(contains(result.out, "  A = one.toml  \"drag of c\"\n  B = two.toml  \"drag of c\"\n"));
   CHECK(contains(result.out, "  0 s to 1 s, 5 rows, 0.25 s apart\n\nB against A\n"));
-  CHECK(line_of(result.out, "c.force") == std::vector<std::string>{"c.force", "0.3", "N", "4.76e-02", "0", "s", "6", "N",
-                                                                   "6.3", "N", "0.3", "N", "4.76e-02"});
+  CHECK(line_of(result.out, "c.force") == std::vector<std::string>{"c.force", "0.3", "N", "4.76e-02", "0", "s", "6",
+                                                                   "N", "6.3", "N", "0.3", "N", "4.76e-02"});
   CHECK_FALSE(contains(result.out, "a.position"));
   CHECK(contains(result.out, "  energy dissipated: A 12 J, B 12.6 J; B 0.6 J more, 4.76e-02 of the larger\n"));
   CHECK(contains(result.out, "up to 2e-06 may be\nthat of the accuracy"));
@@ -66,8 +66,9 @@ TEST_CASE("compare: pairs by name, more scenes, the first one's rows up to the s
   CHECK(contains(result.out, "C against A\n"));
   CHECK(contains(result.out, "c.force / d.force "));
   CHECK(contains(result.out, "C 13.2 J; C 1.2 J more"));
-  CHECK(folder.read("overlay.csv") ==
-        "time,A.c.force,B.c.force,C.d.force\n0,6,6.3,6.6\n0.25,6,6.3,6.6\n0.5,6,6.3,6.6\n0.75,6,6.3,6.6\n1,6,6.3,6.6\n");
+  CHECK(
+      folder.read("overlay.csv") ==
+      "time,A.c.force,B.c.force,C.d.force\n0,6,6.3,6.6\n0.25,6,6.3,6.6\n0.5,6,6.3,6.6\n0.75,6,6.3,6.6\n1,6,6.3,6.6\n");
   const Finished piped = folder.shell(three + "--pair c.force=c.force=d.force -o - --within 0.1", 0);
   CHECK(piped.out == folder.read("overlay.csv"));
   CHECK(contains(piped.err, result.out));
@@ -90,7 +91,8 @@ TEST_CASE("compare: --within gives a verdict, and the exit status") {
 
 TEST_CASE("compare: --set and --accuracy are for all scenes") {
   const Three folder;
-  const Finished same = folder.shell("rheonet compare one.toml two.toml --set parameters.B=4 simulate.stop=0.5 --within 0", 0);
+  const Finished same =
+      folder.shell("rheonet compare one.toml two.toml --set parameters.B=4 simulate.stop=0.5 --within 0", 0);
   CHECK(contains(same.out, "0 s to 0.5 s"));
   CHECK(contains(same.out, "A 8 J, B 8 J, the same\n"));
   CHECK(contains(folder.shell("rheonet compare one.toml two.toml --accuracy 1e-4").out, "up to 0.0002 may be"));
@@ -111,35 +113,42 @@ TEST_CASE("compare: --vary goes through a range and gives a table") {
   };
   const Finished linear = vary("'parameters.B=1 N*s/m:2 N*s/m:3' -o table.csv", 0);
   CHECK(contains(linear.out, "B against A: c.force\n"));
-  CHECK(line_of(linear.out, "1.5") == std::vector<std::string>{"1.5", "N*s/m", "0", "N", "0", "-", "0", "N", "0", "6",
-                                                               "J", "6", "J"});
+  CHECK(line_of(linear.out, "1.5") ==
+        std::vector<std::string>{"1.5", "N*s/m", "0", "N", "0", "-", "0", "N", "0", "6", "J", "6", "J"});
   CHECK(folder.read("table.csv") ==
         "parameters.B,B.c.force largest,B.c.force relative,B.c.force time,B.c.force rms,B.c.force relative_rms,"
         "A dissipated,B dissipated\n1 N*s/m,0,0,0,0,0,4,4\n1.5 N*s/m,0,0,0,0,0,6,6\n2 N*s/m,0,0,0,0,0,8,8\n");
   CHECK(contains(vary("parameters.B=1:100:3:log", 0).out, "\n  10 "));
   // What differs over the range: the farthest decides.
-  folder.write("three.toml", "[parameters]\nB = 3\nmore = \"B*B/10\"\n[elements]\n"
-                             "drive = { type = \"motion\", at = \"a\", velocity = 2 }\n"
-                             "c = { type = \"dashpot\", between = [\"a\", \"ground\"], damping = \"B + more\" }\n"
-                             "[simulate]\n" + short_rows);
+  folder.write("three.toml",
+               "[parameters]\nB = 3\nmore = \"B*B/10\"\n[elements]\n"
+               "drive = { type = \"motion\", at = \"a\", velocity = 2 }\n"
+               "c = { type = \"dashpot\", between = [\"a\", \"ground\"], damping = \"B + more\" }\n"
+               "[simulate]\n" +
+                   short_rows);
   const Finished verdict = vary("parameters.B=1,3,2 --within 0.2", 1);
-  CHECK(contains(verdict.out, "NOT within 0.2: `c.force` differs by up to 2.31e-01 of its largest magnitude, at 0 s, "
-                              "with parameters.B = 3\n"));
+  CHECK(contains(verdict.out,
+                 "NOT within 0.2: `c.force` differs by up to 2.31e-01 of its largest magnitude, at 0 s, "
+                 "with parameters.B = 3\n"));
 }
 
 TEST_CASE("compare: what is wrong with the command line or the scenes has status 2, and says what would mend it") {
   const Three folder;
-  folder.write("turned.toml", "domain = \"rotation\"\n[elements]\nc = { type = \"dashpot\", between = [\"a\", \"ground\"], "
-                              "damping = 1 }\nm = { type = \"inertia\", at = \"a\", inertia = 1 }\n[simulate]\nstop = 1\n");
+  folder.write("turned.toml",
+               "domain = \"rotation\"\n[elements]\nc = { type = \"dashpot\", between = [\"a\", \"ground\"], "
+               "damping = 1 }\nm = { type = \"inertia\", at = \"a\", inertia = 1 }\n[simulate]\nstop = 1\n");
   folder.write("bad.toml", mistaken);
-  struct Case { std::string words, message; };
+  struct Case {
+    std::string words, message;
+  };
   const Case cases[] = {
       {"one.toml", "At least 2 required"},
       {"one.toml none.toml", "cannot be read"},
       {"one.toml bad.toml", "did you mean `spring`?"},
       {"one.toml turned.toml", "one scene is of translation, the other of rotation"},
-      {"one.toml three.toml", "the scenes record nothing of the same name; pair two records: --pair k1.force=m.spring1.force\n"
-                              "  one.toml records `c.force`, `a.position`\n  three.toml records `d.velocity`\n"},
+      {"one.toml three.toml",
+       "the scenes record nothing of the same name; pair two records: --pair k1.force=m.spring1.force\n"
+       "  one.toml records `c.force`, `a.position`\n  three.toml records `d.velocity`\n"},
       {"one.toml two.toml --pair c.force", "`--pair c.force` names 1 records for 2 scenes"},
       {"one.toml two.toml --pair c.force=d.force", "nothing is called `d`"},
       {"one.toml two.toml --pair c.force=c.velocity", "`c.force` and `c.velocity` are different quantities"},
@@ -168,13 +177,15 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
     CHECK_MESSAGE(contains(result.err, message), result.err);
   }
   folder.write("late.toml", dragged("c", "3 N*s/m", "start = 0.5\n" + short_rows));
-  CHECK(contains(folder.shell("rheonet compare one.toml late.toml", 2).err, "the runs start at different times, 0 s and 0.5 s"));
+  CHECK(contains(folder.shell("rheonet compare one.toml late.toml", 2).err,
+                 "the runs start at different times, 0 s and 0.5 s"));
 }
 
 TEST_CASE("compare: a scene that cannot be simulated has status 1, and its place") {
   const Three folder;
   folder.write("bad.toml", contradictory);
-  const Finished result = folder.shell("rheonet compare one.toml bad.toml --pair a.velocity=bar.velocity -o out.csv", 1);
+  const Finished result =
+      folder.shell("rheonet compare one.toml bad.toml --pair a.velocity=bar.velocity -o out.csv", 1);
   CHECK(contains(result.err, "bad.toml:3:1: error: "));
   CHECK(contains(result.err, "bad.toml cannot be simulated"));
   CHECK_FALSE(folder.has("out.csv"));

@@ -180,15 +180,15 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
 
   CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
-  compare
-      ->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
+  compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
       ->required()
       ->expected(2, 26)
       ->option_text("A B [C ...]");
   add_overrides(compare);
   add_accuracy(compare);
   compare
-      ->add_option("--pair", arguments.pairs, "a record of the first scene, and what the others call it; may be repeated")
+      ->add_option("--pair", arguments.pairs,
+                   "a record of the first scene, and what the others call it; may be repeated")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->allow_extra_args(false)
@@ -196,7 +196,9 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   compare->add_option("--vary", arguments.vary, "a value of all scenes, that is to go through a range")
       ->type_name("PATH=RANGE");
   compare->add_option("--within", within, "relative difference that is allowed: sets the exit status")->type_name("E");
-  compare->add_option("-o,--output", arguments.overlay, "where the rows of all scenes go, side by side; `-` is standard output")
+  compare
+      ->add_option("-o,--output", arguments.overlay,
+                   "where the rows of all scenes go, side by side; `-` is standard output")
       ->type_name("FILE");
 
   CLI::App* components = add_command("components", "describe the element types");

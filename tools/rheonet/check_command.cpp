@@ -114,7 +114,8 @@ ExitStatus check_scene(const Arguments& arguments) {
   }
   const std::string claims = scene.claims.empty() ? "" : ", " + count(scene.claims.size(), "claim", "claims");
   fmt::print("{}: no mistake found ({}, {}{})\n", printable(arguments.scene),
-             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"), claims);
+             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"),
+             claims);
   return done;
 }
 

@@ -65,9 +65,9 @@ std::string name_of(const Claim& claim, const Scene& scene) {
 std::string claimed_of(const Claim& claim, const Finding& finding, const std::string& unit) {
   if (claim.least != claim.most)
     return fmt::format("between {} and {}", with_unit(claim.least, unit), with_unit(claim.most, unit));
-  return fmt::format("{} within {}", with_unit(claim.least, unit),
-                     unit == "1" ? fmt::format("{:.3g}", finding.tolerance)
-                                 : fmt::format("{:.3g} {}", finding.tolerance, unit));
+  return fmt::format(
+      "{} within {}", with_unit(claim.least, unit),
+      unit == "1" ? fmt::format("{:.3g}", finding.tolerance) : fmt::format("{:.3g} {}", finding.tolerance, unit));
 }
 
 }  // namespace

@@ -146,9 +146,9 @@ std::string table(const std::string& path, const std::vector<Varied>& rows, cons
 
 std::string verdict(double within, const Furthest& furthest, const std::string& varied) {
   const bool holds = furthest.difference.relative() <= within;
-  std::string text =
-      fmt::format("{} {:g}: `{}` differs by {}{} of its largest magnitude", holds ? "within" : "NOT within",
-                  within, furthest.name, furthest.difference.largest > 0 ? "up to " : "", relative(furthest.difference.relative()));
+  std::string text = fmt::format(
+      "{} {:g}: `{}` differs by {}{} of its largest magnitude", holds ? "within" : "NOT within", within, furthest.name,
+      furthest.difference.largest > 0 ? "up to " : "", relative(furthest.difference.relative()));
   if (furthest.difference.largest > 0) text += fmt::format(", at {:g} s", furthest.difference.time);
   if (!varied.empty()) text += fmt::format(", with {} = {}", varied, furthest.value);
   return text + '\n';

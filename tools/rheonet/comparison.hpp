@@ -20,11 +20,11 @@ struct Course {
 
 /// How far the course of a record is from that of another, SI.
 struct Difference {
-  double largest = 0;  ///< magnitude
-  double time = 0;     ///< when it is that [s]
+  double largest = 0;            ///< magnitude
+  double time = 0;               ///< when it is that [s]
   double first = 0, second = 0;  ///< the two values then
-  double rms = 0;      ///< root of the mean of squares
-  double scale = 0;    ///< largest magnitude of either: what relative differences are relative to
+  double rms = 0;                ///< root of the mean of squares
+  double scale = 0;              ///< largest magnitude of either: what relative differences are relative to
 
   double relative() const { return scale > 0 ? largest / scale : 0; }
   double relative_rms() const { return scale > 0 ? rms / scale : 0; }

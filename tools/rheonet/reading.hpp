@@ -13,8 +13,8 @@ ReadOptions options_of(const Arguments& arguments);
 /// mistake.
 ReadResult read_and_report(const std::string& scene, const ReadOptions& options);
 
-/// Whether a file is one of those that a scene was read from, which must not be overwritten by its results. Says so if it
-/// is; `option` is what names it: "--output".
+/// Whether a file is one of those that a scene was read from, which must not be overwritten by its results. Says so if
+/// it is; `option` is what names it: "--output".
 bool is_source(const std::string& path, const char* option, const Sources& sources);
 
 /// Prints on standard error why a scene that has been read cannot be simulated: with its place in the netlist, if it has one.
