@@ -21,7 +21,8 @@ namespace rheonet {
 ///       double dissipated_power(double p, double dp, double w) const;
 ///     };
 ///
-/// One that creeps also has `steady` and `settle`: see DeflectionBatch.
+/// One whose force goes on beyond a bound until the event there also has `force_reached(p)`, the force within its bounds.
+/// One that creeps also has `steady` and `settle`, one that feels velocities later `delay()` [s]: see DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
@@ -77,6 +78,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
   }
 
   bool creeps(std::size_t) const override { return Law::creeping; }
+  double delay(std::size_t i) const override {
+    if constexpr (requires { laws_[i].delay(); }) return laws_[i].delay();
+    return 0;
+  }
   double start(std::size_t i, double d) override { return laws_[i].start(d); }
   double start_with(std::size_t i, double force) override {
     if constexpr (requires(Law law) { law.start_with(force); }) {
@@ -115,7 +120,11 @@ class DeflectionBatchOf final : public DeflectionBatch {
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     Law law = laws_[i];
     if (step != 0) law.set_direction(p, step, step < 0 ? -1 : 1);
-    const Dual f = law.force(Dual(p + step, 1));
+    const Dual end(p + step, 1);
+    const Dual f = [&] {
+      if constexpr (requires { law.force_reached(end); }) return law.force_reached(end);
+      return law.force(end);
+    }();
     slope = f.derivative;
     return f.value;
   }
