@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/netlist/checks.hpp"
 #include "core/netlist/expand.hpp"
+#include "core/netlist/expect.hpp"
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/include.hpp"
 #include "core/netlist/keys.hpp"
@@ -17,8 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> top_level{"title", "domain", "parameters", "elements",
-                                         "nodes", "models", "include",    "simulate"};
+const std::vector<std::string> top_level{"title", "domain", "parameters", "check",    "elements",
+                                         "nodes", "models", "include",    "simulate", "expect"};
 
 bool is_top_level(const std::string& name) {
   return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
@@ -70,6 +72,7 @@ class Reader {
     read_title_and_domain();
 
     const Environment& environment = parameters_of(document_);
+    if (const TomlEntry* checks = document_.find("check")) evaluate_checks(checks->value, environment, mistakes_);
     const std::size_t before = mistakes_.errors();
     auto included = read_includes(document_, canonical, context_);
     context_.models_missing = mistakes_.errors() > before;
@@ -104,6 +107,9 @@ class Reader {
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // A million default records of a scene that is refused would be for nothing.
     if (record || mistakes_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
+    add_records(options_.records, doubtful, context_, result_.sources, scene_);
+    if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
+      read_claims(expect->value, environment, doubtful, context_, scene_);
   }
 
   void read_title_and_domain() {

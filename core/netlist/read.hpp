@@ -14,7 +14,9 @@ namespace rheonet {
 struct ReadOptions {
   std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
   std::optional<double> accuracy;             ///< as after --accuracy; wins over the file
-  std::vector<std::filesystem::path> model_folders;  ///< folders that `include` falls back on
+  std::vector<std::string> records = {};      ///< paths that are recorded besides those that the file asks for
+  bool claims = true;                         ///< false: `[expect]` is not read
+  std::vector<std::filesystem::path> model_folders = {};  ///< folders that `include` falls back on
 };
 
 struct ReadResult {

@@ -22,7 +22,7 @@ constexpr std::pair<const char*, Channel> channels[] = {{"position", Channel::po
 struct Path {
   std::string object;
   std::string channel;
-  const TomlValue* source;
+  const TomlValue* source;  ///< nullptr: it has no channel
 };
 
 /// What can be recorded of something.
@@ -83,8 +83,7 @@ void refuse(const Path& path, const SceneIndex::Found& found, Context& context, 
       meant.empty() ? "it has " + list_names(known, "and") : "did you mean `" + path.object + "." + meant + "`?");
 }
 
-void record_everything(Context& context, Scene& scene) {
-  (void)context;
+void record_everything(Scene& scene) {
   const auto add = [&](const std::string& name, Subject subject, std::size_t index,
                        std::initializer_list<Channel> wanted) {
     for (const Channel channel : wanted)
@@ -110,43 +109,85 @@ bool is_doubtful(const std::string& path, const std::set<std::string>& doubtful)
 
 }  // namespace
 
+Quantity quantity_of(Channel channel) {
+  switch (channel) {
+    case Channel::position:
+    case Channel::displacement:
+      return Quantity::position;
+    case Channel::velocity:
+      return Quantity::velocity;
+    case Channel::force:
+      break;
+  }
+  return Quantity::force;
+}
+
+std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
+                                                const std::set<std::string>& doubtful, Context& context,
+                                                const Scene& scene) {
+  Mistakes& mistakes = context.mistakes;
+  std::vector<Path> parts;
+  std::vector<std::string> objects;
+  for (const TomlValue& path : paths) {
+    const std::size_t dot = path.text.rfind('.');
+    const bool whole = dot == path.text.npos;
+    if (whole)
+      mistakes.error(path.spot, "`" + path.text + "` does not say which quantity is meant",
+                     "for instance `" + path.text + ".force` of an element, `" + path.text + ".velocity` of a node");
+    parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole ? nullptr : &path});
+    objects.push_back(parts.back().object);
+  }
+  const SceneIndex index(scene, objects);
+  std::vector<std::optional<Record>> records;
+  for (const Path& path : parts) {
+    records.emplace_back();
+    if (!path.source) continue;
+    const auto found = index.find(path.object);
+    if (path.object == "ground")
+      mistakes.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
+    else if (auto record = resolve(path, found))
+      records.back() = std::move(record);
+    else if (found.any() || !is_doubtful(path.object, doubtful))
+      refuse(path, found, context, scene);
+  }
+  return records;
+}
+
 void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
   if (!record) {
-    record_everything(context, scene);
+    record_everything(scene);
     return;
   }
   Mistakes& mistakes = context.mistakes;
   const std::string hint = "record = [\"k1.force\", \"mid.velocity\"]";
   if (!expect_array(record->value, "`record`", mistakes, hint)) return;
-  std::vector<Path> paths;
-  std::vector<std::string> objects;
+  std::vector<TomlValue> paths;
   std::unordered_set<std::string> seen;
   for (const TomlValue& item : record->value.items) {
     if (!expect_string(item, "what to record", mistakes, hint)) continue;
-    const std::size_t dot = item.text.rfind('.');
-    if (dot == item.text.npos) {
-      mistakes.error(item.spot, "`" + item.text + "` does not say which quantity to record",
-                     "for instance `" + item.text + ".force` of an element, `" + item.text + ".velocity` of a node");
-      continue;
-    }
-    if (!seen.insert(item.text).second) {
+    if (seen.insert(item.text).second)
+      paths.push_back(item);
+    else
       mistakes.warning(item.spot, "`" + item.text + "` is recorded already: it has one column");
-      continue;
-    }
-    paths.push_back({item.text.substr(0, dot), item.text.substr(dot + 1), &item});
-    objects.push_back(paths.back().object);
   }
-  const SceneIndex index(scene, objects);
-  for (const Path& path : paths) {
-    const auto found = index.find(path.object);
-    if (path.object == "ground") {
-      mistakes.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
-    } else if (auto resolved = resolve(path, found)) {
-      scene.records.push_back(std::move(*resolved));
-    } else if (found.any() || !is_doubtful(path.object, doubtful)) {
-      refuse(path, found, context, scene);
-    }
+  for (auto& found : find_records(paths, doubtful, context, scene))
+    if (found) scene.records.push_back(std::move(*found));
+}
+
+void add_records(const std::vector<std::string>& paths, const std::set<std::string>& doubtful, Context& context,
+                 Sources& sources, Scene& scene) {
+  std::vector<TomlValue> wanted;
+  for (const std::string& path : paths) {
+    const auto is_recorded = [&path](const Record& record) { return record.path == path; };
+    if (std::any_of(scene.records.begin(), scene.records.end(), is_recorded)) continue;
+    sources.command_line.push_back(path);
+    wanted.emplace_back();
+    wanted.back().kind = TomlValue::Kind::string;
+    wanted.back().spot = {-1, static_cast<int>(sources.command_line.size()), 1};
+    wanted.back().text = path;
   }
+  for (auto& found : find_records(wanted, doubtful, context, scene))
+    if (found) scene.records.push_back(std::move(*found));
 }
 
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/netlist/context.hpp"
 #include "core/netlist/expression.hpp"
@@ -12,6 +14,15 @@ namespace rheonet {
 /// Finds the quantities that `simulate.record` names (`k1.force`), or all there are if it is not given. What begins
 /// with a name in `doubtful` (something is wrong with it) is not reported as unknown.
 void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene);
+
+/// Records that the command line asks for, after those of the file.
+void add_records(const std::vector<std::string>& paths, const std::set<std::string>& doubtful, Context& context,
+                 Sources& sources, Scene& scene);
+
+/// The records of these paths, each a string with its place; absent where that is a mistake.
+std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
+                                                const std::set<std::string>& doubtful, Context& context,
+                                                const Scene& scene);
 
 /// Initial values from `[nodes]`.
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,

@@ -57,6 +57,25 @@ struct Record {
   Channel channel = Channel::position;
 };
 
+/// What a record measures.
+Quantity quantity_of(Record::Channel channel);
+
+/// A claim of `[expect]`: a figure of a record's course through the run, and between which values it should lie.
+struct Claim {
+  enum class Figure { at, final, max, min, mean, rms, crossing };
+  Figure figure = Figure::final;
+  int record = 0;              ///< into Scene::claimed
+  int per = -1;                ///< into Scene::claimed: the figure is divided by the same figure of this record
+  double time = not_given;     ///< s: when, of Figure::at
+  double level = not_given;    ///< that is crossed, in the record's unit
+  double from = 0, to = 0;     ///< s: the part of the run that is looked at
+  double least = 0, most = 0;  ///< claimed, SI; of a crossing its time [s]
+  double within = not_given;   ///< tolerance on both sides; if not given, the accuracy of the run, as a fraction
+  bool fraction = false;       ///< `within` is a fraction: of the largest magnitude that the record has in the run; of
+                               ///< the run's length for a crossing; of the claimed ratio
+  Spot spot;                   ///< of the claimed value
+};
+
 /// A netlist, checked and flattened: every value in SI, every reference resolved; models, series, parallel, repeat gone.
 struct Scene {
   std::string title;
@@ -65,6 +84,9 @@ struct Scene {
   std::vector<SceneElement> elements;    ///< in the order of the file
   std::vector<SceneAssembly> assemblies;
   std::vector<Record> records;           ///< in the order asked for; everything, in the order of the file, if not asked
+
+  std::vector<Record> claimed;  ///< what claims are about, each once
+  std::vector<Claim> claims;    ///< of `[expect]`, in the order of the file
 
   enum class StartFrom {
     given,   ///< the start values of nodes and elements

@@ -219,6 +219,40 @@ Json model_schema() {
   return described(std::move(schema), "a network with ports, used as an element type");
 }
 
+Json check_schema() {
+  const Json that = text("a comparison between parameters: \"speed < critical_speed\"");
+  Json schema = object({{"that", that},
+                        {"warn", text("shown where it does not hold; the run goes on")},
+                        {"error", text("shown where it does not hold; the scene is refused")}});
+  schema["required"] = {"that"};
+  schema["not"] = {{"required", {"warn", "error"}}};
+  return described(named({{"anyOf", {that, std::move(schema)}}}), "what should hold between the parameters");
+}
+
+Json expect_schema() {
+  const Json value = reference("value");
+  const Json claimed = {{"anyOf", {value, {{"type", "array"}, {"items", value}, {"minItems", 2}, {"maxItems", 2}}}}};
+  Json claim = object({{"value", described(claimed, "at the time `at`; one value, or two between which it lies")},
+                       {"final", described(claimed, "at the end of the run")},
+                       {"max", described(claimed, "the largest")},
+                       {"min", described(claimed, "the smallest")},
+                       {"mean", described(claimed, "mean over time")},
+                       {"rms", described(claimed, "root mean square over time")},
+                       {"crosses", described(value, "a value that is crossed, for the first time at the time `at`")},
+                       {"at", described(claimed, "[s]; with `value` and `crosses`")},
+                       {"from", described(value, "[s]; where max, min, mean, rms, crosses look; the start if absent")},
+                       {"to", described(value, "[s]; the end if absent")},
+                       {"per", text("another record: the claim is on the ratio to its figure")},
+                       {"within", described(value,
+                                            "tolerance: with a unit absolute, without one a fraction of the record's "
+                                            "largest magnitude in the run; the run's accuracy if absent")}});
+  claim.update(one_required({"value", "final", "max", "min", "mean", "rms", "crosses"}));
+  claim["dependentRequired"] = {{"value", {"at"}}, {"crosses", {"at"}}};
+  // The last: k1.force without quotes is a table in a table.
+  return described(named({{"anyOf", {claim, list_of(claim, 1), reference("expect")}}}),
+                   "claims on results, by record; checked after a run");
+}
+
 Json simulate_schema() {
   Json output = object({{"every", described(reference("value"), "interval of the rows [s]")},
                         {"points", described(reference("value"), "number of rows, first and last included")},
@@ -259,6 +293,7 @@ std::string json_schema(Declarations declarations) {
   element.update(one_required({"at", "between"}));
   definitions["elements"] = described(named(std::move(element)), "one line, one element: the key is its name");
   definitions["model"] = model_schema();
+  definitions["expect"] = expect_schema();
   const Json node = object({{"position", described(reference("value"), "at the start; 0 if absent")},
                             {"velocity", described(reference("value"), "at the start; 0 if absent")}});
 
@@ -272,10 +307,12 @@ std::string json_schema(Declarations declarations) {
       {"include",
        described(list_of(text("a file with models")), "looked for beside this file and below, then in the library")},
       {"parameters", described(named(reference("value")), "named values, for all expressions")},
+      {"check", check_schema()},
       {"nodes", described(named(node), "initial values that are not 0; nodes exist by being named")},
       {"elements", reference("elements")},
       {"models", named(reference("model"))},
       {"simulate", simulate_schema()},
+      {"expect", reference("expect")},
   }));
   schema["$defs"] = std::move(definitions);
   return schema.dump(2);

@@ -61,12 +61,14 @@ bool is_place(const Record& record) {
 
 std::vector<char> needed_positions(const Network& network) {
   std::vector<char> needed(network.nodes(), 0);
-  for (const Record& record : network.scene->records) {
-    if (!is_place(record) || own_displacement(network, record)) continue;
-    const Ends ends = ends_of(*network.scene, record);
-    for (const NodeId end : {ends.a, ends.b}) {
-      const int node = network.node_of[at(end)];
-      needed[at(node < 0 ? network.pairs[at(-1 - node)].slider_end : node)] = 1;
+  for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
+    for (const Record& record : *records) {
+      if (!is_place(record) || own_displacement(network, record)) continue;
+      const Ends ends = ends_of(*network.scene, record);
+      for (const NodeId end : {ends.a, ends.b}) {
+        const int node = network.node_of[at(end)];
+        needed[at(node < 0 ? network.pairs[at(-1 - node)].slider_end : node)] = 1;
+      }
     }
   }
   // Positions go over sliders that stick, so both ends must be known when they begin to.
@@ -75,7 +77,8 @@ std::vector<char> needed_positions(const Network& network) {
   return needed;
 }
 
-Channels::Channels(const Network& network) : network_(network), scene_(*network.scene), row_(scene_.records.size()) {}
+Channels::Channels(const Network& network, const std::vector<Record>& records)
+    : network_(network), scene_(*network.scene), records_(records), row_(records.size()) {}
 
 void Channels::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
@@ -89,7 +92,7 @@ void Channels::attach(Dae& dae, Consistency& consistency) {
     return floating_node(pair.spring_end) || floating_node(pair.slider_end);
   };
   rates_needed_ = false;
-  for (const Record& record : scene_.records) {
+  for (const Record& record : records_) {
     if (record.channel != Record::Channel::velocity) continue;
     const Ends ends = ends_of(scene_, record);
     rates_needed_ = rates_needed_ || floating(ends.a) || floating(ends.b);
@@ -190,7 +193,7 @@ const std::vector<double>& Channels::read_state(double t, const std::vector<doub
   }
   const Dae::View& view = dae_->view(t, y.data(), rates->data());
   for (std::size_t k = 0; k < row_.size(); ++k) {
-    const Record& record = scene_.records[k];
+    const Record& record = records_[k];
     switch (record.channel) {
       case Record::Channel::position:
       case Record::Channel::displacement:

@@ -8,13 +8,13 @@
 
 namespace rheonet {
 
-/// For each node whether its position is needed to answer the scene's records.
+/// For each node whether its position is needed to answer the scene's records and claims.
 std::vector<char> needed_positions(const Network& network);
 
-/// Takes the records of a scene from states of its DAE.
+/// Takes records of a scene from states of its DAE.
 class Channels {
  public:
-  explicit Channels(const Network& network);
+  Channels(const Network& network, const std::vector<Record>& records);
   /// Goes over to these equations.
   void attach(Dae& dae, Consistency& consistency);
 
@@ -33,6 +33,7 @@ class Channels {
 
   const Network& network_;
   const Scene& scene_;
+  const std::vector<Record>& records_;
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
   bool rates_needed_ = false;  ///< a record needs y' of a floating node

@@ -9,6 +9,7 @@
 
 #include "core/network/network.hpp"
 #include "core/result/channels.hpp"
+#include "core/result/claims.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
 #include "core/solve/simulation.hpp"
@@ -24,7 +25,10 @@ class Recorder final : public Observer {
   Recorder(const Network& network, const RunSettings& settings)
       : scene_(*network.scene),
         length_(scene_.stop - scene_.start),
-        channels_(network),
+        channels_(network, scene_.records),
+        claimed_(network, scene_.claimed),
+        claims_(scene_),
+        row_(settings.row),
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
         tells_(settings.events != nullptr),
@@ -44,6 +48,10 @@ class Recorder final : public Observer {
     energy_.attach(dae, consistency);
     channels_.attach(dae, consistency);
     energy_.begin(t, y, yp, heat);
+    if (claims_.any()) {
+      claimed_.attach(dae, consistency);
+      claims_.begin(t, claimed_.read(t, y, yp));
+    }
     // At an output time its row is also the one after the event.
     bool written = false;
     for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack(); ++next_) {
@@ -69,6 +77,13 @@ class Recorder final : public Observer {
       integrator.interpolate(t, 0, y_);
       integrator.interpolate(t, 1, yp_);
       write(row_time(next_), channels_.read(t, y_, yp_, rate(integrator)));
+    }
+    if (claims_.any()) {
+      claims_.step(integrator.previous_time(), integrator.time(), [&](double t) -> const std::vector<double>& {
+        integrator.interpolate(t, 0, y_);
+        integrator.interpolate(t, 1, yp_);
+        return claimed_.read(t, y_, yp_, rate(integrator));
+      });
     }
     last_ = &integrator;
     if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator));
@@ -109,6 +124,7 @@ class Recorder final : public Observer {
     return result;
   }
   const EnergyAccount& energy() const { return energy_; }
+  std::vector<Finding> findings() const { return claims_.findings(); }
   int unknowns() const { return unknowns_; }
 
  private:
@@ -137,12 +153,15 @@ class Recorder final : public Observer {
                       scene_.records[k].path));
     }
     csv_.row(scene_time(t), values);
+    if (row_) row_(scene_time(t), values);
   }
 
   const Scene& scene_;
   double length_;  ///< of the run [s]
   std::vector<std::string> names_;
-  Channels channels_;
+  Channels channels_, claimed_;
+  Claims claims_;
+  std::function<void(double, const std::vector<double>&)> row_;
   CsvWriter csv_, events_;
   bool tells_;  ///< of events
   EnergyAccount energy_;
@@ -198,6 +217,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   summary.dissipated = recorder.energy().dissipated();
   summary.largest = recorder.energy().largest();
   summary.missing = recorder.energy().missing();
+  summary.findings = recorder.findings();
   summary.notes = network.notes;
   summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

@@ -8,14 +8,17 @@
 
 #include "core/netlist/scene.hpp"
 #include "core/network/error.hpp"
+#include "core/result/claims.hpp"
 
 namespace rheonet {
 
 struct RunSettings {
   std::FILE* csv = nullptr;     ///< receives the rows as they come; nullptr: nowhere
   std::FILE* events = nullptr;  ///< receives what switches, as it does: time, element, event, direction
+  std::function<void(double time, const std::vector<double>& values)> row = {};  ///< is called with each row
   const std::atomic<bool>* interrupt = nullptr;  ///< becomes true when the user wants to stop: the run throws SimulationError
-  std::function<void(double fraction)> progress;  ///< called now and then with the fraction of the run that is done
+  std::function<void(double fraction)> progress =
+      {};  ///< called now and then with the fraction of the run that is done
 };
 
 /// What a run took, and its energy account [J].
@@ -36,6 +39,7 @@ struct Summary {
   double missing = 0;     ///< supplied - stored - dissipated: 0 but for the error of the solution
   double largest = 0;     ///< largest magnitude in the run of any of these and of the energy stored: what `missing` is to
                           ///< be compared with
+  std::vector<Finding> findings;  ///< what has become of each of the scene's claims
   double wall_seconds = 0;
   double cpu_seconds = 0;
   std::vector<std::string> notes;  ///< what was assumed, and what a user should know of the result

@@ -243,7 +243,7 @@ scene.toml:5:39: error: `a` has no `force`
     5 | record = ["k2.force", "k1.torque", "a.force", "k1", "k1.speed", "ground.velocity", "a.velocty", 3]
       |                                       ^
   it has `position` and `velocity`
-scene.toml:5:47: error: `k1` does not say which quantity to record
+scene.toml:5:47: error: `k1` does not say which quantity is meant
     5 | record = ["k2.force", "k1.torque", "a.force", "k1", "k1.speed", "ground.velocity", "a.velocty", 3]
       |                                               ^
   for instance `k1.force` of an element, `k1.velocity` of a node

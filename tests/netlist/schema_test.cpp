@@ -69,7 +69,7 @@ TEST_CASE("the schema is of draft 2020-12 and knows the top-level keys and no ot
   CHECK(schema()["additionalProperties"] == false);
   for (const char* key : {"title", "domain", "include", "parameters", "nodes", "elements", "models", "simulate"})
     CHECK(schema()["properties"].contains(key));
-  CHECK(schema()["properties"].size() == 8);
+  CHECK(schema()["properties"].size() == 10);
   CHECK_FALSE(schema().contains("required"));  // a library has models only
 }
 
@@ -148,4 +148,22 @@ TEST_CASE("a signal is a value or one shape with what that needs") {
   CHECK(table["dependentRequired"]["pulse"] == json::array({"width"}));
   CHECK_FALSE(table["dependentRequired"].contains("step"));
   CHECK(table["additionalProperties"] == false);
+}
+
+TEST_CASE("a check is a comparison, alone or with a message for one of two levels") {
+  const json& alternatives = schema()["properties"]["check"]["additionalProperties"]["anyOf"];
+  CHECK(alternatives[0]["type"] == "string");
+  CHECK(alternatives[1]["required"] == json::array({"that"}));
+  CHECK(alternatives[1]["not"]["required"] == json::array({"warn", "error"}));
+  CHECK(alternatives[1]["additionalProperties"] == false);
+}
+
+TEST_CASE("a claim has one figure, and a time where that needs one; a record has one claim or several") {
+  const json& alternatives = schema()["$defs"]["expect"]["additionalProperties"]["anyOf"];
+  const json& claim = alternatives[0];
+  CHECK(alternatives[1]["items"] == claim);
+  CHECK(claim["oneOf"] == required({"value", "final", "max", "min", "mean", "rms", "crosses"})["oneOf"]);
+  CHECK(claim["dependentRequired"]["crosses"] == json::array({"at"}));
+  CHECK(claim["properties"]["max"]["anyOf"][1]["maxItems"] == 2);
+  CHECK(claim["additionalProperties"] == false);
 }

@@ -1,5 +1,6 @@
-// Every scene that comes with the project runs.
+// Every scene that comes with the project runs, and what it claims holds.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +29,7 @@ std::vector<std::filesystem::path> scenes() {
 
 }  // namespace
 
-TEST_CASE("Every netlist of the project runs") {
+TEST_CASE("Every netlist of the project runs, and its claims hold") {
   REQUIRE_GE(scenes().size(), 9);
   for (const std::filesystem::path& file : scenes()) {
     CAPTURE(file.string());
@@ -42,6 +43,9 @@ TEST_CASE("Every netlist of the project runs") {
     Summary summary;
     CHECK_NOTHROW(summary = run(*read.scene));
     CHECK_GT(summary.steps, 0);
+    for (std::size_t i = 0; i < summary.findings.size(); ++i)
+      CHECK_MESSAGE(summary.findings[i].holds,
+                    fmt::format("line {}: {:.10g}", read.scene->claims[i].spot.line, summary.findings[i].found));
     CHECK_LE(std::abs(summary.missing), 10 * read.scene->accuracy * summary.largest);
   }
 }

@@ -53,19 +53,6 @@ void require_no_ground(const Scene& scene) {
   for (const SceneElement& e : scene.elements) REQUIRE_MESSAGE((e.at || (e.a != ground && e.b != ground)), e.name);
 }
 
-Quantity quantity_of(Record::Channel channel) {
-  switch (channel) {
-    case Record::Channel::velocity:
-      return Quantity::velocity;
-    case Record::Channel::force:
-      return Quantity::force;
-    case Record::Channel::position:
-    case Record::Channel::displacement:
-      break;
-  }
-  return Quantity::position;
-}
-
 void negate_oriented(SceneElement& element) {
   const std::vector<Parameter>& parameters = declared(element).parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {

@@ -7,14 +7,15 @@ using namespace rheonet::test;
 
 TEST_CASE("help and version go to standard output with status 0") {
   const Folder folder;
-  for (const std::string words : {"--help", "-h", "run --help", "check --help", "components --help", "schema --help"}) {
+  for (const std::string words :
+       {"--help", "-h", "run --help", "check --help", "compare --help", "components --help", "schema --help"}) {
     CAPTURE(words);
     const Finished help = folder.shell(std::string("rheonet ") + words);
     CHECK(help.status == 0);
     CHECK(contains(help.out, "Usage: rheonet"));
     CHECK(help.err == "");
   }
-  for (const std::string words : {"run --help", "check --help"}) {
+  for (const std::string words : {"run --help", "check --help", "compare --help"}) {
     CHECK(contains(folder.shell(std::string("rheonet ") + words).out, "Exit status"));
   }
   for (const std::string option : {"--set", "--accuracy", "--output", "--quiet"}) {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/page.hpp"
 #include "tests/support/program.hpp"
 
 using namespace rheonet::test;
@@ -14,27 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const fs::path source(RHEONET_SOURCE_DIR);
-
-struct Block {
-  std::string language;
-  std::string text;
-};
-
-// The fenced blocks of a page, in order.
-std::vector<Block> blocks(const std::string& page) {
-  std::vector<Block> result;
-  std::istringstream lines(page);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("```")) {
-      inside = !inside;
-      if (inside) result.push_back({line.substr(3), ""});
-    } else if (inside) {
-      result.back().text += line + "\n";
-    }
-  }
-  return result;
-}
 
 std::vector<double> numbers(const std::string& csv) {
   std::vector<double> result;
@@ -115,9 +95,9 @@ TEST_CASE("README.md begins with the two commands, and CI runs the second") {
 TEST_CASE("every link of the project's pages leads somewhere") {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   int links = 0;
-  for (const std::string page :
-       {"README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
-        "netlists/library/README.md", "netlists/teaching/README.md", "netlists/thesis/README.md"}) {
+  for (const std::string page : {"README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
+                                 "netlists/library/README.md", "netlists/teaching/README.md",
+                                 "netlists/thesis/README.md", "netlists/thesis/composed-or-combined.md"}) {
     CAPTURE(page);
     const std::string text = text_of(source / page);
     for (std::sregex_iterator i(text.begin(), text.end(), link), end; i != end; ++i, ++links) {

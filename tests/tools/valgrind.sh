@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# valgrind.sh VALGRIND RHEONET: memcheck finds no error and no leak in three scenes, nor where there are mistakes to report.
+# valgrind.sh VALGRIND RHEONET: memcheck finds no error and no leak in a few scenes, nor where there are mistakes to report.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 netlists=$here/../../netlists
@@ -22,6 +22,8 @@ memcheck() {
 for scene in teaching/relaxation thesis/sfm-loops thesis/viscometer; do
   memcheck 0 run "$netlists/$scene.toml" -o "$folder/rows.csv"
 done
+memcheck 0 compare "$netlists/thesis/compare/vfm.toml" "$netlists/thesis/compare/maxwell.toml" -o "$folder/rows.csv"
+memcheck 0 run "$netlists/thesis/compare/bingham-by-nodes.toml" -o "$folder/rows.csv"
 memcheck 0 check -v "$netlists/teaching/creep.toml"
 memcheck 2 check "$netlists/teaching/creep.toml" --set maxwell.stifness=3 --set simulate.stop='"3 kg"'
 echo "no error, no leak"

@@ -29,10 +29,21 @@ constexpr const char* of_run =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
     "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written; 2 the scene or the command line is wrong.";
+    "rows or events could not be written, or a claim of its [expect] fails; 2 the scene or the command line\n"
+    "is wrong.";
 constexpr const char* of_check =
     "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
     "line is wrong.";
+
+constexpr const char* of_compare =
+    "For instance:\n"
+    "  rheonet compare combined.toml wired.toml --pair friction.force=chain.force --within 1e-6\n"
+    "  rheonet compare combined.toml wired.toml --vary parameters.B=\"1 N*s/m:100 N*s/m:9:log\"\n\n"
+    "Without --pair the records that all scenes have under one name are compared. The rows are those of the first\n"
+    "scene, up to the end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with it\n"
+    "-o writes the table instead of the rows.\n\n"
+    "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
+    "the output not be written; 2 a scene or the command line is wrong.";
 
 bool is_override(const std::string& word) {
   const std::size_t equals = word.find('=');
@@ -101,11 +112,11 @@ std::string in_words(const CLI::ParseError& error) {
   return fmt::format("`{}` is given more than once", option);
 }
 
-double read_accuracy(const std::string& text) {
+double read_number(const char* option, const std::string& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) {
-    throw WrongCommandLine{fmt::format("`--accuracy` takes a number such as 1e-6, not `{}`", text), ""};
+    throw WrongCommandLine{fmt::format("`{}` takes a number such as 1e-6, not `{}`", option, text), ""};
   }
   return value;
 }
@@ -122,7 +133,7 @@ ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   Arguments arguments;
-  std::optional<std::string> accuracy;
+  std::optional<std::string> accuracy, within;
 
   CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet");
@@ -137,8 +148,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     command->footer(footer);
     return command;
   };
-  const auto add_scene = [&arguments](CLI::App* command) {
-    command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
+  const auto add_overrides = [&arguments](CLI::App* command) {
     command
         ->add_option("--set", arguments.overrides,
                      "in place of a value of the scene, named by its path; may be repeated")
@@ -147,6 +157,14 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
         ->allow_extra_args(false)
         ->type_name("PATH=VALUE");
   };
+  const auto add_scene = [&](CLI::App* command) {
+    command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
+    add_overrides(command);
+  };
+  const auto add_accuracy = [&](CLI::App* command) {
+    command->add_option("--accuracy", accuracy, "error of each recorded quantity relative to its largest magnitude")
+        ->type_name("E");
+  };
 
   CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", of_run);
   add_scene(run);
@@ -154,13 +172,34 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       ->type_name("FILE");
   run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
       ->type_name("FILE");
-  run->add_option("--accuracy", accuracy, "error of each recorded quantity relative to its largest magnitude")
-      ->type_name("E");
+  add_accuracy(run);
   run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
 
   CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
   add_scene(check);
   check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
+
+  CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
+  compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
+      ->required()
+      ->expected(2, 26)
+      ->option_text("A B [C ...]");
+  add_overrides(compare);
+  add_accuracy(compare);
+  compare
+      ->add_option("--pair", arguments.pairs,
+                   "a record of the first scene, and what the others call it; may be repeated")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->type_name("PATH=PATH");
+  compare->add_option("--vary", arguments.vary, "a value of all scenes, that is to go through a range")
+      ->type_name("PATH=RANGE");
+  compare->add_option("--within", within, "relative difference that is allowed: sets the exit status")->type_name("E");
+  compare
+      ->add_option("-o,--output", arguments.overlay,
+                   "where the rows of all scenes go, side by side; `-` is standard output")
+      ->type_name("FILE");
 
   CLI::App* components = add_command("components", "describe the element types");
   components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
@@ -181,7 +220,10 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       throw WrongCommandLine{in_words(error), ""};
     }
     refuse_extra_words(app);
-    if (accuracy) arguments.accuracy = read_accuracy(*accuracy);
+    if (accuracy) arguments.accuracy = read_number("--accuracy", *accuracy);
+    if (within) arguments.within = read_number("--within", *within);
+    if (within && !(*arguments.within >= 0))
+      throw WrongCommandLine{fmt::format("`--within` must be at least 0, but is {}", *within), ""};
     if (app.get_subcommands().empty())
       throw WrongCommandLine{"no command given", "to simulate a scene: `rheonet run SCENE`"};
   } catch (const WrongCommandLine& mistake) {
@@ -191,6 +233,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   using Command = Arguments::Command;
   const std::map<std::string, Command> commands = {{"run", Command::run},
                                                    {"check", Command::check},
+                                                   {"compare", Command::compare},
                                                    {"components", Command::components},
                                                    {"schema", Command::schema}};
   arguments.command = commands.at(app.get_subcommands().front()->get_name());

@@ -8,14 +8,19 @@
 namespace rheonet::tool {
 
 /// What a process ends with; part of the contract with scripts that call the program.
-enum ExitStatus { done = 0, not_simulated = 1, wrong_input = 2 };
+enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input = 2 };
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, components, schema };
+  enum class Command { run, check, compare, components, schema };
 
   Command command = Command::run;
   std::string scene;
+  std::vector<std::string> scenes;     ///< of `compare`
+  std::vector<std::string> pairs;      ///< PATH=PATH, of `compare`
+  std::string vary;                    ///< PATH=RANGE, of `compare`; "": nothing
+  std::optional<double> within;        ///< of `compare`
+  std::string overlay;                 ///< where the data of `compare` go; "": nowhere
   std::string output = "-";            ///< "-": standard output
   std::string events;                  ///< where the events go; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE

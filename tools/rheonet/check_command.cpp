@@ -97,7 +97,7 @@ void print_network(const Scene& scene) {
 }  // namespace
 
 ExitStatus check_scene(const Arguments& arguments) {
-  const ReadResult read = read_and_report(arguments);
+  const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
   const Scene& scene = *read.scene;
   if (arguments.verbose) print_network(scene);
@@ -112,8 +112,10 @@ ExitStatus check_scene(const Arguments& arguments) {
     report(error, read.sources);
     return not_simulated;
   }
-  fmt::print("{}: no mistake found ({}, {})\n", printable(arguments.scene),
-             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"));
+  const std::string claims = scene.claims.empty() ? "" : ", " + count(scene.claims.size(), "claim", "claims");
+  fmt::print("{}: no mistake found ({}, {}{})\n", printable(arguments.scene),
+             count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"),
+             claims);
   return done;
 }
 

@@ -10,6 +10,9 @@ ExitStatus run_scene(const Arguments& arguments);
 /// `rheonet check`: reads, and finds out what can be known without simulating.
 ExitStatus check_scene(const Arguments& arguments);
 
+/// `rheonet compare`: runs several scenes and says how far they are from the first.
+ExitStatus compare_scenes(const Arguments& arguments);
+
 /// `rheonet components`: prints the reference.
 ExitStatus print_components(const Arguments& arguments);
 

@@ -22,6 +22,8 @@ ExitStatus carry_out(const Arguments& arguments) {
       return run_scene(arguments);
     case Command::check:
       return check_scene(arguments);
+    case Command::compare:
+      return compare_scenes(arguments);
     case Command::components:
       return print_components(arguments);
     case Command::schema:

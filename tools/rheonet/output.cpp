@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
+#include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
 
@@ -72,6 +73,15 @@ int Output::close() {
     if (created_ && !touched_) ::unlink(path_.c_str());
   }
   return error_;
+}
+
+std::unique_ptr<Output> open_output(const std::string& path) {
+  try {
+    return std::make_unique<Output>(path);
+  } catch (const std::system_error& error) {
+    say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
+    return nullptr;
+  }
 }
 
 }  // namespace rheonet::tool

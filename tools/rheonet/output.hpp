@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <memory>
 #include <string>
 
 namespace rheonet::tool {
@@ -36,5 +37,8 @@ class Output {
   bool created_ = false;
   bool touched_ = false;
 };
+
+/// Opens it; nullptr, and an error message, if that is not possible.
+std::unique_ptr<Output> open_output(const std::string& path);
 
 }  // namespace rheonet::tool

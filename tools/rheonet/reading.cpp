@@ -1,15 +1,21 @@
 #include "tools/rheonet/reading.hpp"
 
+#include <filesystem>
+#include <system_error>
+
+#include "core/netlist/characters.hpp"
 #include "core/network/component.hpp"
 #include "tools/rheonet/library.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
 
-ReadResult read_and_report(const Arguments& arguments) {
-  ReadResult result =
-      read_scene(arguments.scene, declarations(),
-                 {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()});
+ReadOptions options_of(const Arguments& arguments) {
+  return {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()};
+}
+
+ReadResult read_and_report(const std::string& scene, const ReadOptions& options) {
+  ReadResult result = read_scene(scene, declarations(), options);
   int errors = 0;
   for (const Diagnostic& diagnostic : result.diagnostics) {
     std::string text = format(diagnostic, result.sources);
@@ -19,6 +25,16 @@ ReadResult read_and_report(const Arguments& arguments) {
   }
   if (errors > 1) say("{} errors\n", errors);
   return result;
+}
+
+bool is_source(const std::string& path, const char* option, const Sources& sources) {
+  std::error_code error;
+  for (const Sources::File& file : sources.files) {
+    if (path == "-" || !std::filesystem::equivalent(path, file.path, error)) continue;
+    say("error: `{} {}` would overwrite the scene itself\n", option, printable(path));
+    return true;
+  }
+  return false;
 }
 
 void report(const SimulationError& error, const Sources& sources) {

@@ -6,9 +6,16 @@
 
 namespace rheonet::tool {
 
-/// Reads the scene that the command line names and prints every mistake and warning on standard error. Without a scene
-/// in the result there was a mistake.
-ReadResult read_and_report(const Arguments& arguments);
+/// How the command line says that a scene is to be read.
+ReadOptions options_of(const Arguments& arguments);
+
+/// Reads a scene and prints every mistake and warning on standard error. Without a scene in the result there was a
+/// mistake.
+ReadResult read_and_report(const std::string& scene, const ReadOptions& options);
+
+/// Whether a file is one of those that a scene was read from, which must not be overwritten by its results. Says so if
+/// it is; `option` is what names it: "--output".
+bool is_source(const std::string& path, const char* option, const Sources& sources);
 
 /// Prints on standard error why a scene that has been read cannot be simulated: with its place in the netlist, if it has one.
 void report(const SimulationError& error, const Sources& sources);

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
-#include <utility>
 
 #include "core/netlist/characters.hpp"
 #include "core/result/run.hpp"
+#include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/progress.hpp"
@@ -33,24 +33,6 @@ void stop_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
   // A reader that goes away is then an error of write, with a message, instead of a silent death.
   std::signal(SIGPIPE, SIG_IGN);
-}
-
-// What the scene was read from must not be overwritten by its results.
-bool is_source(const std::string& path, const Sources& sources) {
-  std::error_code error;
-  for (const Sources::File& file : sources.files) {
-    if (fs::equivalent(path, file.path, error)) return true;
-  }
-  return false;
-}
-
-std::unique_ptr<Output> open_output(const std::string& path) {
-  try {
-    return std::make_unique<Output>(path);
-  } catch (const std::system_error& error) {
-    say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
-    return nullptr;
-  }
 }
 
 // Two streams into one file would overwrite each other.
@@ -85,14 +67,10 @@ struct Outputs {
 }  // namespace
 
 ExitStatus run_scene(const Arguments& arguments) {
-  const ReadResult read = read_and_report(arguments);
+  const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
-  for (const auto& [option, path] : {std::pair{"output", arguments.output}, std::pair{"events", arguments.events}}) {
-    if (path != "-" && is_source(path, read.sources)) {
-      say("error: `--{} {}` would overwrite the scene itself\n", option, printable(path));
-      return wrong_input;
-    }
-  }
+  if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources))
+    return wrong_input;
 
   stop_on_signals();
   Outputs outputs;
@@ -121,7 +99,7 @@ ExitStatus run_scene(const Arguments& arguments) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
     }
-    return done;
+    return report_claims(*read.scene, summary, read.sources, arguments.quiet) ? done : not_as_claimed;
   } catch (const SimulationError& error) {
     progress.erase();
     const bool closed = outputs.close();

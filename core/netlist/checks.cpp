@@ -1,0 +1,121 @@
+#include "core/netlist/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/netlist/characters.hpp"
+#include "core/netlist/keys.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+namespace {
+
+const char* const example = "laminar = { that = \"speed < critical_speed\", warn = \"the flow would be turbulent\" }";
+
+/// Where the comparisons of an expression stand.
+struct Comparisons {
+  bool any = false;
+  std::size_t chained = std::string_view::npos;  ///< the second operator of `a < b < c`
+};
+
+Comparisons comparisons_of(std::string_view text) {
+  Comparisons found;
+  std::vector<bool> compared{false};  // at each depth of parentheses, since the last && || ? : ,
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '(') {
+      compared.push_back(false);
+    } else if (c == ')' && compared.size() > 1) {
+      compared.pop_back();
+    } else if (std::string_view("&|?:,").find(c) != std::string_view::npos) {
+      compared.back() = false;
+    } else if (std::string_view("<>=!").find(c) != std::string_view::npos) {
+      if (compared.back() && found.chained == std::string_view::npos) found.chained = i;
+      compared.back() = found.any = true;
+      if (i + 1 < text.size() && text[i + 1] == '=') ++i;
+    }
+  }
+  return found;
+}
+
+/// What is wrong with the dimensions of a comparison that does not hold: a value of 0 shows none.
+std::optional<TextError> mismatch(std::string_view text, const Environment& environment) {
+  const auto opposite = evaluate_expression(fmt::format("({}) == 0", text), environment);
+  const auto* wrong = std::get_if<TextError>(&opposite);
+  if (!wrong) return {};
+  return TextError{wrong->offset - std::min<std::size_t>(wrong->offset, 1), wrong->message, wrong->hint};
+}
+
+std::string values_of(const Formula& formula, const Environment& environment) {
+  std::string list;
+  for (const std::string& name : formula.identifiers()) {
+    const Number* number = environment.find(name);
+    if (!number) continue;
+    const std::string unit = number->dimension.is_number() ? "" : ' ' + to_string(number->dimension);
+    list += fmt::format("{}{} = {:.6g}{}", list.empty() ? "" : ", ", name, number->value, unit);
+  }
+  return list;
+}
+
+void evaluate_check(const std::string& name, const TomlValue& that, Severity severity, const std::string& message,
+                    const Environment& environment, Mistakes& mistakes) {
+  const std::string what = "check `" + name + "`";
+  if (!expect_string(that, what, mistakes, example)) return;
+  const Comparisons comparisons = comparisons_of(that.text);
+  if (comparisons.chained != std::string_view::npos) {
+    const auto before = std::string_view(that.text).substr(0, comparisons.chained);
+    mistakes.error(mistakes.inside(that, count_characters(before)), what + ": a comparison has two sides",
+                   "two of them are joined with `&&`: \"0 < a && a < b\"");
+    return;
+  }
+  const Formula formula(that, what, mistakes);
+  const auto holds = formula.evaluate(environment, mistakes);
+  if (!holds) return;
+  if (!comparisons.any || !holds->dimension.is_number() || (holds->value != 0 && holds->value != 1)) {
+    mistakes.error(that.spot, what + " must be a comparison, but is " + describe(that), example);
+    return;
+  }
+  if (holds->value == 1) return;
+  if (const auto wrong = mismatch(that.text, environment)) {
+    mistakes.error(mistakes.inside(that, wrong->offset), what + ": " + wrong->message, wrong->hint);
+    return;
+  }
+  std::string hint = "`" + that.text + "` does not hold";
+  if (const std::string values = values_of(formula, environment); !values.empty()) hint += ": " + values;
+  const std::string text = what + (message.empty() ? " fails" : ": " + message);
+  severity == Severity::error ? mistakes.error(that.spot, text, hint) : mistakes.warning(that.spot, text, hint);
+}
+
+}  // namespace
+
+void evaluate_checks(const TomlValue& checks, const Environment& environment, Mistakes& mistakes) {
+  if (!expect_table(checks, "`check`", mistakes, example)) return;
+  for (const TomlEntry& entry : checks.entries) {
+    if (!entry.value.is_table()) {
+      evaluate_check(entry.key, entry.value, Severity::warning, "", environment, mistakes);
+      continue;
+    }
+    Keys keys(entry.value, "check `" + entry.key + "`");
+    const TomlEntry* that = keys.require("that", entry.spot, example);
+    const TomlEntry* warn = keys.find("warn");
+    const TomlEntry* error = keys.find("error");
+    keys.finish(mistakes);
+    if (warn && error) {
+      mistakes.error(error->spot, "check `" + entry.key + "` has both `warn` and `error`",
+                     "only one of them can be given: a run goes on after a warning");
+      continue;
+    }
+    const TomlEntry* message = warn ? warn : error;
+    if (message && !expect_string(message->value, "`" + message->key + "`", mistakes,
+                                  "it is the text that is shown where the comparison does not hold"))
+      continue;
+    if (that)
+      evaluate_check(entry.key, that->value, error ? Severity::error : Severity::warning,
+                     message ? message->value.text : "", environment, mistakes);
+  }
+}
+
+}  // namespace rheonet

@@ -1,0 +1,252 @@
+#include "core/netlist/expect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/netlist/keys.hpp"
+#include "core/netlist/records.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+namespace {
+
+using Figure = Claim::Figure;
+
+const char* const example = "\"k1.force\" = { at = \"0.2 s\", value = \"2 N\", within = 1e-6 }";
+
+constexpr std::pair<const char*, Figure> figures[] = {
+    {"value", Figure::at},  {"final", Figure::final}, {"max", Figure::max},         {"min", Figure::min},
+    {"mean", Figure::mean}, {"rms", Figure::rms},     {"crosses", Figure::crossing}};
+
+/// One entry of `[expect]`: a path, and its claims.
+struct Subject {
+  TomlValue path;  ///< a string
+  const TomlValue* claims;
+};
+
+bool holds_tables(const TomlValue& value) {
+  return value.is_table() || (value.is_array() && !value.items.empty() && value.items.front().is_table());
+}
+
+/// `k1.force = { ... }` without quotes is a table `k1` with a table `force` to TOML: it means the same.
+void gather(const TomlValue& table, const std::string& before, const Spot* begin, std::vector<Subject>& subjects) {
+  for (const TomlEntry& entry : table.entries) {
+    const Spot& spot = begin ? *begin : entry.spot;
+    const auto& inner = entry.value.entries;
+    if (!inner.empty() &&
+        std::all_of(inner.begin(), inner.end(), [](const auto& e) { return holds_tables(e.value); })) {
+      gather(entry.value, before + entry.key + '.', &spot, subjects);
+    } else {
+      TomlValue path;
+      path.kind = TomlValue::Kind::string;
+      path.spot = spot;
+      path.text = before + entry.key;
+      subjects.push_back({std::move(path), &entry.value});
+    }
+  }
+}
+
+class ClaimReader {
+ public:
+  ClaimReader(const Environment& environment, Context& context, const Scene& scene)
+      : environment_(environment), context_(context), mistakes_(context.mistakes), scene_(scene) {}
+
+  /// A claim on `record`; `other` is the one that it is divided by. Absent if something is wrong with it.
+  std::optional<Claim> read(const TomlValue& source, const Record& record, const Record* other) {
+    const std::size_t before = mistakes_.errors();
+    Claim claim;
+    const std::string what = "a claim on `" + record.path + "`";
+    Keys keys(source, what);
+    const TomlEntry* figure = nullptr;
+    for (const auto& [key, meant] : figures) {
+      const TomlEntry* entry = keys.find(key);
+      if (!entry) continue;
+      if (figure) {
+        mistakes_.error(entry->spot, what + " has both `" + figure->key + "` and `" + key + "`",
+                        "several claims on a record stand in brackets: [{ max = ... }, { min = ... }]");
+        return {};
+      }
+      figure = entry;
+      claim.figure = meant;
+    }
+    const TomlEntry* at = keys.find("at");
+    const TomlEntry* from = keys.find("from");
+    const TomlEntry* to = keys.find("to");
+    const TomlEntry* within = keys.find("within");
+    keys.find("per");
+    keys.finish(mistakes_);
+    if (mistakes_.errors() > before) return {};
+    if (!figure) {
+      mistakes_.error(source.spot, what + " needs `value`, `final`, `max`, `min`, `mean`, `rms` or `crosses`", example);
+      return {};
+    }
+    claim.spot = figure->value.spot;
+    const bool crossing = claim.figure == Figure::crossing;
+    dimension_ = dimension_of(quantity_of(record.channel), context_.domain);
+    if (other) dimension_ = dimension_ / dimension_of(quantity_of(other->channel), context_.domain);
+    read_times(claim, *figure, at, from, to);
+    if (crossing) {
+      if (other) mistakes_.error(claim.spot, "a ratio has no `crosses`", "leave out `per`");
+      claim.level = value(figure->value, "`crosses`");
+      dimension_ = dimension_of(Quantity::time, context_.domain);
+    }
+    const TomlEntry* claimed = crossing ? at : figure;
+    if (claimed) read_claimed(claim, *claimed, within);
+    if (crossing) check_in_run(claimed, claim.least);
+    if (mistakes_.errors() > before) return {};
+    return claim;
+  }
+
+ private:
+  void read_times(Claim& claim, const TomlEntry& figure, const TomlEntry* at, const TomlEntry* from,
+                  const TomlEntry* to) {
+    const bool crossing = claim.figure == Figure::crossing;
+    const bool instant = claim.figure == Figure::at || claim.figure == Figure::final;
+    if (claim.figure == Figure::at || crossing) {
+      if (!at) mistakes_.error(figure.spot, "`" + figure.key + "` needs `at`, a time", example);
+    } else if (at) {
+      mistakes_.error(at->spot, "`at` goes with `value` or `crosses`, not with `" + figure.key + "`",
+                      instant ? "`final` is the value at the end" : "`from` and `to` say where to look");
+    }
+    if (claim.figure == Figure::at && at) claim.time = time(at);
+    claim.from = from ? time(from) : scene_.start;
+    claim.to = to ? time(to) : scene_.stop;
+    for (const TomlEntry* window : {from, to})
+      if (window && instant)
+        mistakes_.error(window->spot, "`" + window->key + "` does not go with `" + figure.key + "`",
+                        "it goes with `max`, `min`, `mean`, `rms` and `crosses`");
+    if (claim.from >= claim.to && !instant)
+      mistakes_.error((to ? to : from)->value.spot, "`to` must be later than `from`, " + number_text(claim.from) +
+                                                        " s, but is " + number_text(claim.to) + " s");
+  }
+
+  double time(const TomlEntry* entry) {
+    const Formula formula(entry->value, "`" + entry->key + "`", mistakes_);
+    if (!formula.given()) return not_given;
+    const auto t = formula.evaluate_finite(environment_, Quantity::time, context_.domain, mistakes_);
+    check_in_run(entry, t.value_or(not_given));
+    return t.value_or(not_given);
+  }
+
+  void check_in_run(const TomlEntry* entry, double t) {
+    if (entry && (t < scene_.start || t > scene_.stop))
+      mistakes_.error(entry->value.spot,
+                      fmt::format("`{}` must be within the run, {} s to {} s, but is {} s", entry->key,
+                                  number_text(scene_.start), number_text(scene_.stop), number_text(t)));
+  }
+
+  /// One value, with a tolerance; or two, between which it lies.
+  void read_claimed(Claim& claim, const TomlEntry& entry, const TomlEntry* within) {
+    const std::string name = "`" + entry.key + "`";
+    if (!entry.value.is_array()) {
+      claim.least = claim.most = value(entry.value, name);
+      if (within) read_within(claim, *within);
+      return;
+    }
+    if (entry.value.items.size() != 2) {
+      mistakes_.error(entry.value.spot, name + " must be one value, or two in brackets between which it lies",
+                      entry.key + " = [\"1.9 N\", \"2.1 N\"]");
+      return;
+    }
+    claim.least = value(entry.value.items[0], name);
+    claim.most = value(entry.value.items[1], name);
+    claim.within = 0;
+    if (claim.least > claim.most) mistakes_.error(entry.value.spot, name + " must name the lesser of two values first");
+    if (within) mistakes_.error(within->spot, "`within` does not go with two values, which say how far it may be");
+  }
+
+  void read_within(Claim& claim, const TomlEntry& within) {
+    const Formula formula(within.value, "`within`", mistakes_);
+    if (!formula.given()) return;
+    const auto number = formula.evaluate(environment_, mistakes_);
+    if (!number) return;
+    claim.fraction = number->plain;
+    claim.within = number->plain ? number->value : value(within.value, "`within`");
+    if (claim.within < 0 || std::isinf(claim.within))
+      mistakes_.error(within.value.spot, "`within` must be at least 0 and finite, but is " + number_text(claim.within));
+  }
+
+  /// In SI, of the dimension of what is claimed.
+  double value(const TomlValue& source, const std::string& name) {
+    const Formula formula(source, name, mistakes_);
+    if (!formula.given()) return not_given;
+    const auto number = formula.evaluate(environment_, mistakes_);
+    if (!number) return not_given;
+    if (!number->plain && !number->dimension.same(dimension_)) {
+      mistakes_.error(source.spot, fmt::format("{}: expected {}, found {}", name, describe(dimension_),
+                                               describe(number->dimension, number->radian)));
+      return not_given;
+    }
+    if (std::isfinite(number->value)) return number->value;
+    mistakes_.error(source.spot, name + " must be finite, but is infinite");
+    return not_given;
+  }
+
+  const Environment& environment_;
+  Context& context_;
+  Mistakes& mistakes_;
+  const Scene& scene_;
+  Dimension dimension_;  ///< of what is claimed
+};
+
+/// Index into Scene::claimed, where each record stands once.
+int index_of(const Record& record, Scene& scene) {
+  auto& claimed = scene.claimed;
+  const auto known =
+      std::find_if(claimed.begin(), claimed.end(), [&](const Record& other) { return other.path == record.path; });
+  if (known == claimed.end()) {
+    claimed.push_back(record);
+    return static_cast<int>(claimed.size()) - 1;
+  }
+  return static_cast<int>(known - claimed.begin());
+}
+
+}  // namespace
+
+void read_claims(const TomlValue& expect, const Environment& environment, const std::set<std::string>& doubtful,
+                 Context& context, Scene& scene) {
+  Mistakes& mistakes = context.mistakes;
+  if (!expect_table(expect, "`expect`", mistakes, example)) return;
+  std::vector<Subject> subjects;
+  gather(expect, "", nullptr, subjects);
+
+  // All paths first: a scene of millions is gone through once.
+  std::vector<TomlValue> paths;
+  std::vector<std::pair<const TomlValue*, std::size_t>> claims;  // each with the index of its record's path
+  for (const Subject& subject : subjects) {
+    paths.push_back(subject.path);
+    const bool several = subject.claims->is_array();
+    if (several && subject.claims->items.empty())
+      mistakes.error(subject.claims->spot, "there is no claim on `" + subject.path.text + "`", example);
+    for (std::size_t i = 0; i < (several ? subject.claims->items.size() : 1); ++i) {
+      const TomlValue& claim = several ? subject.claims->items[i] : *subject.claims;
+      if (expect_table(claim, "a claim on `" + subject.path.text + "`", mistakes, example))
+        claims.emplace_back(&claim, paths.size() - 1);
+    }
+  }
+  std::vector<std::size_t> divisors;
+  for (const auto& [claim, record] : claims) {
+    const TomlEntry* per = claim->find("per");
+    divisors.push_back(per && expect_string(per->value, "`per`", mistakes, "per = \"c1.force\"") ? paths.size() : 0);
+    if (divisors.back()) paths.push_back(per->value);
+  }
+
+  const auto records = find_records(paths, doubtful, context, scene);
+  ClaimReader reader(environment, context, scene);
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    const auto& record = records[claims[i].second];
+    const auto& other = records[divisors[i]];
+    if (!record || (divisors[i] && !other)) continue;
+    auto claim = reader.read(*claims[i].first, *record, divisors[i] ? &*other : nullptr);
+    if (!claim) continue;
+    claim->record = index_of(*record, scene);
+    if (divisors[i]) claim->per = index_of(*other, scene);
+    scene.claims.push_back(*claim);
+  }
+}
+
+}  // namespace rheonet

@@ -1,0 +1,118 @@
+// Claims on results against closed forms: figures do not depend on where the rows are.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/netlist/read.hpp"
+#include "core/network/component.hpp"
+#include "core/result/run.hpp"
+
+using namespace rheonet;
+
+namespace {
+
+std::vector<Finding> findings(const std::string& toml) {
+  const ReadResult read = read_scene_text(toml, "scene.toml", {}, declarations());
+  for (const Diagnostic& diagnostic : read.diagnostics) FAIL_CHECK(format(diagnostic, read.sources));
+  REQUIRE(read.scene);
+  return run(*read.scene).findings;
+}
+
+void check_all_hold(const std::string& toml) {
+  const auto all = findings(toml);
+  CHECK_GT(all.size(), 0);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    CHECK_MESSAGE(all[i].holds, fmt::format("claim {}: {:.12g}, tolerance {:.3g}", i, all[i].found, all[i].tolerance));
+}
+
+}  // namespace
+
+TEST_CASE("Claims: a sine, prescribed, in rows too few to show it") {
+  // 3 sin(2 pi 0.7 t + 0.4) from 0.2 s to 2.9 s
+  const auto x = [](double t) { return 3 * std::sin(2 * std::numbers::pi * 0.7 * t + 0.4); };
+  const auto crossed = [](double level, int period) {
+    return (std::numbers::pi * (2 * period + 1) - std::asin(level / 3) - 0.4) / (2 * std::numbers::pi * 0.7);
+  };
+  const double w = 2 * std::numbers::pi * 0.7;
+  const double mean = 3 / w * (std::cos(w * 0.5 + 0.4) - std::cos(w * 2.1 + 0.4)) / 1.6;
+  const double squares =
+      9.0 / 2 * (1 - (std::sin(2 * (w * 2.1 + 0.4)) - std::sin(2 * (w * 0.5 + 0.4))) / (2 * w) / 1.6);
+  for (const int points : {28, 400}) {
+    CAPTURE(points);
+    check_all_hold(fmt::format(R"(
+[elements]
+drive = {{ type = "motion", at = "a", position = {{ sine = 3, frequency = 0.7, phase = 0.4 }} }}
+k = {{ type = "spring", between = ["a", "ground"], stiffness = 2 }}
+[simulate]
+start = 0.2
+stop = 2.9
+accuracy = 1e-7
+output = {{ points = {} }}
+[expect]
+"a.position" = [
+  {{ at = 1.2345, value = {:.15g} }}, {{ at = 0.2, value = {:.15g} }}, {{ final = {:.15g} }}, {{ at = 2.9, value = {:.15g} }},
+  {{ max = 3, within = {} }}, {{ min = -3, within = {} }}, {{ mean = {:.15g}, from = 0.5, to = 2.1 }},
+  {{ rms = {:.15g}, from = 0.5, to = 2.1, within = 1e-5 }}, {{ crosses = 1.1, at = {:.15g} }},
+  {{ crosses = 1.1, at = {:.15g}, from = 1.7 }},
+]
+"k.force" = {{ rms = 2, per = "a.position" }}
+)",
+                               points, x(1.2345), x(0.2), x(2.9), x(2.9), points < 100 ? 1e-4 : 1e-7,
+                               points < 100 ? 1e-4 : 1e-7, mean, std::sqrt(squares), crossed(1.1, 0), crossed(1.1, 1)));
+  }
+}
+
+TEST_CASE("Claims: jumps count on both sides, and cross a level in no time") {
+  check_all_hold(R"(
+[elements]
+hand = { type = "motion", at = "grip", position = { step = 2, time = 1.0 } }
+k1 = { type = "spring", between = ["grip", "mid"], stiffness = 3 }
+c1 = { type = "dashpot", between = ["mid", "ground"], damping = 1.5 }
+[simulate]
+stop = 2
+output = { points = 7 }
+[expect]
+"k1.force" = [
+  { max = 6 }, { at = 1, value = 6 }, { at = 0.999999, value = 0 }, { crosses = 5, at = 1, within = "1 ns" },
+  { min = 0.81201169941967606, from = 1 }, { max = 0, to = 0.99 }, { mean = 2.593994, from = 1, within = "1 uN" },
+  { crosses = 3, from = 1, at = 1.3465735902799727 },
+]
+"grip.position" = { mean = 1, within = 1e-12 }
+)");
+}
+
+TEST_CASE("Claims: what is not so fails, by as little as the tolerance says, and does on both sides") {
+  const auto claim = [](const std::string& text) {
+    return findings(R"([elements]
+drive = { type = "motion", at = "a", velocity = 2 }
+c = { type = "dashpot", between = ["a", "ground"], damping = 1 }
+[simulate]
+stop = 1
+[expect]
+"a.position" = )" + text +
+                    "\n")
+        .at(0);
+  };
+  for (const auto& [text, holds] : std::initializer_list<std::pair<const char*, bool>>{
+           {"{ final = 2.0101, within = \"0.01 m\" }", false},
+           {"{ final = 2.0099, within = \"0.01 m\" }", true},
+           {"{ final = 1.9901, within = \"0.01 m\" }", true},
+           {"{ final = 1.9899, within = \"0.01 m\" }", false},
+           {"{ final = 2.0101, within = 0.005 }", false},
+           {"{ final = 2.0099, within = 0.005 }", true},
+           {"{ max = [1.99, 2.01] }", true},
+           {"{ max = [2.01, 2.02] }", false},
+           {"{ max = [1.98, 1.99] }", false},
+           {"{ crosses = 1, at = 0.5009, within = 0.001 }", true},
+           {"{ crosses = 1, at = 0.5011, within = 0.001 }", false},
+           {"{ crosses = 3, at = 0.5 }", false},
+           {"{ crosses = 0, at = 0 }", false},
+           {"{ mean = 0.5005, per = \"c.velocity\", within = 2e-3 }", true},
+           {"{ mean = 0.5005, per = \"c.velocity\", within = 0.5e-3 }", false}}) {
+    CAPTURE(text);
+    const Finding finding = claim(text);
+    CHECK_MESSAGE(finding.holds == holds, finding.found);
+  }
+}

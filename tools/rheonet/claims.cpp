@@ -1,0 +1,100 @@
+#include "tools/rheonet/claims.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+using Figure = Claim::Figure;
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.10g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+}
+
+const Record& record_of(const Scene& scene, int index) { return scene.claimed[static_cast<std::size_t>(index)]; }
+
+std::string unit_of(const Record& record, const Scene& scene) {
+  return rheonet::unit_of(quantity_of(record.channel), scene.domain);
+}
+
+/// Of what is claimed.
+std::string unit_of(const Claim& claim, const Scene& scene) {
+  if (claim.figure == Figure::crossing) return "s";
+  const Record& record = record_of(scene, claim.record);
+  if (claim.per < 0) return unit_of(record, scene);
+  const Dimension dimension = dimension_of(quantity_of(record.channel), scene.domain) /
+                              dimension_of(quantity_of(record_of(scene, claim.per).channel), scene.domain);
+  // A damping as N*s/m, not as kg/s.
+  for (const Quantity known : {Quantity::number, Quantity::stiffness, Quantity::damping, Quantity::time})
+    if (dimension.same(dimension_of(known, scene.domain))) return rheonet::unit_of(known, scene.domain);
+  return to_string(dimension);
+}
+
+/// "k1.force at 0.2 s", "largest k1.force from 1 s to 2 s".
+std::string name_of(const Claim& claim, const Scene& scene) {
+  const Record& record = record_of(scene, claim.record);
+  std::string path = record.path;
+  if (claim.per >= 0) path += " / " + record_of(scene, claim.per).path;
+  std::string window;
+  if (claim.from != scene.start) window += fmt::format(" from {:g} s", claim.from);
+  if (claim.to != scene.stop) window += fmt::format(" to {:g} s", claim.to);
+  switch (claim.figure) {
+    case Figure::at:
+      return fmt::format("{} at {:g} s", path, claim.time);
+    case Figure::final:
+      return path + " at the end";
+    case Figure::max:
+      return "largest " + path + window;
+    case Figure::min:
+      return "smallest " + path + window;
+    case Figure::mean:
+      return "mean of " + path + window;
+    case Figure::rms:
+      return "root mean square of " + path + window;
+    case Figure::crossing:
+      break;
+  }
+  return fmt::format("time at which {} crosses {}{}", path, with_unit(claim.level, unit_of(record, scene)), window);
+}
+
+std::string claimed_of(const Claim& claim, const Finding& finding, const std::string& unit) {
+  if (claim.least != claim.most)
+    return fmt::format("between {} and {}", with_unit(claim.least, unit), with_unit(claim.most, unit));
+  return fmt::format(
+      "{} within {}", with_unit(claim.least, unit),
+      unit == "1" ? fmt::format("{:.3g}", finding.tolerance) : fmt::format("{:.3g} {}", finding.tolerance, unit));
+}
+
+}  // namespace
+
+bool report_claims(const Scene& scene, const Summary& summary, const Sources& sources, bool quiet) {
+  bool all_hold = true;
+  for (std::size_t i = 0; i < scene.claims.size(); ++i) {
+    const Claim& claim = scene.claims[i];
+    const Finding& finding = summary.findings[i];
+    const std::string unit = unit_of(claim, scene);
+    const std::string name = name_of(claim, scene), claimed = claimed_of(claim, finding, unit);
+    if (finding.holds) {
+      if (!quiet) say("  holds: {} is {}, claimed {}\n", name, with_unit(finding.found, unit), claimed);
+      continue;
+    }
+    all_hold = false;
+    std::string message = fmt::format("the claim fails: {} ", name);
+    if (std::isnan(finding.found)) {
+      message += fmt::format("{}, claimed {}", claim.per < 0 ? "never comes" : "is no number", claimed);
+    } else {
+      const double off = std::max(claim.least - finding.found, finding.found - claim.most);
+      message += fmt::format("is {}, claimed {}: it is off by {:.3g}{}{}", with_unit(finding.found, unit), claimed, off,
+                             unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+    }
+    say("{}\n", format({.severity = Severity::error, .spot = claim.spot, .message = message, .hint = {}}, sources));
+  }
+  return all_hold;
+}
+
+}  // namespace rheonet::tool

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "core/netlist/characters.hpp"
+#include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/compare_report.hpp"
+#include "tools/rheonet/output.hpp"
+#include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/say.hpp"
+#include "tools/rheonet/variation.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+/// Ends the command: what there is to say has been said.
+struct Ended {
+  ExitStatus status;
+};
+
+/// `--pair a=b`: of the first scene a, of every other b; `a=b=c`: one for each.
+std::vector<Pairing> named_pairs(const Arguments& arguments) {
+  std::vector<Pairing> pairings;
+  for (const std::string& text : arguments.pairs) {
+    Pairing paths;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find('=', begin), text.size());
+      paths.push_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    if (paths.size() == 2) paths.resize(arguments.scenes.size(), paths.back());
+    if (paths.size() != arguments.scenes.size()) {
+      say("error: `--pair {}` names {} records for {} scenes\n  --pair k1.force=m.spring1.force\n", printable(text),
+          paths.size(), arguments.scenes.size());
+      throw Ended{wrong_input};
+    }
+    pairings.push_back(std::move(paths));
+  }
+  return pairings;
+}
+
+std::string some_records(const Scene& scene) {
+  constexpr std::size_t few = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(few, scene.records.size()); ++i)
+    text += (i ? ", `" : "`") + scene.records[i].path + "`";
+  return text + (scene.records.size() > few ? ", ..." : "");
+}
+
+/// Reads the scenes, with one more override ("" for none).
+Compared read_all(const Arguments& arguments, const std::string& override) {
+  Compared compared;
+  compared.files = arguments.scenes;
+  compared.pairings = named_pairs(arguments);
+  for (std::size_t i = 0; i < arguments.scenes.size(); ++i) {
+    ReadOptions options = options_of(arguments);
+    options.claims = false;  // they are about each scene as it stands, alone
+    if (!override.empty()) options.overrides.push_back(override);
+    for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
+    ReadResult read = read_and_report(arguments.scenes[i], options);
+    if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
+    compared.scenes.push_back(std::move(*read.scene));
+    compared.sources.push_back(std::move(read.sources));
+  }
+  if (const std::string why = obstacle(compared.scenes); !why.empty()) {
+    say("error: {}\n", why);
+    throw Ended{wrong_input};
+  }
+  if (compared.pairings.empty()) compared.pairings = shared_records(compared.scenes);
+  if (compared.pairings.empty()) {
+    say("error: the scenes record nothing of the same name; pair two records: --pair k1.force=m.spring1.force\n");
+    for (std::size_t i = 0; i < compared.scenes.size(); ++i)
+      say("  {} records {}\n", printable(compared.files[i]), some_records(compared.scenes[i]));
+    throw Ended{wrong_input};
+  }
+  for (const Pairing& pairing : compared.pairings) {
+    const auto what = [&](std::size_t i) {
+      return quantity_of(compared.scenes[i].records[column(compared.scenes[i], pairing[i])].channel);
+    };
+    for (std::size_t i = 1; i < pairing.size(); ++i) {
+      if (what(i) == what(0)) continue;
+      say("error: `{}` and `{}` are different quantities\n", pairing[0], pairing[i]);
+      throw Ended{wrong_input};
+    }
+  }
+  to_one_time_base(compared.scenes);
+  return compared;
+}
+
+/// Runs the scenes and takes the differences.
+void run_all(Compared& compared, const std::string& override) {
+  for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
+    try {
+      compared.courses.push_back(run_to_memory(compared.scenes[i]));
+    } catch (const SimulationError& error) {
+      report(error, compared.sources[i]);
+      say("  {}{}{} cannot be simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ",
+          printable(override));
+      throw Ended{not_simulated};
+    }
+  }
+  for (std::size_t i = 1; i < compared.scenes.size(); ++i) {
+    compared.differences.emplace_back();
+    for (const Pairing& pairing : compared.pairings)
+      compared.differences.back().push_back(difference(compared.courses[0], column(compared.scenes[0], pairing[0]),
+                                                       compared.courses[i], column(compared.scenes[i], pairing[i])));
+  }
+}
+
+/// Looks for a pair further apart.
+void look(const Compared& compared, const std::string& value, Furthest& furthest) {
+  for (std::size_t other = 1; other < compared.scenes.size(); ++other)
+    for (std::size_t p = 0; p < compared.pairings.size(); ++p) {
+      const Difference& d = compared.differences[other - 1][p];
+      if (!furthest.name.empty() && d.relative() <= furthest.difference.relative()) continue;
+      furthest = {name_of(compared.pairings[p], other), d, value};
+    }
+}
+
+void write(Output& output, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), output.file());
+  if (const int error = output.close(); error != 0) {
+    say("error: cannot write to {}: {}\n", output.name(), std::strerror(error));
+    throw Ended{not_simulated};
+  }
+}
+
+ExitStatus compare(const Arguments& arguments) {
+  std::optional<Variation> variation;
+  if (!arguments.vary.empty()) {
+    auto read = read_variation(arguments.vary);
+    if (const auto* wrong = std::get_if<NoVariation>(&read)) {
+      say("error: {}\n", printable(wrong->message));
+      if (!wrong->hint.empty()) say("  {}\n", printable(wrong->hint));
+      return wrong_input;
+    }
+    variation = std::get<Variation>(std::move(read));
+  }
+  Compared compared = read_all(arguments, variation ? variation->path + '=' + variation->values.front() : "");
+  std::unique_ptr<Output> output;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
+
+  Furthest furthest;
+  std::string text, data;
+  if (!variation) {
+    run_all(compared, "");
+    look(compared, "", furthest);
+    text = describe(compared);
+    if (output) data = overlay(compared);
+  } else {
+    std::vector<Varied> rows;
+    for (const std::string& value : variation->values) {
+      const std::string override = variation->path + '=' + value;
+      if (!rows.empty()) compared = read_all(arguments, override);
+      run_all(compared, override);
+      look(compared, value, furthest);
+      rows.push_back({value, compared.differences, {}});
+      for (const Course& course : compared.courses) rows.back().dissipated.push_back(course.summary.dissipated);
+    }
+    text = describe(variation->path, rows, compared);
+    if (output) data = table(variation->path, rows, compared);
+  }
+  if (arguments.within) text += '\n' + verdict(*arguments.within, furthest, variation ? variation->path : "");
+  // Data on standard output are for a program to read: the report is then a message beside them.
+  arguments.overlay == "-" ? say("{}", text) : fmt::print("{}", text);
+  if (output) write(*output, data);
+  return !arguments.within || furthest.difference.relative() <= *arguments.within ? done : not_as_claimed;
+}
+
+}  // namespace
+
+ExitStatus compare_scenes(const Arguments& arguments) {
+  try {
+    return compare(arguments);
+  } catch (const Ended& ended) {
+    return ended.status;
+  }
+}
+
+}  // namespace rheonet::tool

@@ -1,0 +1,89 @@
+#include "tools/rheonet/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheonet::tool {
+namespace {
+
+/// Times that differ by less than this fraction of the run are the same, computed otherwise.
+constexpr double rounding = 1e-9;
+
+const char* name_of(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
+
+bool records(const Scene& scene, const std::string& path) { return column(scene, path) < scene.records.size(); }
+
+}  // namespace
+
+std::string obstacle(const std::vector<Scene>& scenes) {
+  const Scene& first = scenes.front();
+  for (const Scene& scene : scenes) {
+    if (scene.domain != first.domain)
+      return fmt::format("one scene is of {}, the other of {}: nothing in them can be compared", name_of(first.domain),
+                         name_of(scene.domain));
+    if (std::abs(scene.start - first.start) > rounding * (first.stop - first.start))
+      return fmt::format("the runs start at different times, {:g} s and {:g} s; `--set simulate.start=...` sets all",
+                         first.start, scene.start);
+  }
+  return "";
+}
+
+void to_one_time_base(std::vector<Scene>& scenes) {
+  double stop = scenes.front().stop;
+  for (const Scene& scene : scenes) stop = std::min(stop, scene.stop);
+  const double start = scenes.front().start;
+  const double every = std::min(scenes.front().output_every, stop - start);
+  for (Scene& scene : scenes) {
+    scene.start = start;
+    scene.stop = stop;
+    scene.output_every = every;
+    scene.output_intervals = static_cast<std::int64_t>(std::floor((stop - start) / every + rounding));
+    scene.output_events = false;
+  }
+}
+
+std::size_t column(const Scene& scene, const std::string& path) {
+  const auto found =
+      std::find_if(scene.records.begin(), scene.records.end(), [&](const Record& r) { return r.path == path; });
+  return static_cast<std::size_t>(found - scene.records.begin());
+}
+
+std::vector<Pairing> shared_records(const std::vector<Scene>& scenes) {
+  std::vector<Pairing> pairings;
+  for (const Record& record : scenes.front().records)
+    if (std::all_of(scenes.begin(), scenes.end(), [&](const Scene& scene) { return records(scene, record.path); }))
+      pairings.emplace_back(scenes.size(), record.path);
+  return pairings;
+}
+
+Course run_to_memory(const Scene& scene) {
+  Course course;
+  course.summary = run(scene, {.row = [&course](double time, const std::vector<double>& values) {
+                         course.times.push_back(time);
+                         course.rows.push_back(values);
+                       }});
+  return course;
+}
+
+Difference difference(const Course& first, std::size_t first_column, const Course& second, std::size_t second_column) {
+  Difference result;
+  double squares = 0;
+  const std::size_t rows = std::min(first.rows.size(), second.rows.size());
+  for (std::size_t row = 0; row < rows; ++row) {
+    const double a = first.rows[row][first_column], b = second.rows[row][second_column];
+    const double apart = std::abs(b - a);
+    squares += apart * apart;
+    result.scale = std::max({result.scale, std::abs(a), std::abs(b)});
+    if (row > 0 && apart <= result.largest) continue;
+    result.largest = apart;
+    result.time = first.times[row];
+    result.first = a;
+    result.second = b;
+  }
+  result.rms = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(rows, 1)));
+  return result;
+}
+
+}  // namespace rheonet::tool
