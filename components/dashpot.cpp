@@ -21,7 +21,7 @@ struct Dashpot {
 
   void soften(double w) {
     constexpr double share = 20;  // of what a step may be wrong by: 0.013 of the accuracy promised
-    w_soft = n != 1 ? share * w : 0;
+    w_soft = n < 1 ? share * w : n > 1 ? w : 0;
     f_soft = B * std::pow(w_soft, n);
   }
 

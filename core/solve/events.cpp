@@ -120,10 +120,13 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
 void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {
   // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of the
   // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
-  if (rates_needed_) {
+  // The same of a velocity that goes like a power of time: no polynomial follows it.
+  if (rates_needed_ || (dae_.rough() && !events_.empty())) {
     y_.assign(y, y + dae_.size());
     try {
+      if (dae_.rough()) consistency_.project(t, y_);
       consistency_.derivative(t, y_, yp_);
+      y = y_.data();
       yp = yp_.data();
     } catch (const SimulationError&) {  // the step itself will tell
     }

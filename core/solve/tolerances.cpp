@@ -140,6 +140,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
     largest = std::max(largest, std::abs(view.applied[n]));
   }
   restless_.assign(nodes, 0);
+  find_restless_rates(view, df, force);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const auto [sort, k] = quantity_[i];
     rounding_[i] = 0;
@@ -162,6 +163,25 @@ void Tolerances::find_rounding(const Dae::View& view) {
   }
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     if (quantity_[i].sort == Sort::position) drift_[i] = {restless_[at(part_[quantity_[i].index])]};
+  }
+}
+
+/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity.
+void Tolerances::find_restless_rates(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force) {
+  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  const Structure& structure = dae_->structure();
+  const auto part = [&](const Branch& b) { return at(part_[at(structure.kind[at(b.a)] == Kind::known ? b.b : b.a)]); };
+  std::vector<double> grain(force);
+  for (std::size_t j = 0; j < df.size(); ++j) {
+    double& largest = grain[part(structure.deflections[j])];
+    largest = std::max(largest, std::abs(df[j] * view.p[j]));
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (!(laws.batch->growth(i).exponent > 1)) continue;
+      double& restless = restless_[part(structure.rates[at(laws.first) + i])];
+      restless = std::max(restless, laws.batch->velocity_at(i, eps * grain[part(structure.rates[at(laws.first) + i])]));
+    }
   }
 }
 

@@ -49,6 +49,7 @@ class Tolerances {
   void update(double t, const std::vector<double>& yp);
   void find_parts();
   void find_rounding(const Dae::View& view);
+  void find_restless_rates(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
 
   const Network& network_;
   Dae* dae_ = nullptr;
