@@ -21,7 +21,8 @@ namespace rheonet {
 ///       double dissipated_power(double p, double dp, double w) const;
 ///     };
 ///
-/// One that creeps also has `steady` and `settle`: see DeflectionBatch.
+/// One that creeps also has `steady` and `settle`: see DeflectionBatch. One whose memory changes within a motion, not at its
+/// reversals alone, also has `follow(p, step)`, which changes it as the deflection goes from p to p + step.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
@@ -114,7 +115,11 @@ class DeflectionBatchOf final : public DeflectionBatch {
   }
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     Law law = laws_[i];
-    if (step != 0) law.set_direction(p, step, step < 0 ? -1 : 1);
+    if constexpr (requires { law.follow(p, step); }) {
+      law.follow(p, step);
+    } else if (step != 0) {
+      law.set_direction(p, step, step < 0 ? -1 : 1);
+    }
     const Dual f = law.force(Dual(p + step, 1));
     slope = f.derivative;
     return f.value;
