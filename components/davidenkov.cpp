@@ -205,15 +205,16 @@ const RegisterComponent registered({
                 },
             .check = start_within_bound,
             .summary = "Davidenkov's hysteresis: elastic to plastic along power curves, the same loops at any speed",
-            .law = "loop of amplitude a: f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], upper signs while d grows,  "
-                   "eta = (2 X)^(1-n),  X = n/(n-1) Fc/sigma",
+            .law = "f = f_r + 2 s g(abs(d - d_r)/2) after a reversal,  g(x) = sigma (x - x^n/(n X^(n-1)))",
             .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; energies: "
                       "W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
-            .notes = "The amplitude need not be known. First loading: f = g(d) = sigma (d - d^n/(n X^(n-1))) up to f = Fc at "
-                     "d = X, then Fc. Nested loops: after each reversal the same curve, twice as large, "
-                     "f = f_r + 2 s g(s (d - d_r)/2), which in a cycle of amplitude a < X is Davidenkov's loop; where it comes "
-                     "back to the point at which an earlier branch turned it goes on as that one would have. For given eta: "
-                     "coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)). A loop dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)).",
+            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and Fc from there. After each "
+                     "reversal the same curve, twice as large, from (d_r, f_r); where it comes back to a point at which an "
+                     "earlier branch turned, it goes on as that one would have. In a cycle of amplitude a < X, which need not "
+                     "be known beforehand, this is Davidenkov's loop f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], "
+                     "upper signs while d grows, with eta = (2 X)^(1-n); for given eta, coulomb = "
+                     "sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)); of a "
+                     "half of it up to a travel x, Fc x z^n/(n+1) with z = x/(2 X).",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
