@@ -213,8 +213,8 @@ const RegisterComponent registered({
                      "earlier branch turned, it goes on as that one would have. In a cycle of amplitude a < X, which need not "
                      "be known beforehand, this is Davidenkov's loop f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], "
                      "upper signs while d grows, with eta = (2 X)^(1-n); for given eta, coulomb = "
-                     "sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)); of a "
-                     "half of it up to a travel x, Fc x z^n/(n+1) with z = x/(2 X).",
+                     "sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)), at "
+                     "Fc z^n per travel, z being the part of the way to flow.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
