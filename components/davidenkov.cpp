@@ -15,10 +15,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 //
 //     g(x) = sigma (x - x^n/(n X^(n-1))),   g(X) = Fc,   g'(X) = 0;  Fc beyond
 //
-// and every branch after a reversal at (p_r, f_r) is the same curve, twice as large: f = f_r + 2 s g(s (p - p_r)/2) (Masing).
-// Within +-a that is Davidenkov's loop sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], with eta = (2 X)^(1-n). A branch
-// that comes back to the point where an earlier one turned goes on as that one would have (Madelung): so the reversals
-// that are still open are all its memory.
+// and every branch after a reversal at (p_r, f_r) is the same curve, twice as large: f = f_r + 2 s g(s (p - p_r)/2)
+// (Masing). In a cycle of amplitude a that is Davidenkov's loop sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with
+// eta = (2 X)^(1-n). A branch that comes back to the point where an earlier one turned goes on as that one would have
+// (Madelung): so the reversals that are still open are all its memory.
 //
 // It is a bundle of Prandtl elements of all travels up to X (Iwan): from there the energies. With z = x/X on the first
 // loading, half of that after a reversal, heat comes at Fc z^n per travel.
@@ -34,8 +34,8 @@ struct Davidenkov {
   double n;      // exponent
   double X;      // m
 
-  double s = 1;        // direction of motion
-  bool virgin = true;  // the outermost of `open` is the unloaded state, where no loop begins
+  double s = 1;                // direction of motion
+  bool virgin = true;          // the outermost of `open` is the unloaded state, where no loop begins
   std::vector<Reversal> open;  // outermost first, the present branch begins at the last; none: it flows at its bound
 
   explicit Davidenkov(std::span<const double> v) : sigma(v[0]), Fc(v[1]), n(v[2]), X(n / (n - 1) * Fc / sigma) {
@@ -126,7 +126,7 @@ struct Davidenkov {
 
   int event_count() const { return 2; }
   void event_functions(double p, double, double w, double noise, double* g) const {
-    g[0] = s * w + noise;                              // reversal
+    g[0] = s * w + noise;  // reversal
     g[1] = open.empty() ? 1 : closing() - travelled(p);
   }
   void switch_memory(int which, double p, double) {
@@ -167,7 +167,9 @@ struct Davidenkov {
   // The share z of the way to the bound.
   double part(double p) const { return std::clamp(travelled(p) / (size() * X), 0.0, 1.0); }
   // Heat on the present branch up to a travel of x.
-  double heat_until(double x) const { return Fc * std::max(x, 0.0) * std::pow(std::clamp(x / (size() * X), 0.0, 1.0), n) / (n + 1); }
+  double heat_until(double x) const {
+    return Fc * std::max(x, 0.0) * std::pow(std::clamp(x / (size() * X), 0.0, 1.0), n) / (n + 1);
+  }
   double stored_energy(double p) const {
     if (open.empty()) return sigma * X * X * (n - 1) / (2 * (n + 1));  // all its elements have yielded
     const double x = std::min(travelled(p), size() * X);
@@ -193,28 +195,32 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true,
+                     .symbol = "sigma",
                      .description = "slope df/dd at the start and just after each reversal; 0 means no force"},
-                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .symbol = "Fc",
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
+                     .symbol = "Fc",
                      .description = "force at which the slope has come to 0 and it flows; 0 means no force"},
-                    {.name = "exponent", .quantity = Quantity::number, .fallback = 2.0, .lower = 1.1, .lower_open = false,
-                     .may_be_infinite = true, .symbol = "n",
+                    {.name = "exponent", .quantity = Quantity::number, .fallback = 2.0, .lower = 1.1,
+                     .lower_open = false, .may_be_infinite = true, .symbol = "n",
                      .description = "shape of the loop: 2 is made of parabolas, inf is Prandtl's elastic-plastic law"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = -infinity,
-                     .symbol = "f0", .description = "force at the start (0 unless given), to which it was loaded once, within +-Fc"},
+                     .symbol = "f0",
+                     .description = "force at the start (0 unless given), to which it was loaded once, within +-Fc"},
                 },
             .check = start_within_bound,
             .summary = "Davidenkov's hysteresis: elastic to plastic along power curves, the same loops at any speed",
             .law = "f = f_r + 2 s g(abs(d - d_r)/2) after a reversal,  g(x) = sigma (x - x^n/(n X^(n-1)))",
-            .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; energies: "
-                      "W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
-            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and Fc from there. After each "
-                     "reversal the same curve, twice as large, from (d_r, f_r); where it comes back to a point at which an "
-                     "earlier branch turned, it goes on as that one would have. In a cycle of amplitude a < X, which need not "
-                     "be known beforehand, this is Davidenkov's loop f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], "
-                     "upper signs while d grows, with eta = (2 X)^(1-n); for given eta, coulomb = "
-                     "sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)), at "
-                     "Fc z^n per travel, z being the part of the way to flow.",
+            .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; "
+                      "energies: W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
+            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and Fc from there. After "
+                     "each reversal the same curve, twice as large, from (d_r, f_r); where it comes back to a point at "
+                     "which an earlier branch turned, it goes on as that one would have. In a cycle of amplitude a < X, "
+                     "which need not be known beforehand, this is Davidenkov's loop "
+                     "f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], upper signs while d grows, with "
+                     "eta = (2 X)^(1-n); for given eta, coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop "
+                     "dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)), at Fc z^n per travel, z being the part of the "
+                     "way to flow.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},

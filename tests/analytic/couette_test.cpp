@@ -24,7 +24,10 @@ std::string scene(int layers, double after, double stop, int rows) {
 drive = {{ type = "motion", at = "wall", velocity = {{ step = "(after - 1)*uw", offset = "uw", time = {:.17g} }} }}
 hold  = {{ type = "motion", at = "plate", velocity = 0 }}
 gap   = {{ type = "couette", between = ["wall", "plate"], B = "B", m = "m", N = "N" }}
-)", start), stop, rows) + "start_from = \"steady\"\n";
+)",
+                             start),
+                 stop, rows) +
+         "start_from = \"steady\"\n";
 }
 std::string including(const std::string& text) { return "include = [\"library/couette.toml\"]\n" + text; }
 
@@ -68,7 +71,9 @@ struct Ladder {
 };
 
 /// Largest error of each column at the rows where the flow has had 0.1 T1 or more, over the scale of the column.
-struct Errors { double profile = 0, wall = 0; };
+struct Errors {
+  double profile = 0, wall = 0;
+};
 Errors errors(int N, double after) {
   const Trajectory rows = simulate(including(scene(N, after, start + 3 * T1, 31)), 1e-9);
   Errors worst;
@@ -94,9 +99,11 @@ TEST_CASE("Couette ladder: each layer goes as the modes of the ladder say") {
       Expectations expected;
       for (int j = 0; j < N; ++j) {
         expected.push_back({fmt::format("gap.layers.{}.mid.velocity", N - 1 - j),
-                            from(start, [=](double t) { return ladder.velocity(j, t); }, ladder.velocity(j, 0))});
+                            from(
+                                start, [=](double t) { return ladder.velocity(j, t); }, ladder.velocity(j, 0))});
       }
-      expected.push_back({"hold.force", from(start, [=](double t) { return -ladder.force(t); }, -B * uw)});
+      expected.push_back({"hold.force", from(
+                                            start, [=](double t) { return -ladder.force(t); }, -B * uw)});
       check_at_all_accuracies(including(scene(N, after, start + 3 * T1, 101)), expected);
     }
   }
@@ -110,8 +117,9 @@ TEST_CASE("Couette ladder: velocities and the force on the wall come to the thes
       CAPTURE(N);
       const Errors now = errors(N, after);
       const double profile = std::log2(last.profile / now.profile), wall = std::log2(last.wall / now.wall);
-      MESSAGE(fmt::format("N = {}, wall {} after the event: errors {:.2e} (velocities), {:.2e} (force); orders {:.3f}, {:.3f}",
-                          N, after == 0 ? "at rest" : "reversed", now.profile, now.wall, profile, wall));
+      MESSAGE(fmt::format(
+          "N = {}, wall {} after the event: errors {:.2e} (velocities), {:.2e} (force); orders {:.3f}, {:.3f}", N,
+          after == 0 ? "at rest" : "reversed", now.profile, now.wall, profile, wall));
       CHECK(profile == doctest::Approx(2).epsilon(0.05));
       CHECK(wall == doctest::Approx(2).epsilon(0.05));
       last = now;

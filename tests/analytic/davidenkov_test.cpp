@@ -1,4 +1,5 @@
-// Davidenkov's hysteresis: loops of given amplitude by his own formula, any path by another road, and the energy of a loop.
+// Davidenkov's hysteresis: loops of given amplitude by his own formula, any path by another road, and the energy of a
+// loop.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include <numbers>
 
 #include "tests/support/check.hpp"
+#include "tests/support/random.hpp"
 #include "tests/support/scene_builder.hpp"
 
 using namespace rheonet::test;
@@ -31,8 +33,8 @@ double first_loading(double n, double d) {
 }
 
 /// The same law as a bundle of Prandtl elements: those of yield travel r to r + dr have the stiffness
-/// sigma (n - 1) r^(n-2)/X^(n-1) dr = -g''(r) dr, r up to X. Their deflections are a function of r of straight pieces, and
-/// follow a motion exactly; no rule for loops is needed.
+/// sigma (n - 1) r^(n-2)/X^(n-1) dr = -g''(r) dr, r up to X. Their deflections are a function of r of straight pieces,
+/// and follow a motion exactly; no rule for loops is needed.
 class Bundle {
  public:
   explicit Bundle(double n) : n_(n), X_(bound(n)), pieces_{{0, 0}, {X_, 0}} {}
@@ -73,7 +75,9 @@ class Bundle {
   }
 
  private:
-  struct Corner { double r, e; };
+  struct Corner {
+    double r, e;
+  };
   double n_, X_;
   std::vector<Corner> pieces_;
 };
@@ -89,18 +93,33 @@ between = ["end", "ground"]
 stiffness = "sigma"
 coulomb = "Fc"
 exponent = "n"
-)" + more, stop);
+)" + more,
+                 stop);
 }
 
-/// Turning points in units of the travel to the bound: loops within loops that close one after the other, two at once, the
-/// mirror of the first reversal, its way on along the first loading, flow at the bound, and loops from there.
-const std::vector<double> turns = {0,    0.61, -0.23, 0.37, 0.07, 0.29, -0.41, 0.53, 0.11,  0.47, 0.31, 0.57,
+/// Turning points in units of the travel to the bound: loops within loops that close one after the other, two at once,
+/// the mirror of the first reversal, its way on along the first loading, flow at the bound, and loops from there.
+const std::vector<double> turns = {0,    0.61, -0.23, 0.37, 0.07, 0.29, -0.41, 0.53, 0.11, 0.47, 0.31, 0.57,
                                    0.19, 0.71, -0.83, 0.13, 1.47, 0.91, 1.73,  0.53, 1.21, 0.03, 2.11, -0.7};
 constexpr double tick = 0.1137;  // a row falls on none of the corners
 
-double place(double t, double X) {
-  const std::size_t j = std::min(turns.size() - 2, std::size_t(t / tick));
-  return X * (turns[j] + (turns[j + 1] - turns[j]) * (t / tick - double(j)));
+/// These, and others by chance: mostly small, at times beyond the bound.
+std::vector<std::vector<double>> paths() {
+  std::vector<std::vector<double>> result = {turns};
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    Random random(seed);
+    std::vector<double> path = {0};
+    for (int j = 0; j < 40; ++j) {
+      path.push_back((j % 2 ? 1 : -1) * random.around(0.4, 6) + (random.below(7) ? 0 : 0.3 * random.sign()));
+    }
+    result.push_back(path);
+  }
+  return result;
+}
+
+double place(const std::vector<double>& path, double t, double X) {
+  const std::size_t j = std::min(path.size() - 2, std::size_t(t / tick));
+  return X * (path[j] + (path[j + 1] - path[j]) * (t / tick - double(j)));
 }
 
 }  // namespace
@@ -117,47 +136,57 @@ TEST_CASE("davidenkov: first loading, then the loop of the amplitude") {
         return loop(n, a, place(t), std::cos(omega * t) < 0 ? -1 : 1);
       };
       check_at_all_accuracies(
-          scene(n, fmt::format("type = \"motion\"\nposition = {{ sine = {:.17g}, frequency = {} }}", a, frequency), 1.137),
+          scene(n, fmt::format("type = \"motion\"\nposition = {{ sine = {:.17g}, frequency = {} }}", a, frequency),
+                1.137),
           {{"friction.force", force}, {"friction.displacement", place}});
     }
   }
 }
 
 TEST_CASE("davidenkov: along any path it is the bundle of Prandtl elements of its first loading") {
-  for (const double n : exponents) {
-    const double X = bound(n);
-    CAPTURE(n);
-    std::string points;
-    for (std::size_t j = 0; j < turns.size(); ++j) {
-      points += fmt::format("[{:.17g}, {:.17g}], ", double(j) * tick, X * turns[j]);
+  for (const std::vector<double>& path : paths()) {
+    for (const double n : exponents) {
+      const double X = bound(n);
+      CAPTURE(n);
+      std::string points;
+      for (std::size_t j = 0; j < path.size(); ++j) {
+        points += fmt::format("[{:.17g}, {:.17g}], ", double(j) * tick, X * path[j]);
+      }
+      const auto force = [&](double t) {
+        Bundle bundle(n);
+        const std::size_t last = std::min(path.size() - 2, std::size_t(t / tick));
+        for (std::size_t j = 1; j <= last; ++j) bundle.move(X * (path[j] - path[j - 1]));
+        bundle.move(place(path, t, X) - X * path[last]);
+        return bundle.force();
+      };
+      check_at_all_accuracies(
+          scene(n, "type = \"motion\"\nposition = { table = [" + points + "] }", double(path.size() - 1) * tick),
+          {{"friction.force", force}, {"drive.force", force}});
     }
-    const auto force = [=](double t) {
-      Bundle bundle(n);
-      for (std::size_t j = 1; j < turns.size() && double(j) * tick < t; ++j) bundle.move(X * (turns[j] - turns[j - 1]));
-      bundle.move(place(t, X) - X * turns[std::min(turns.size() - 2, std::size_t(t / tick))]);
-      return bundle.force();
-    };
-    check_at_all_accuracies(
-        scene(n, "type = \"motion\"\nposition = { table = [" + points + "] }", double(turns.size() - 1) * tick),
-        {{"friction.force", force}, {"drive.force", force}});
   }
 }
 
 TEST_CASE("davidenkov: steps go along the same curves as slow motion does") {
-  for (const double n : exponents) {
-    const double X = bound(n);
-    CAPTURE(n);
-    std::string points;
-    for (std::size_t j = 1; j < turns.size(); ++j) {
-      for (const double end : {double(j), double(j + 1)}) points += fmt::format("[{:.17g}, {:.17g}], ", end * tick, X * turns[j]);
+  for (const std::vector<double>& path : paths()) {
+    for (const double n : exponents) {
+      const double X = bound(n);
+      CAPTURE(n);
+      std::string points;
+      for (std::size_t j = 1; j < path.size(); ++j) {
+        for (const double end : {double(j), double(j + 1)}) {
+          points += fmt::format("[{:.17g}, {:.17g}], ", end * tick, X * path[j]);
+        }
+      }
+      const auto force = [&](double t) {
+        Bundle bundle(n);
+        for (std::size_t j = 1; j < path.size() && double(j) * tick <= t; ++j) bundle.move(X * (path[j] - path[j - 1]));
+        return bundle.force();
+      };
+      const std::string drive =
+          fmt::format("type = \"motion\"\nposition = {{ table = [[0, 0], [{:.17g}, 0], {}] }}", tick, points);
+      // No row is at a step.
+      check_at_all_accuracies(scene(n, drive, (double(path.size()) - 0.29) * tick), {{"friction.force", force}});
     }
-    const auto force = [=](double t) {
-      Bundle bundle(n);
-      for (std::size_t j = 1; j < turns.size() && double(j) * tick <= t; ++j) bundle.move(X * (turns[j] - turns[j - 1]));
-      return bundle.force();
-    };
-    const std::string drive = fmt::format("type = \"motion\"\nposition = {{ table = [[0, 0], [{:.17g}, 0], {}] }}", tick, points);
-    check_at_all_accuracies(scene(n, drive, (double(turns.size()) - 0.29) * tick), {{"friction.force", force}});
   }
 }
 
@@ -173,7 +202,8 @@ TEST_CASE("davidenkov loaded with a force below its bound") {
     return s * (travel(amplitude + s * load(t), 2) - a);
   };
   check_at_all_accuracies(
-      scene(2, fmt::format("type = \"force\"\nforce = {{ sine = {:.17g}, frequency = {} }}", amplitude, frequency), 1.337),
+      scene(2, fmt::format("type = \"force\"\nforce = {{ sine = {:.17g}, frequency = {} }}", amplitude, frequency),
+            1.337),
       {{"friction.force", load}, {"friction.displacement", displacement}, {"end.position", displacement}});
 }
 

@@ -1,5 +1,5 @@
-// What the scenes of Couette flow in netlists/thesis claim. Their wiring is tested against closed forms with generic values
-// in tests/analytic/couette_test.cpp; here it is the viscometer.
+// What the scenes of Couette flow in netlists/thesis claim. Their wiring is tested against closed forms with generic
+// values in tests/analytic/couette_test.cpp; here it is the viscometer.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -24,14 +24,17 @@ double sign(int n) { return n % 2 ? 1 : -1; }
 /// Eq. 47 (after = 0) and Eq. 55 (after = -1): the velocity at y over that of the moving wall.
 double profile(double after, double y, double t) {
   double sum = 0;
-  for (int n = 1; n <= 60; ++n) sum += sign(n) * 2 / (n * pi) * std::sin(n * pi * y / h) * std::exp(-std::pow(n * pi / h, 2) * nu * t);
+  for (int n = 1; n <= 60; ++n)
+    sum += sign(n) * 2 / (n * pi) * std::sin(n * pi * y / h) * std::exp(-std::pow(n * pi / h, 2) * nu * t);
   return after * y / h + (1 - after) * sum;
 }
 
-/// Eqs. 52 and 54, and the same after a reversal: torque on the cup by the first `terms` terms; `last` weighs the last one.
+/// Eqs. 52 and 54, and the same after a reversal: torque on the cup by the first `terms` terms; `last` weighs the last
+/// one.
 double torque(double after, double t, int terms = 60, double last = 1) {
   double sum = 0;
-  for (int n = 1; n <= terms; ++n) sum += (n == terms ? last : 1) * sign(n) * std::exp(-std::pow(n * pi / h, 2) * nu * t);
+  for (int n = 1; n <= terms; ++n)
+    sum += (n == terms ? last : 1) * sign(n) * std::exp(-std::pow(n * pi / h, 2) * nu * t);
   const double F = A * mu * uw / h * (after + 2 * (1 - after) * sum);
   return (R + h) * F;
 }
@@ -47,7 +50,8 @@ TEST_CASE("couette.toml") {
   CHECK(-rows["hold1.force"].front() == doctest::Approx(steady).epsilon(1e-6));
   CHECK(rows["vfm1.force"].front() == doctest::Approx(steady).epsilon(1e-6));
   int compared = 0;
-  for (const auto& [after, gap, hold] : {std::tuple{0.0, "stopped", "hold1.force"}, std::tuple{-1.0, "reversed", "hold2.force"}}) {
+  for (const auto& [after, gap, hold] :
+       {std::tuple{0.0, "stopped", "hold1.force"}, std::tuple{-1.0, "reversed", "hold2.force"}}) {
     CAPTURE(gap);
     for (std::size_t row = 0; row < rows.time().size(); ++row) {
       const double t = rows.time()[row] - start;
@@ -65,10 +69,11 @@ TEST_CASE("couette.toml") {
 }
 
 TEST_CASE("couette-terms.toml") {
-  for (const auto& [K, last] : {std::pair{1, 0.5}, std::pair{1, 1.0}, std::pair{2, 0.5}, std::pair{5, 0.5}, std::pair{8, 0.5}}) {
+  for (const auto& [K, last] :
+       {std::pair{1, 0.5}, std::pair{1, 1.0}, std::pair{2, 0.5}, std::pair{5, 0.5}, std::pair{8, 0.5}}) {
     CAPTURE(K);
-    const SceneFile file =
-        run_file("thesis/couette-terms.toml", {fmt::format("parameters.K={}", K), fmt::format("parameters.last={}", last)});
+    const SceneFile file = run_file("thesis/couette-terms.toml",
+                                    {fmt::format("parameters.K={}", K), fmt::format("parameters.last={}", last)});
     const Trajectory& rows = file.rows;
     const double scale = rows.scale("odd.force");
     double worst = 0;

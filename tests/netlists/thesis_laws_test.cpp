@@ -1,5 +1,5 @@
-// What each scene of netlists/thesis/laws claims, in numbers. A test is called as its scene: netlists/thesis/README.md is
-// made from that.
+// What each scene of netlists/thesis/laws claims, in numbers. A test is called as its scene: netlists/thesis/README.md
+// is made from that.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -16,7 +16,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// At every row a column is what `exact` makes of time and of another column, within ten times the accuracy of the scene.
+/// At every row a column is what `exact` makes of time and of another column, within ten times the accuracy of the
+/// scene.
 void check(const SceneFile& file, const std::string& column, const std::string& argument,
            const std::function<double(double t, double x)>& exact) {
   const std::vector<double>&t = file.rows.time(), &x = file.rows[argument], &f = file.rows[column];
@@ -67,7 +68,8 @@ TEST_CASE("laws/newton.toml") {
 TEST_CASE("laws/power-law.toml") {
   const SceneFile file = run_file("thesis/laws/power-law.toml");
   const double K = file.value("newtonian", "damping");
-  for (const auto& [element, n] : {std::pair{"pseudoplastic", 0.5}, std::pair{"newtonian", 1.0}, std::pair{"dilatant", 1.5}}) {
+  for (const auto& [element, n] :
+       {std::pair{"pseudoplastic", 0.5}, std::pair{"newtonian", 1.0}, std::pair{"dilatant", 1.5}}) {
     check_of(file, element + std::string(".force"), "shaft.velocity",
              [&, n = n](double w) { return K * std::pow(std::abs(w), n) * sign(w); });
   }
@@ -117,9 +119,8 @@ TEST_CASE("laws/maxwell.toml") {
   const SceneFile file = run_file("thesis/laws/maxwell.toml");
   const double B = file.value("cfm", "damping"), T = B / file.value("cfm", "stiffness");
   const double w = file.rows["shaft.velocity"].front(), stop = 0.2;
-  check(file, "wired.force", "time", [&](double t, double) {
-    return t < stop ? lag(t, 0, B * w, T) : lag(t - stop, lag(stop, 0, B * w, T), 0, T);
-  });
+  check(file, "wired.force", "time",
+        [&](double t, double) { return t < stop ? lag(t, 0, B * w, T) : lag(t - stop, lag(stop, 0, B * w, T), 0, T); });
   check_same(file, "cfm.force", "wired.force");
 }
 
@@ -159,6 +160,7 @@ TEST_CASE("laws/sfm.toml") {
     if (t <= 1) return Tc * (1 - std::exp(-sigma * th / Tc));  // Eq. 11
     return -Tc + (Tc + at_turn) * std::exp(-sigma * (turn - th) / Tc);
   });
+  check_same(file, "cfm.force", "sfm.force");
 }
 
 TEST_CASE("laws/vfm.toml") {
@@ -184,7 +186,8 @@ TEST_CASE("laws/cfm.toml") {
 TEST_CASE("laws/davidenkov.toml") {
   const SceneFile file = run_file("thesis/laws/davidenkov.toml");
   double heat = 0;
-  for (const auto& [element, node] : {std::pair{"small", "shaft1"}, std::pair{"middle", "shaft2"}, std::pair{"large", "shaft3"}}) {
+  for (const auto& [element, node] :
+       {std::pair{"small", "shaft1"}, std::pair{"middle", "shaft2"}, std::pair{"large", "shaft3"}}) {
     const double sigma = file.value(element, "stiffness"), n = file.value(element, "exponent");
     const double eta = std::pow(2 * n / (n - 1) * file.value(element, "coulomb") / sigma, 1 - n);
     CHECK_EQ(eta, doctest::Approx(20));
@@ -193,9 +196,11 @@ TEST_CASE("laws/davidenkov.toml") {
     check(file, element + std::string(".force"), node + std::string(".position"), [&](double t, double th) {
       if (t < 0.25) return sigma * (th - eta / n * std::pow(2, n - 1) * std::pow(th, n));
       const double s = std::cos(2 * pi * t) < 0 ? -1 : 1;
-      return sigma * (th - s * eta / n * (std::pow(std::max(0.0, a + s * th), n) - std::pow(2, n - 1) * std::pow(a, n)));
+      return sigma *
+             (th - s * eta / n * (std::pow(std::max(0.0, a + s * th), n) - std::pow(2, n - 1) * std::pow(a, n)));
     });
-    heat += 2.25 * sigma * eta * std::pow(2 * a, n + 1) * (n - 1) / (n * (n + 1));  // the first loading: a quarter of a loop's
+    heat += 2.25 * sigma * eta * std::pow(2 * a, n + 1) * (n - 1) /
+            (n * (n + 1));  // the first loading: a quarter of a loop's
   }
   CHECK_EQ(file.summary.dissipated, doctest::Approx(heat).epsilon(1e-5));
 }

@@ -8,8 +8,8 @@
 
 namespace rheonet::test {
 
-/// A netlist of the project that has been run: its rows, and the values in it [SI], so that a test of what it claims holds
-/// for others too.
+/// A netlist of the project that has been run: its rows, and the values in it [SI], so that a test of what it claims
+/// holds for others too.
 struct SceneFile {
   Scene scene;
   Trajectory rows;
@@ -19,8 +19,8 @@ struct SceneFile {
   double value(const std::string& element, const std::string& parameter) const;
 };
 
-/// `path` counts from the folder netlists; each override is "PATH=VALUE", as after --set. Fails the test if the scene is
-/// refused.
+/// `path` counts from the folder netlists; each override is "PATH=VALUE", as after --set. Fails the test if the scene
+/// is refused.
 SceneFile run_file(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace rheonet::test
