@@ -6,14 +6,15 @@
 namespace rheonet {
 namespace {
 
-// Viscous friction model: (B/sigma) df/dt + f = B w. With the deflection p = f/sigma: p' = w - f/B.
+// Viscous friction model: (B/sigma) df/dt + f = B w(t - TD). With the deflection p = f/sigma: p' = w(t - TD) - f/B.
 struct Vfm : MemorylessLaw {
   static constexpr bool creeping = true;
   double B;       // N s/m
   double sigma;   // N/m
+  double lag;     // TD, s
   double f0;      // N
 
-  explicit Vfm(std::span<const double> v) : B(v[0]), sigma(v[1]), f0(std::isnan(v[3]) ? 0 : v[3]) {}
+  explicit Vfm(std::span<const double> v) : B(v[0]), sigma(v[1]), lag(v[2]), f0(std::isnan(v[3]) ? 0 : v[3]) {}
 
   template <class T>
   T force(const T& p) const {
@@ -28,13 +29,20 @@ struct Vfm : MemorylessLaw {
   DeflectionBatch::Steady steady() const { return {0, B, std::numeric_limits<double>::infinity()}; }
   double settle(double, double f, int) const { return f / sigma; }
   double stored_energy(double p) const { return sigma * p * p / 2; }
-  double dissipated_power(double p, double, double) const {
+  // With a delay, what goes in and is not stored.
+  double dissipated_power(double p, double dp, double w) const {
     const double f = force(p);
-    return f * f / B;
+    return lag == 0 ? f * f / B : f * (w - dp);
   }
+  double delay() const { return lag; }
 };
 
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
+
+std::optional<Misfit> delay_of_a_limit(std::span<const double> v) {
+  if (v[2] == 0 || (std::isfinite(v[0]) && std::isfinite(v[1]))) return {};
+  return Misfit{"delay", "needs finite `damping` and `stiffness`: neither a spring nor a dashpot can be delayed"};
+}
 
 const RegisterComponent registered({
     .declaration =
@@ -47,17 +55,19 @@ const RegisterComponent registered({
                      .description = "force per velocity in steady motion; 0 means no force"},
                     {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
                      .description = "force per displacement just after a reversal (rest stiffness); 0 means no force"},
-                    {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false,
-                     .later = "a delay is not simulated in this version", .symbol = "TD",
-                     .description = "transport delay of the velocity"},
+                    {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false, .symbol = "TD",
+                     .description = "transport delay: the velocity is felt so much later"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial,
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0",
                      .description = "force at the start (0 unless given)"},
                 },
+            .check = delay_of_a_limit,
             .summary = "viscous friction model: a lag in front of Newton's law",
-            .law = "(B/sigma) df/dt + f = B w",
-            .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24 (J. C. Maxwell 1867 by its form)",
-            .notes = "Stores f^2/(2 sigma), dissipates f^2/B.",
+            .law = "(B/sigma) df/dt + f = B w(t - TD)",
+            .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24, 62 (J. C. Maxwell 1867 by its form)",
+            .notes = "Stores f^2/(2 sigma), dissipates f^2/B. Before the run nothing has moved. With a delay it takes up f w at once and "
+                     "may give some of it back: it is not passive, and can drive an oscillation. A step of the integrator is no "
+                     "longer than the delay: a very short one costs time, and is better left out.",
         },
     .role = Role::deflection,
     .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}},

@@ -139,9 +139,17 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   }
 }
 
+/// Its number among the delayed branches, -1 for others.
+int Dae::delayed(int branch) const {
+  const std::vector<Past::Delayed>& all = drive_->past().delayed();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Past::Delayed& d) { return d.branch == branch; });
+  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
+}
+
 void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
   Row r{.row = row, .position = position, .flow_begin = static_cast<int>(flows_.size()), .flow_end = 0,
-        .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0};
+        .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0,
+        .delayed = position ? -1 : delayed(loop.branch)};
   flows_.insert(flows_.end(), loop.flows.begin(), loop.flows.end());
   for (const Structure::Term& term : loop.velocities) {
     // The reference of a group has no velocity of its own.
@@ -308,20 +316,6 @@ void Dae::update_holds() {
     f.active = batch_of(f.branch, i).holds(i);
     if (f.active) differential_[at(f.row)] = 1;
   }
-}
-
-DeflectionBatch& Dae::batch_of(int branch, std::size_t& i) {
-  return const_cast<DeflectionBatch&>(std::as_const(*this).batch_of(branch, i));
-}
-
-const DeflectionBatch& Dae::batch_of(int branch, std::size_t& i) const {
-  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
-    if (branch < laws.first + static_cast<int>(laws.batch->size())) {
-      i = at(branch - laws.first);
-      return *laws.batch;
-    }
-  }
-  throw std::out_of_range("no such branch");
 }
 
 bool Dae::differentiated(int unknown) const {

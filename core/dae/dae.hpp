@@ -121,9 +121,7 @@ class Dae {
   double dissipated_power() const;
   double stored_energy() const;
 
-  /// For each deflection law: the batch with index i of branch first + i.
-  DeflectionBatch& batch_of(int branch, std::size_t& i);
-  const DeflectionBatch& batch_of(int branch, std::size_t& i) const;
+  DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }
   /// What a motion applies to its node [N] in the state last viewed.
   double reaction(NodeId node) const;
   /// What force number `index` of the network applies [N] in the state last viewed.
@@ -133,8 +131,9 @@ class Dae {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   enum class Source : char { force, creep, rate };
   struct Scatter { int entry; Source source; int index; double sign; };
-  /// A loop or a position: terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
-  struct Row { int row; bool position; int flow_begin, flow_end, velocity_begin, velocity_end; };
+  /// A loop or a position: terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_, and
+  /// minus what a delayed branch feels (an index into Drive::felt, -1 for none).
+  struct Row { int row; bool position; int flow_begin, flow_end, velocity_begin, velocity_end, delayed; };
 
   /// Branches between the same ends that are held still together have one velocity, 0, and so one sign of it between -1
   /// and 1 (Filippov: the same mixture of both directions for all of them). The first carries the equation w = 0, the
@@ -156,6 +155,7 @@ class Dae {
   void number_unknowns();
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
+  int delayed(int branch) const;
   void build_pattern();
   void gather(double t, const double* y);
   void sum_forces();

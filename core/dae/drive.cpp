@@ -6,7 +6,7 @@
 
 namespace rheonet {
 
-Drive::Drive(const Network& network, double start, const std::vector<double>& positions) {
+Drive::Drive(const Network& network, double start, const std::vector<double>& positions) : past_(network) {
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
     motion.anchor_time = start;
@@ -20,6 +20,7 @@ Drive::Drive(const Network& network, double start, const std::vector<double>& po
   velocity = acceleration = steps_ = position;
   force.resize(forces_.size());
   force_rate = force;
+  felt.resize(past_.delayed().size());
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -29,7 +30,8 @@ double Drive::position_of(const Motion& m, double t) const {
 
 void Drive::enter(double t) {
   // An instant within the present stretches changes none of them.
-  if (t >= next_break_) searches_.clear();
+  const bool fresh = t >= next_break_;
+  if (fresh) searches_.clear();
   next_break_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     Motion& m = motions_[i];
@@ -41,11 +43,17 @@ void Drive::enter(double t) {
     // A corner of a position signal leaves a difference of rounding, which is no step.
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
     next_break_ = std::min(next_break_, m.piece.end);
+    past_.follow(i, t, m.piece, m.by_position);
   }
   for (Force& f : forces_) {
     f.piece = f.signal.piece(t);
     next_break_ = std::min(next_break_, f.piece.end);
   }
+  mark(t, fresh);
+}
+
+void Drive::mark(double t, bool fresh) {
+  past_.mark(t, fresh);
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -80,6 +88,7 @@ void Drive::evaluate(double t) {
     force[i] = forces_[i].piece.value(t);
     force_rate[i] = forces_[i].piece.rate(t);
   }
+  for (std::size_t k = 0; k < felt.size(); ++k) felt[k] = past_.felt(k, t);
 }
 
 Drive::Flow Drive::flow(int a, int b, double t, double limit) const {

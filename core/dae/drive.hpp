@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "core/dae/past.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
@@ -18,8 +20,9 @@ class Drive {
 
   /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.
   void enter(double t);
-  /// The next instant at which a signal or one of its derivatives jumps; infinite if none does.
-  double next_break() const { return next_break_; }
+  /// The next instant at which a signal or one of its derivatives jumps, or such an instant comes through a delay; infinite
+  /// if none does.
+  double next_break() const { return std::min(next_break_, past_.next_break()); }
   /// What breaks at t = next_break(), to be asked before `enter`: whether the signal of this element itself jumps there or
   /// only a derivative, and to which side it or its slope goes (0: neither).
   struct Break { int element; bool jumps; int direction; };
@@ -30,10 +33,17 @@ class Drive {
   /// Evaluates all at time t (remembered: a second call at the same t costs nothing).
   void evaluate(double t);
 
+  /// What delayed branches feel. An event at t is a break of it too.
+  Past& past() { return past_; }
+  const Past& past() const { return past_; }
+  void mark(double t) { mark(t, true); }
+
   // For each motion:
   std::vector<double> position, velocity, acceleration;
   // For each force:
   std::vector<double> force, force_rate;
+  // For each delayed branch of `past`:
+  std::vector<double> felt;
 
   /// The next instant after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its
   /// sign (-1: ground); infinite if there is none. No crossing is missed, however short the time to the next one.
@@ -53,6 +63,7 @@ class Drive {
   };
   struct Force { int element; Signal signal; Piece piece; };
   double position_of(const Motion& m, double t) const;
+  void mark(double t, bool fresh);
   struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
   Flow flow(int a, int b, double t, double limit) const;
   double search_reversal(int a, int b, double t, double limit, double grain) const;
@@ -62,7 +73,8 @@ class Drive {
   std::vector<Force> forces_;
   std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present stretches
   std::vector<double> steps_;
-  double next_break_ = 0;
+  double next_break_ = 0;  ///< of the signals
+  Past past_;
   double time_;
 };
 

@@ -106,7 +106,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     if (if_[k] >= 0) r[if_[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
   }
   for (const Row& row : rows_) {
-    double sum = row.position ? yp[row.row] : 0;
+    double sum = (row.position ? yp[row.row] : 0) - (row.delayed < 0 ? 0 : drive_->felt[at(row.delayed)]);
     for (int k = row.flow_begin; k < row.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
       sum += sign * moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]);
@@ -314,6 +314,10 @@ void Dae::view_velocities(const double* yp) {
     // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
     view_.flow[j] = b.a == b.b ? 0 : floating ? flow(static_cast<int>(j)) : v_[at(b.a)] - v_[at(b.b)];
     view_.dp[j] = ip_[j] >= 0 ? yp[ip_[j]] : view_.flow[j];
+  }
+  for (const Past::Delayed& d : drive_->past().delayed()) {
+    const Branch& b = structure_->deflections[at(d.branch)];
+    view_.flow[at(d.branch)] = view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
   }
 }
 

@@ -42,6 +42,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
+  take_delayed_steps(t, state, change);
   change.heat += halt(fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
@@ -61,6 +62,19 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     stepped = false;
   }
   return change;
+}
+
+/// Steps that come through a delay stretch what feels them, all at once.
+void Instant::take_delayed_steps(double t, State& state, Change& change) {
+  Past& past = drive_.past();
+  for (std::size_t k = 0; k < past.delayed().size(); ++k) {
+    const int branch = past.delayed()[k].branch;
+    const double step = past.take_steps(k, t);
+    if (step == 0) continue;
+    std::size_t i = 0;
+    change.heat += network_.batch_of(branch, i).jump(i, state.p[at(branch)], step);
+    state.p[at(branch)] += step;
+  }
 }
 
 void Instant::check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const {

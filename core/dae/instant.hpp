@@ -56,6 +56,7 @@ class Instant {
   /// Takes the state there; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
+  void take_delayed_steps(double t, State& state, Change& change);
   double halt(const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
@@ -76,6 +77,7 @@ class Instant {
     return a == b || (structure_.group[static_cast<std::size_t>(a)] < 0 && structure_.group[static_cast<std::size_t>(b)] < 0);
   }
   bool may_stand(int branch) const;
+  double delayed_slope(int branch, const State& state) const;
   /// A branch that cannot stand has turned.
   bool reversed(const Fired& fired, int branch) const;
   void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,

@@ -86,7 +86,7 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
       const NodeId a = speaker(network_.deflections[j].a), b = speaker(network_.deflections[j].b);
-      if (carried(a, b)) continue;
+      if (carried(a, b) || laws.batch->delay(i) > 0) continue;
       const DeflectionBatch& batch = *laws.batch;
       const double p = state.p[j], f0 = f[j];
       problem.add(slot(a), slot(b), {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1), .rounding = std::abs(f0),
@@ -121,7 +121,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
       const double step = moved(network_.deflections[j].a) - moved(network_.deflections[j].b);
-      if (step == 0) continue;
+      if (step == 0 || laws.batch->delay(i) > 0) continue;
       stored -= laws.batch->stored_energy(i, state.p[j]);
       heat += laws.batch->jump(i, state.p[j], step);
       state.p[j] += step;
@@ -142,7 +142,9 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
   // A step of the drive does what work it takes; without one, what is lost becomes heat.
   change.heat += stepped ? heat : std::max(0.0, work - stored);
-  for (std::size_t n = 0; n < state.position.size(); ++n) state.position[n] += moved(static_cast<NodeId>(n));
+  std::vector<double> distance(state.position.size());
+  for (std::size_t n = 0; n < distance.size(); ++n) state.position[n] += distance[n] = moved(static_cast<NodeId>(n));
+  drive_.past().moved(t, distance);
   return true;
 }
 

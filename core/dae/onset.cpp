@@ -69,6 +69,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.deflections[k + i];
+      if (laws.batch->delay(i) > 0) continue;  // a load: see below
       double forward = h * laws.batch->slope(i, state.p[k + i], 1);
       double backward = h * laws.batch->slope(i, state.p[k + i], -1);
       // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
@@ -86,6 +87,13 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
       if (const double slope = h * laws.batch->release_slope(i, state.p[k + i]); slope > 0) law = released(law, slope, c[k + i]);
       deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), law);
     }
+  }
+  // What feels velocities later is a load that changes as it will, whatever moves now.
+  for (std::size_t d = 0; d < drive_.felt.size(); ++d) {
+    const Past::Delayed& delayed = drive_.past().delayed()[d];
+    const double df = h * delayed_slope(delayed.branch, state) * (drive_.felt[d] - c[at(delayed.branch)]);
+    problem.load(slot(delayed.a), -df);
+    problem.load(slot(delayed.b), df);
   }
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -196,13 +204,16 @@ bool Instant::reversed(const Fired& fired, int branch) const {
   return contains(fired.turns, branch) && (massless(b.a) || massless(b.b)) && !may_stand(branch);
 }
 
+double Instant::delayed_slope(int branch, const State& state) const {
+  std::size_t i = 0;
+  return network_.batch_of(branch, i).slope(i, state.p[at(branch)], 0);
+}
+
 bool Instant::may_stand(int branch) const {
   const Branch& b = network_.deflections[at(branch)];
   if (!massless(b.a) && !massless(b.b)) return false;
-  const auto laws = std::find_if(network_.deflection_laws.begin(), network_.deflection_laws.end(), [&](const auto& l) {
-    return branch < l.first + static_cast<int>(l.batch->size());
-  });
-  return laws->batch->can_hold(at(branch - laws->first));
+  std::size_t i = 0;
+  return network_.batch_of(branch, i).can_hold(i);
 }
 
 // Where a slider and friction that relaxes keep the same ends together, the slider is the sharper of the two: the friction

@@ -31,7 +31,6 @@ struct Parameter {
   std::string flow_index = {};        ///< for damping: the parameter whose value is the n in N*(s/m)^n; "" means n = 1
   std::string same_as = {};           ///< if not given: the value of this other parameter (`breakaway` = `coulomb`)
   std::string rotational_name = {};   ///< its name in a rotational scene, if another (`inertia` for `mass`)
-  std::string later = {};             ///< not empty: refused by name, with this reason, when given
   std::string symbol = {};            ///< as in the law
   std::string description = {};
 

@@ -208,15 +208,10 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
     }
     const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
                                !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
-    const TomlEntry* entry = !parameter.later.empty() ? keys.find_quietly(name)
-                             : may_be_absent          ? keys.find(name)
-                                                      : keys.require(name, plan.spot, wanted(parameter, domain));
+    const TomlEntry* entry = may_be_absent ? keys.find(name)
+                                           : keys.require(name, plan.spot, wanted(parameter, domain));
     if (!entry) {
       if (parameter.kind == Parameter::Kind::signal && parameter.fallback) plan.default_signals.push_back(i);
-      continue;
-    }
-    if (!parameter.later.empty()) {
-      mistakes.error(entry->spot, "`" + name + "` of " + article(type.value.text) + ": " + parameter.later);
       continue;
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);

@@ -69,8 +69,6 @@ Json parameter_schema(const Parameter& parameter) {
   if (!description.empty() && !parameter.description.empty()) description += ": ";
   description += parameter.description;
   description += fmt::format(" [{}]", units_of(parameter));
-  // Part of the format, though not of this version: the simulator says so, a scene is none the less well-formed.
-  if (!parameter.later.empty()) description += "; " + parameter.later;
   if (!parameter.same_as.empty()) description += fmt::format("; if absent, as `{}`", parameter.same_as);
   if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
@@ -116,7 +114,7 @@ Json element_schema(const Declaration& declaration) {
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
     if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
     const bool optional = alternative || parameter.kind == Parameter::Kind::initial || parameter.fallback ||
-                          !parameter.later.empty() || !parameter.same_as.empty();
+                          !parameter.same_as.empty();
     if (!optional) requirements.push_back(one_required(names));
   }
   if (!one_of.empty()) requirements.push_back(one_required(one_of));

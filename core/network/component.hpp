@@ -42,6 +42,9 @@ class DeflectionBatch {
   /// constant, and a function of time alone where both ends are prescribed.
   virtual bool creeps(std::size_t i) const = 0;
 
+  /// Element i feels the velocity of its ends this much later: p'(t) = w(t - delay) - creep(f). 0 for most laws [s].
+  virtual double delay(std::size_t i) const = 0;
+
   /// The deflection of element i at the start, when the relative displacement of its ends is d: a spring's follows from
   /// d, that of a law with a memory from its initial force.
   virtual double start(std::size_t i, double d) = 0;

@@ -42,7 +42,7 @@ class Forest {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
         const int j = laws.first + static_cast<int>(i);
         const Branch& b = s.deflections[at(j)];
-        if (b.a == b.b) continue;
+        if (b.a == b.b || laws.batch->delay(i) > 0) continue;  // what comes later holds nothing now
         if (laws.batch->constant(i)) {
           weak_.push_back({b.element, b.a, b.b});
           continue;

@@ -21,8 +21,9 @@ namespace rheonet {
 ///       double dissipated_power(double p, double dp, double w) const;
 ///     };
 ///
-/// One that creeps also has `steady` and `settle`: see DeflectionBatch. One whose memory changes within a motion, not at its
-/// reversals alone, also has `follow(p, step)`, which changes it as the deflection goes from p to p + step.
+/// One that creeps also has `steady` and `settle`, one that feels velocities later `delay()` [s]: see DeflectionBatch. One
+/// whose memory changes within a motion, not at its reversals alone, also has `follow(p, step)`, which changes it as the
+/// deflection goes from p to p + step.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
@@ -78,6 +79,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
   }
 
   bool creeps(std::size_t) const override { return Law::creeping; }
+  double delay(std::size_t i) const override {
+    if constexpr (requires { laws_[i].delay(); }) return laws_[i].delay();
+    return 0;
+  }
   double start(std::size_t i, double d) override { return laws_[i].start(d); }
   double start_with(std::size_t i, double force) override {
     if constexpr (requires(Law law) { law.start_with(force); }) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace rheonet {
@@ -56,6 +57,15 @@ void batch_up(ByComponent& sorted, Role role, std::vector<Branch>& branches, std
 }
 
 }  // namespace
+
+DeflectionBatch& Network::batch_of(int branch, std::size_t& i) const {
+  for (const Laws<DeflectionBatch>& laws : deflection_laws) {
+    if (branch >= laws.first + static_cast<int>(laws.batch->size())) continue;
+    i = static_cast<std::size_t>(branch - laws.first);
+    return *laws.batch;
+  }
+  throw std::out_of_range("no such branch");
+}
 
 std::string at_time(const Scene& scene, double t) {
   // A late start leaves fewer digits to what has passed since: more are shown.

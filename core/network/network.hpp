@@ -53,6 +53,8 @@ struct Network {
   const std::string& name_of(const Branch& branch) const {
     return scene->elements[static_cast<std::size_t>(branch.element)].name;
   }
+  /// The batch that holds deflection branch number `branch`, and its index there.
+  DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   /// Where an element and a node stand in the netlist.
   const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }
   const Spot& spot_of_node(NodeId node) const { return scene->nodes[static_cast<std::size_t>(node)].spot; }

@@ -161,7 +161,11 @@ Structure analyse(const Network& network, const Modes& modes) {
       const Branch& b = s.deflections[at(j)];
       const bool given = b.a == b.b || (s.kind[at(b.a)] == Kind::known && s.kind[at(b.b)] == Kind::known);
       s.driven[at(j)] = given && !laws.batch->creeps(i);
-      if (!s.driven[at(j)] && !in_tree[at(j)]) s.loops.push_back(express(s, b.a, b.b, j));
+      if (laws.batch->delay(i) > 0) {
+        s.loops.push_back({.branch = j, .flows = {{j, 1}}, .velocities = {}});
+      } else if (!s.driven[at(j)] && !in_tree[at(j)]) {
+        s.loops.push_back(express(s, b.a, b.b, j));
+      }
     }
   }
   return s;

@@ -93,6 +93,7 @@ class Run {
       modes_ = steady.modes;
       slider_force_ = steady.slider_force;
       statistics_.notes = steady.notes;
+      drive_.past().begin(state_.velocity);
     }
     try {
       cross(0, true, {});
@@ -113,7 +114,11 @@ class Run {
 
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
   void cross(double t, bool stepped, const Instant::Fired& fired) {
-    if (stepped) drive_.enter(t);
+    if (stepped) {
+      drive_.enter(t);
+    } else {
+      drive_.mark(t);
+    }
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
     system_ = &systems_.of_modes();
@@ -127,7 +132,7 @@ class Run {
     dae.stand(t, y_.data(), yp_.data(), change.standing);
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
-    dae.view(t, y_.data(), yp_.data());
+    drive_.past().remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
     check_ties(t);
     for (const Event& event : switches_.follow(t, modes_)) {
       if (t > 0) observer_.event(event);
@@ -175,6 +180,7 @@ class Run {
   double horizon(double t) const {
     double h = std::min(drive_.next_break(), settings_.stop) - t;
     if (const double omega = drive_.fastest(); omega > 0) h = std::min(h, 1 / omega);
+    h = std::min(h, drive_.past().shortest());
     return h > 0 ? h : settings_.stop;
   }
 
@@ -208,8 +214,9 @@ class Run {
       }
       t = system_->integrator.time();
       observer_.step(system_->integrator);
-      tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(),
-                         system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data()));
+      const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
+      tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
+      drive_.past().remember(t, view.velocity);
       soften_laws();
       if (settings_.progress) settings_.progress(t / settings_.stop);
       if (outcome == Integrator::Outcome::stop) {
@@ -336,8 +343,8 @@ class Run {
     double h = std::min(until - t, 100 * ahead);
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
     const double omega = drive_.fastest();
-    system_->integrator.limit_step(omega > 0 && system_->events.sticks() ? longest_angle / omega
-                                                                         : std::numeric_limits<double>::infinity());
+    const double turn = omega > 0 && system_->events.sticks() ? longest_angle / omega : std::numeric_limits<double>::infinity();
+    system_->integrator.limit_step(std::min(turn, drive_.past().shortest()));
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain(t)), until - t), until);
   }
 

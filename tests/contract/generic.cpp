@@ -45,7 +45,7 @@ std::vector<double> draw_values(const Component& component, Domain domain, Choic
   const auto draw = [&](std::size_t k) {
     const Parameter& p = d.parameters[k];
     if (p.kind != Parameter::Kind::value) return;
-    if (!p.later.empty() || (choice == Choice::fallbacks && p.fallback)) {
+    if (choice == Choice::fallbacks && p.fallback) {
       values[k] = p.fallback.value_or(not_given);
     } else if (p.quantity == Quantity::number) {
       values[k] = draw_number(p, choice, random);
@@ -109,22 +109,6 @@ Signal draw_signal(Quantity quantity, Domain domain, int kind, Random& random, b
   }
 }
 
-const Parameter* refused_parameter(const Component& component) {
-  for (const Parameter& p : component.declaration.parameters) {
-    const bool required = p.kind != Parameter::Kind::initial && !p.fallback && p.same_as.empty();
-    if (required && !p.later.empty()) return &p;
-  }
-  return nullptr;
-}
-
-std::vector<const Component*> components_under_test() {
-  std::vector<const Component*> result;
-  for (const Component* component : components()) {
-    if (!refused_parameter(*component)) result.push_back(component);
-  }
-  return result;
-}
-
 std::vector<double> values_at_limit(const Component& component, std::size_t limit, const std::vector<double>& generic) {
   const std::vector<Parameter>& parameters = component.declaration.parameters;
   const auto first = [&](std::span<const double> values) {
@@ -143,7 +127,7 @@ std::vector<double> values_at_limit(const Component& component, std::size_t limi
     for (std::size_t t = begin; t < end; ++t) {
       for (std::size_t k = 0; k < parameters.size(); ++k) {
         const Parameter& p = parameters[k];
-        if (p.kind != Parameter::Kind::value || !p.later.empty() || tried[t][k] != generic[k]) continue;
+        if (p.kind != Parameter::Kind::value || tried[t][k] != generic[k]) continue;
         for (const double end_value : {0.0, infinity}) {
           if (end_value == 0 ? p.lower > 0 || (p.lower == 0 && p.lower_open) : !p.may_be_infinite) continue;
           tried.push_back(tried[t]);

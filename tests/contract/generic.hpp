@@ -32,11 +32,6 @@ std::vector<double> draw_values(const Component& component, Domain domain, Choic
 inline constexpr int signal_kinds = 6;
 Signal draw_signal(Quantity quantity, Domain domain, int kind, Random& random, bool jumps = true);
 
-/// A parameter that a component refuses and cannot do without: it is declared, but not simulated. nullptr if none.
-const Parameter* refused_parameter(const Component& component);
-/// The components that can be simulated.
-std::vector<const Component*> components_under_test();
-
 /// Values at which a limit of the component applies, by trying 0 and infinity wherever the bounds allow; empty if none.
 std::vector<double> values_at_limit(const Component& component, std::size_t limit, const std::vector<double>& generic);
 

@@ -40,10 +40,12 @@ std::vector<double> near(const std::vector<double>& limit, const std::vector<dou
   return result;
 }
 
-/// Initial values are what a law remembers; at a limit it may have no memory.
+/// Initial values are what a law remembers, and a delay is too; at a limit it may have no memory.
 std::vector<double> without_initial(const Component& component, std::vector<double> values) {
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (component.declaration.parameters[k].kind == Parameter::Kind::initial) values[k] = not_given;
+    const Parameter& p = component.declaration.parameters[k];
+    if (p.kind == Parameter::Kind::initial) values[k] = not_given;
+    if (p.quantity == Quantity::time) values[k] = p.fallback.value_or(values[k]);
   }
   return values;
 }

@@ -194,7 +194,7 @@ void for_each(const std::vector<Case>& cases, const std::function<void(const Cas
 std::vector<Case> cases(bool moving_base, bool velocities) {
   constexpr Choice order[] = {Choice::fallbacks, Choice::random, Choice::lowest, Choice::random};
   std::vector<Case> result;
-  for (const Component* component : components_under_test()) {
+  for (const Component* component : components()) {
     for (const Wiring wiring : wirings) {
       for (const Choice choice : order) {
         const std::uint64_t seed = result.size();

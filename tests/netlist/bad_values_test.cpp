@@ -221,16 +221,6 @@ scene.toml:2:65: error: `stiffness`: `1/0` is infinite
       |                                                                 ^
   is it a division by zero? ("inf" alone is a limit)
 )~"},
-      {"a parameter of a later version",
-       R"~(
-[elements]
-s1 = { type = "slider", between = ["a", "ground"], coulomb = 1, delay = "1 ms" }
-)~",
-       R"~(
-scene.toml:2:65: error: `delay` of a `slider`: delays are not built yet
-    2 | s1 = { type = "slider", between = ["a", "ground"], coulomb = 1, delay = "1 ms" }
-      |                                                                 ^
-)~"},
       {"parameters in a circle",
        R"~(
 [parameters]

@@ -28,7 +28,7 @@ const Declaration slider{
          .lower_open = false,
          .may_be_infinite = true,
          .same_as = "coulomb"},
-        {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .later = "delays are not built yet"}}};
+        {.name = "delay", .quantity = Quantity::time, .fallback = 0.0}}};
 
 const Declaration mass{.type = "mass",
                        .rotational_type = "inertia",

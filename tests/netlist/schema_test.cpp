@@ -23,7 +23,7 @@ const Declaration damper{
                     .description = "force at unit velocity"},
                    {.name = "index", .quantity = Quantity::number, .fallback = 1.5, .upper = 20, .symbol = "n"},
                    {.name = "limit", .quantity = Quantity::force, .same_as = "damping"},
-                   {.name = "temperature", .later = "not yet", .symbol = "T"},
+                   {.name = "temperature", .fallback = 20.0, .symbol = "T"},
                    {.name = "d0",
                     .quantity = Quantity::position,
                     .kind = Parameter::Kind::initial,
@@ -95,7 +95,7 @@ TEST_CASE("a parameter has its description, units, default and bounds") {
   CHECK(properties["index"]["description"] == "n [no unit]; 1.5 if absent");
   CHECK_FALSE(properties["d0"].contains("minimum"));
   CHECK(properties["d0"]["$ref"] == "#/$defs/value");
-  CHECK(properties["temperature"]["description"] == "T [no unit]; not yet");
+  CHECK(properties["temperature"]["description"] == "T [no unit]; 20 if absent");
 }
 
 TEST_CASE("an element type requires what has no default, and takes nothing unknown") {

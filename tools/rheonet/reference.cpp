@@ -80,7 +80,7 @@ Row row(const Parameter& p, const Declaration& declaration) {
       .units = units(p, declaration),
       .bounds = bounds(p),
       .fallback = fallback(p, declaration),
-      .description = p.later.empty() ? p.description : p.description + " (refused: " + p.later + ")",
+      .description = p.description,
   };
 }
 

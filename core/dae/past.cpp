@@ -1,0 +1,206 @@
+#include "core/dae/past.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rheonet {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// Points that one interpolation takes: those of a step of order 5.
+constexpr std::size_t most_points = 6;
+// What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
+constexpr int most_levels = 6;
+
+// Velocities that differ by this share of their magnitudes are one.
+constexpr double jump_rounding = 1e-12;
+
+// Times that differ by rounding are one.
+double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
+
+/// The last one that has begun by t; nullptr if none has (before the run).
+template <class Items>
+auto* current(Items& items, double t) {
+  const auto after = std::upper_bound(items.begin(), items.end(), t, [](double x, const auto& item) { return x < item.t; });
+  return after == items.begin() ? nullptr : &*std::prev(after);
+}
+
+}  // namespace
+
+Past::Past(const Network& network) : track_of_(network.scene->nodes.size(), -1), shortest_(infinity) {
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const double delay = laws.batch->delay(i);
+      if (delay == 0) continue;
+      const int branch = laws.first + static_cast<int>(i);
+      const Branch& b = network.deflections[static_cast<std::size_t>(branch)];
+      delayed_.push_back({branch, b.a, b.b, delay});
+      shortest_ = std::min(shortest_, delay);
+      longest_ = std::max(longest_, delay);
+      for (NodeId node : {b.a, b.b}) {
+        int& track = track_of_[static_cast<std::size_t>(node)];
+        if (track >= 0 || node == ground) continue;
+        track = static_cast<int>(tracks_.size());
+        tracks_.push_back({.node = node, .motion = -1, .before = 0, .stretches = {}, .runs = {}, .moves = {}});
+      }
+    }
+  }
+  taken_.assign(delayed_.size(), -infinity);
+  for (std::size_t m = 0; m < network.motions.size(); ++m) {
+    if (Track* t = track(network.motions[m].node)) t->motion = static_cast<int>(m);
+  }
+}
+
+Past::Track* Past::track(NodeId node) {
+  const int index = track_of_[static_cast<std::size_t>(node)];
+  return index < 0 ? nullptr : &tracks_[static_cast<std::size_t>(index)];
+}
+
+void Past::begin(const std::vector<double>& velocity) {
+  for (Track& t : tracks_) t.before = velocity[static_cast<std::size_t>(t.node)];
+}
+
+void Past::mark(double t, bool fresh) {
+  if (delayed_.empty()) return;
+  int level = fresh ? 0 : most_levels;
+  for (const Break& b : breaks_) {
+    for (const Delayed& d : delayed_) {
+      if (std::abs(b.t + d.delay - t) <= grain(t)) level = std::min(level, b.level + 1);
+    }
+  }
+  forget(t);
+  since_ = t;
+  if (!breaks_.empty() && breaks_.back().t >= t) {
+    breaks_.back().level = std::min(breaks_.back().level, level);
+  } else {
+    breaks_.push_back({t, level});
+  }
+  for (Track& track : tracks_) {
+    if (!track.runs.empty() && track.runs.back().t >= t) {
+      track.runs.back().points.clear();
+    } else {
+      track.runs.push_back({t, {}});
+    }
+  }
+}
+
+void Past::follow(std::size_t m, double t, const Piece& piece, bool position) {
+  for (Track& track : tracks_) {
+    if (track.motion != static_cast<int>(m)) continue;
+    if (!track.stretches.empty() && track.stretches.back().t >= t) track.stretches.pop_back();
+    track.stretches.push_back({t, piece, position});
+  }
+}
+
+void Past::remember(double t, const std::vector<double>& velocity) {
+  for (Track& track : tracks_) {
+    if (track.motion >= 0 || track.runs.empty()) continue;
+    std::vector<Point>& points = track.runs.back().points;
+    const double v = velocity[static_cast<std::size_t>(track.node)];
+    if (points.empty() && track.runs.size() > 1) {
+      // What jumps is as sharp as at first, whatever it has come through.
+      const std::vector<Point>& earlier = std::prev(track.runs.end(), 2)->points;
+      if (!earlier.empty() && std::abs(v - earlier.back().v) > jump_rounding * (std::abs(v) + std::abs(earlier.back().v))) {
+        breaks_.back().level = 0;
+      }
+    }
+    if (points.empty() || t > points.back().t) points.push_back({t, v});
+  }
+  forget(t);
+}
+
+void Past::moved(double t, const std::vector<double>& distance) {
+  for (Track& track : tracks_) {
+    const double d = distance[static_cast<std::size_t>(track.node)];
+    if (d == 0) continue;
+    track.moves.push_back({t, d});
+    breaks_.back().level = 0;
+  }
+}
+
+/// What lies further back than the longest delay, and the points that its interpolation takes, is needed no more.
+void Past::forget(double t) {
+  const double needed = t - longest_ - grain(t);
+  while (!breaks_.empty() && breaks_.front().t < needed) breaks_.pop_front();
+  for (Track& track : tracks_) {
+    while (track.stretches.size() > 1 && track.stretches[1].t < needed) track.stretches.pop_front();
+    while (track.runs.size() > 1 && track.runs[1].t < needed) track.runs.pop_front();
+    while (!track.moves.empty() && track.moves.front().t < needed) track.moves.pop_front();
+    if (track.runs.empty()) continue;
+    std::vector<Point>& points = track.runs.front().points;
+    const auto first = std::lower_bound(points.begin(), points.end(), needed, [](const Point& p, double x) { return p.t < x; });
+    const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(most_points);
+    // Now and then many at once: each costs a move of all that stay.
+    if (spare > static_cast<std::ptrdiff_t>(points.size() / 2)) points.erase(points.begin(), points.begin() + spare);
+  }
+}
+
+double Past::next_break() const {
+  double next = infinity;
+  for (const Break& b : breaks_) {
+    if (b.level + 1 >= most_levels) continue;
+    for (const Delayed& d : delayed_) {
+      if (const double then = b.t + d.delay; then > since_ + grain(since_)) next = std::min(next, then);
+    }
+  }
+  return next;
+}
+
+/// The polynomial through the points around t, by Newton's divided differences.
+double Past::interpolate(const Run& run, double t) {
+  const std::vector<Point>& points = run.points;
+  if (points.empty()) return 0;
+  const std::size_t count = std::min(most_points, points.size());
+  const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
+  const auto middle = static_cast<std::size_t>(after - points.begin());
+  const std::size_t first = std::min(middle > count / 2 ? middle - count / 2 : 0, points.size() - count);
+  double difference[most_points];
+  for (std::size_t k = 0; k < count; ++k) difference[k] = points[first + k].v;
+  for (std::size_t order = 1; order < count; ++order) {
+    for (std::size_t k = count - 1; k >= order; --k) {
+      difference[k] = (difference[k] - difference[k - 1]) / (points[first + k].t - points[first + k - order].t);
+    }
+  }
+  double v = difference[count - 1];
+  for (std::size_t k = count - 1; k-- > 0;) v = v * (t - points[first + k].t) + difference[k];
+  return v;
+}
+
+// At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
+// was before.
+double Past::velocity(NodeId node, double t, bool before) const {
+  if (node == ground) return 0;
+  const Track& track = tracks_[static_cast<std::size_t>(track_of_[static_cast<std::size_t>(node)])];
+  const double side = before ? t - grain(t) : t + grain(t);
+  if (track.motion >= 0) {
+    const Stretch* stretch = current(track.stretches, side);
+    if (!stretch) return track.before;
+    return stretch->position ? stretch->piece.rate(t) : stretch->piece.value(t);
+  }
+  const Run* run = current(track.runs, side);
+  return run ? interpolate(*run, t) : track.before;
+}
+
+double Past::felt(std::size_t k, double t) const {
+  const Delayed& d = delayed_[k];
+  const bool before = t > since_ + grain(t);
+  return velocity(d.a, t - d.delay, before) - velocity(d.b, t - d.delay, before);
+}
+
+double Past::take_steps(std::size_t k, double t) {
+  const Delayed& d = delayed_[k];
+  const double until = t + grain(t);
+  double sum = 0;
+  for (const auto& [node, sign] : {std::pair{d.a, 1.0}, std::pair{d.b, -1.0}}) {
+    if (node == ground) continue;
+    for (const Move& move : track(node)->moves) {
+      if (move.t + d.delay > taken_[k] && move.t + d.delay <= until) sum += sign * move.distance;
+    }
+  }
+  taken_[k] = until;
+  return sum;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "core/network/network.hpp"
+
+namespace rheonet {
+
+/// How fast the ends of delayed branches have moved, for as long as the longest delay: what such a branch feels is then a
+/// given function of time. Where nothing lies between a time and its delay a step must be no longer than the delay.
+///
+/// Prescribed motions are remembered by their stretches, exactly. Of other nodes the velocity is remembered at each step
+/// and interpolated between breaks, over as many points as the integrator's highest order uses. A break (a jump, a corner,
+/// an event) comes again one delay later, and once more after that: mostly each time in a higher derivative, until it is
+/// too smooth to matter.
+class Past {
+ public:
+  explicit Past(const Network& network);
+
+  struct Delayed { int branch; NodeId a, b; double delay; };
+  const std::vector<Delayed>& delayed() const { return delayed_; }
+  /// The shortest delay [s]; infinite if there is none.
+  double shortest() const { return shortest_; }
+
+  /// Until t = 0 all nodes have moved at these velocities (one for each node) [m/s].
+  void begin(const std::vector<double>& velocity);
+  /// A break at t, and the stretches of the motions that begin there. It is a fresh one, or comes of one a delay ago.
+  void mark(double t, bool fresh);
+  /// From t on motion number `m` of the network moves along `piece`, the stretch of its position or of its velocity.
+  void follow(std::size_t m, double t, const Piece& piece, bool position);
+  /// The nodes (all of the network) have these velocities at t: after a break, and after each step.
+  void remember(double t, const std::vector<double>& velocity);
+  /// At t the nodes have moved by these distances in no time [m].
+  void moved(double t, const std::vector<double>& distance);
+
+  /// The next instant after the last break at which something comes through [s]; infinite if there is none.
+  double next_break() const;
+  /// What branch number k of `delayed` feels at t [m/s].
+  double felt(std::size_t k, double t) const;
+  /// By how much its ends have come apart in no time, as it feels it: what has come through by t since it was last asked [m].
+  double take_steps(std::size_t k, double t);
+
+ private:
+  struct Break { double t; int level; };       ///< level: how often it has come through a delay
+  struct Stretch { double t; Piece piece; bool position; };
+  struct Point { double t, v; };
+  struct Run { double t; std::vector<Point> points; };  ///< between two breaks
+  struct Move { double t, distance; };
+  struct Track {
+    NodeId node;
+    int motion = -1;
+    double before = 0;  ///< velocity until t = 0
+    std::deque<Stretch> stretches;
+    std::deque<Run> runs;
+    std::deque<Move> moves;
+  };
+  Track* track(NodeId node);
+  double velocity(NodeId node, double t, bool before) const;
+  static double interpolate(const Run& run, double t);
+  void forget(double t);
+
+  std::vector<Delayed> delayed_;
+  std::vector<Track> tracks_;
+  std::vector<int> track_of_;  ///< of each node, -1
+  std::deque<Break> breaks_;
+  std::vector<double> taken_;  ///< of each delayed branch: up to when steps have been taken [s]
+  double shortest_, longest_ = 0;
+  double since_ = 0;           ///< the last break [s]
+};
+
+}  // namespace rheonet

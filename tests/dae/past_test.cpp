@@ -1,0 +1,97 @@
+#include "core/dae/past.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/support/scene_builder.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+constexpr double delay = 0.37;
+
+/// A branch from a free node to a moved one that feels what they do after `delay`.
+struct Remembering {
+  Scene scene;
+  Network network;
+  Past past;
+
+  Remembering() : scene(make()), network(build_network(scene)), past(network) { past.begin({0, 0, 0}); }
+  static Scene make() {
+    SceneBuilder b;
+    b.at("m", "mass", "free", {{"mass", 1}});
+    b.motion("drive", "moved", "velocity", Signal(Signal::Constant{0}));
+    b.between("v", "vfm", "free", "moved", {{"damping", 2}, {"stiffness", 3}, {"delay", delay}});
+    return b.finish(1, 1, 1e-6);
+  }
+  void remember(double t, double v) { past.remember(t, {0, v, 0}); }
+};
+
+double quintic(double t) { return 0.3 - 1.7 * t + t * t * (2.1 - t * (0.8 + t * (1.3 - 0.9 * t))); }
+
+}  // namespace
+
+TEST_CASE("past: polynomials up to the highest order of the integrator are remembered exactly, whatever the steps") {
+  Remembering r;
+  r.past.mark(0, true);
+  double t = 0;
+  r.remember(0, quintic(0));
+  for (int k = 1; t < 3; ++k) {
+    t += 0.01 + 0.05 * std::abs(std::sin(k * k));
+    r.remember(t, quintic(t));
+    for (const double back : {0.0, 0.003, 0.011, 0.3}) {
+      const double now = std::max(t - back, 0.2);
+      if (now - delay < 0.25 || now > t) continue;  // the first steps have fewer points
+      CHECK(r.past.felt(0, now) == doctest::Approx(quintic(now - delay)).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE("past: before the run nothing moves; the two sides of a jump, one delay later") {
+  Remembering r;
+  r.past.mark(0, true);
+  for (int k = 0; k <= 20; ++k) r.remember(0.05 * k, 1 + 0.05 * k);
+  r.past.mark(1, true);
+  for (int k = 0; k <= 6; ++k) r.remember(1 + 0.05 * k, -5.0);
+  CHECK_EQ(r.past.felt(0, delay / 2), 0);
+  CHECK_EQ(r.past.next_break(), 1 + delay);
+  const double through = 1 + delay;
+  CHECK_EQ(r.past.felt(0, through), doctest::Approx(2).epsilon(1e-12));  // a step that ends there
+  CHECK_EQ(r.past.felt(0, through - 0.01), doctest::Approx(1.99).epsilon(1e-12));
+  r.past.mark(through, false);
+  CHECK_EQ(r.past.felt(0, through), doctest::Approx(-5).epsilon(1e-12));  // one that begins there
+  CHECK_EQ(r.past.felt(0, through + 0.01), doctest::Approx(-5).epsilon(1e-12));
+}
+
+TEST_CASE("past: a smooth break comes through a few times, one that jumps again and again") {
+  for (const bool jumps : {false, true}) {
+    Remembering r;
+    double t = 0;
+    r.past.mark(0, true);
+    r.remember(0, 1);
+    int times = 0;
+    for (; std::isfinite(r.past.next_break()) && times < 50; ++times) {
+      const double next = r.past.next_break();
+      CHECK_EQ(next, doctest::Approx(t + delay).epsilon(1e-13));
+      r.remember(next, 1);
+      t = next;
+      r.past.mark(t, false);
+      r.remember(t, jumps ? 1 + 0.1 * ((times % 2) ? 1 : -1) : 1);
+    }
+    CHECK_EQ(times, jumps ? 50 : 5);
+  }
+}
+
+TEST_CASE("past: a move in no time is felt once, by both ends with their signs") {
+  Remembering r;
+  r.past.mark(0, true);
+  r.past.mark(0.2, true);
+  r.past.moved(0.2, {0, 0.03, 0.01});
+  CHECK_EQ(r.past.take_steps(0, 0.2 + delay / 2), 0);
+  CHECK_EQ(r.past.take_steps(0, 0.2 + delay), doctest::Approx(0.02).epsilon(1e-14));
+  CHECK_EQ(r.past.take_steps(0, 0.2 + delay), 0);
+}
+
+}  // namespace rheonet::test
