@@ -49,6 +49,13 @@ TEST_CASE("couette.toml") {
   const double steady = A * mu * uw / h * (R + h);
   CHECK(-rows["hold1.force"].front() == doctest::Approx(steady).epsilon(1e-6));
   CHECK(rows["vfm1.force"].front() == doctest::Approx(steady).epsilon(1e-6));
+  for (std::size_t row = 0; row < rows.time().size(); ++row) {
+    const double t = rows.time()[row] - start, TD = T1 * std::log(2);
+    if (std::abs(t - TD) < 1e-9 * T1 || std::abs(t) < 1e-9 * T1) continue;
+    const double first_term = t < TD ? 1 : 2 * std::exp(-t / T1);  // of the steady torque
+    CHECK(std::abs(rows["late1.force"][row] - steady * first_term) <= 1e-5 * steady);
+    CHECK(std::abs(rows["late2.force"][row] - steady * (2 * first_term - 1)) <= 1e-5 * steady);
+  }
   int compared = 0;
   for (const auto& [after, gap, hold] :
        {std::tuple{0.0, "stopped", "hold1.force"}, std::tuple{-1.0, "reversed", "hold2.force"}}) {

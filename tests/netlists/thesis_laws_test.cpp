@@ -170,6 +170,15 @@ TEST_CASE("laws/vfm.toml") {
   check(file, "vfm.force", "time", [&](double t, double) { return B * w0 * std::exp(-std::max(0.0, t - stop) / T); });
 }
 
+TEST_CASE("laws/vfm-delay.toml") {
+  const SceneFile file = run_file("thesis/laws/vfm-delay.toml");
+  const double B = file.value("vfm", "damping"), T1 = B / file.value("vfm", "stiffness"), TD = T1 * std::log(2);
+  CHECK_EQ(file.value("vfm", "delay"), doctest::Approx(TD));
+  const double w0 = file.rows["drum.velocity"].front(), stop = 0.02;
+  check(file, "vfm.force", "time",
+        [&](double t, double) { return t < stop + TD ? B * w0 : 2 * B * w0 * std::exp(-(t - stop) / T1); });
+}
+
 TEST_CASE("laws/cfm.toml") {
   const SceneFile file = run_file("thesis/laws/cfm.toml");
   const double B = file.value("cfm", "damping"), Tc = file.value("cfm", "coulomb");
