@@ -17,6 +17,9 @@ namespace rheonet {
 ///
 /// For i < 1 the bound u = 0 is reached at a finite x; from there on the friction is `held` at s Fc until it is released.
 struct SolidFriction {
+  /// At the bound but for so much of it: at the bound.
+  static constexpr double yield_rounding = 1e-15;
+
   double sigma;  ///< N/m
   double Fc;     ///< N
   double i;      ///< exponent
@@ -43,11 +46,23 @@ struct SolidFriction {
     // Where u = 2 the force is -s Fc: no state of the law lies beyond. Iterates of a solver may: go on along the tangent.
     const double z2 = q == 0 ? std::log(u_ref / 2) : (std::pow(u_ref, q) - std::pow(2, q)) / q;
     if (value_of(z) < z2) return beyond(z, z2);
+    if (i == 0) {
+      // A straight line up to the bound, and on: a step that goes beyond finds its way back to where the law yields.
+      const T f = f_ref + sigma * (p - p_ref);
+      return std::abs(s * value_of(f) - Fc) <= yield_rounding * Fc ? T(f + (s * Fc - value_of(f))) : f;
+    }
     const T y = z * std::pow(u_ref, -q);
     if (q * value_of(y) >= 1) return T(s * Fc);
     // Counted from f_ref, so that a small force keeps all its digits.
     const T f = f_ref - (s * Fc * u_ref) * expm1(q == 0 ? T(-y) : T(log1p(T(-q * y)) / q));
     return s * value_of(f) < Fc ? f : T(s * Fc);
+  }
+
+  /// The same for a deflection that goes all the way at once, with no event at the bound.
+  template <class T>
+  T force_reached(const T& p) const {
+    const T f = force(p);
+    return s * value_of(f) > Fc ? T(s * Fc) : f;
   }
 
   /// Slope df/dp with which a motion in `direction` begins at deflection p.
@@ -86,7 +101,7 @@ struct SolidFriction {
     // Work done along the curve, by the midpoint rule: good to 1e-6 of it, for the energy account alone.
     constexpr int slices = 1000;
     double work = 0;
-    for (int k = 0; k < slices; ++k) work += force(p + jump * (k + 0.5) / slices) * jump / slices;
+    for (int k = 0; k < slices; ++k) work += force_reached(p + jump * (k + 0.5) / slices) * jump / slices;
     const double before = stored_energy(p);
     held = held || (i < 1 && s * (p + jump - p_ref) >= travel_to_bound());
     return work - (stored_energy(p + jump) - before);

@@ -23,6 +23,8 @@ struct Spring : MemorylessLaw {
   double dissipated_power(double, double, double) const { return 0; }
 };
 
+LinearSpring linear(std::span<const double> v) { return {.stiffness = v[0], .rest = v[1], .force = v[2], .displacement = v[3]}; }
+
 bool no_stiffness(std::span<const double> v) { return v[0] == 0; }
 
 const RegisterComponent registered({
@@ -52,6 +54,7 @@ const RegisterComponent registered({
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0", .becomes = "", .applies = no_stiffness, .values = {}}},
     .deflection = deflection_batch<Spring>,
+    .spring = linear,
     .drawing = "M0 .5 H.2 L.25 .3 L.35 .7 L.45 .3 L.55 .7 L.65 .3 L.75 .7 L.8 .5 H1",
 });
 

@@ -10,7 +10,7 @@ namespace rheonet {
 
 Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
     : network_(&network), structure_(&structure), drive_(&drive), bonds_(network, structure) {
-  const std::size_t nodes = network.scene->nodes.size(), nd = network.deflections.size(), nr = network.rates.size();
+  const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
   derive_positions(needed);
 
@@ -44,7 +44,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
 
 void Dae::number_unknowns() {
   const Network& network = *network_;
-  iv_.assign(network.scene->nodes.size(), -1);
+  iv_.assign(network.nodes(), -1);
   ix_ = iv_;
   ip_.assign(network.deflections.size(), -1);
   if_.assign(network.rates.size(), -1);

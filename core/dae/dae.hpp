@@ -116,9 +116,11 @@ class Dae {
   /// Returns them.
   std::vector<int> release_bundle(int branch, double w);
 
-  /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed.
+  /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed. What laws turn into heat that know
+  /// it in closed form is left out of the power: their sum since their memories changed last [J].
   double supplied_power() const;
   double dissipated_power() const;
+  double heat_of_laws() const;
   double stored_energy() const;
 
   DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }

@@ -364,6 +364,7 @@ double Dae::supplied_power() const {
 double Dae::dissipated_power() const {
   double power = 0;
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    if (laws.batch->knows_heat()) continue;
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
       power += laws.batch->dissipated_power(i, view_.p[j], view_.dp[j], view_.flow[j]);
@@ -372,6 +373,16 @@ double Dae::dissipated_power() const {
   for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
   for (std::size_t k = 0; k < slip_force_.size(); ++k) power += slip_force_[k] * view_.slider_velocity[k];
   return power;
+}
+
+double Dae::heat_of_laws() const {
+  double heat = 0;
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    for (std::size_t i = 0; laws.batch->knows_heat() && i < laws.batch->size(); ++i) {
+      heat += laws.batch->heat(i, view_.p[at(laws.first) + i]);
+    }
+  }
+  return heat;
 }
 
 double Dae::stored_energy() const {

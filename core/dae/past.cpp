@@ -29,7 +29,7 @@ auto* current(Items& items, double t) {
 
 }  // namespace
 
-Past::Past(const Network& network) : track_of_(network.scene->nodes.size(), -1), shortest_(infinity) {
+Past::Past(const Network& network) : track_of_(network.nodes(), -1), shortest_(infinity) {
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const double delay = laws.batch->delay(i);

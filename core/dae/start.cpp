@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/dae/pair_start.hpp"
 #include "core/dae/start_balance.hpp"
 
 namespace rheonet {
@@ -71,18 +72,19 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
 
 Start start(const Network& network, const Structure& classified) {
   const Scene& scene = *network.scene;
-  const std::size_t nodes = scene.nodes.size();
+  const std::size_t nodes = network.nodes();
   std::vector<double> x(nodes, 0);
   std::vector<char> fixed(nodes, 0);
   fixed[ground] = 1;
   for (std::size_t n = 1; n < nodes; ++n) {
-    if (std::isnan(scene.nodes[n].position)) continue;
-    x[n] = scene.nodes[n].position;
+    const double given = network.node(static_cast<NodeId>(n)).position;
+    if (std::isnan(given)) continue;
+    x[n] = given;
     fixed[n] = 1;
   }
   for (const Network::Motion& m : network.motions) {
     const std::size_t n = static_cast<std::size_t>(m.node);
-    const SceneNode& node = scene.nodes[n];
+    const SceneNode& node = network.node(m.node);
     const std::string& name = scene.elements[static_cast<std::size_t>(m.element)].name;
     const double velocity = m.position ? m.signal.piece(0).rate(0) : m.signal.value(0);
     if (m.position) {
@@ -114,7 +116,8 @@ Start start(const Network& network, const Structure& classified) {
   state.position = x;
   state.velocity.assign(nodes, 0);
   for (std::size_t n = 1; n < nodes; ++n) {
-    if (!std::isnan(scene.nodes[n].velocity)) state.velocity[n] = scene.nodes[n].velocity;
+    const double given = network.node(static_cast<NodeId>(n)).velocity;
+    if (!std::isnan(given)) state.velocity[n] = given;
   }
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -125,7 +128,9 @@ Start start(const Network& network, const Structure& classified) {
       state.offset.push_back(d - state.p.back());
     }
   }
+  const std::vector<std::string> chosen = start_pairs(network, x);
   result.chosen = balance_start(network, classified, fixed, state);
+  result.chosen.insert(result.chosen.end(), chosen.begin(), chosen.end());
   return result;
 }
 
@@ -133,8 +138,8 @@ StartWords describe_start(const Start& start, const Network& network, const Stru
                           const std::vector<double>& velocity) {
   StartWords words{.notes = {}, .chosen = start.chosen};
   const Scene& scene = *network.scene;
-  for (std::size_t n = 1; n < scene.nodes.size(); ++n) {
-    const SceneNode& node = scene.nodes[n];
+  for (std::size_t n = 1; n < network.nodes(); ++n) {
+    const SceneNode& node = network.node(static_cast<NodeId>(n));
     const bool floating = classified.kind[n] == Kind::floating;
     if (!floating && classified.kind[n] != Kind::viscous) continue;
     if (std::abs(velocity[n] - node.velocity) > scene.accuracy * std::abs(node.velocity)) {

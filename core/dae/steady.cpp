@@ -1,5 +1,6 @@
 #include "core/dae/steady.hpp"
 
+#include "core/dae/pair_start.hpp"
 #include "core/dae/settling.hpp"
 
 namespace rheonet {
@@ -35,6 +36,7 @@ SteadyStart Settling::go() {
   } while (!find_places());
   if (resting_) refuse_motion();
   note_what_gave_way();
+  follow_pairs(network_, state_);
   return std::move(result_);
 }
 
@@ -164,7 +166,7 @@ void Settling::report_acceleration(const std::vector<NodeId>& nodes) const {
 /// Start values that the steady state contradicts.
 void Settling::note_what_gave_way() {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    const SceneNode& node = network_.scene->nodes[n];
+    const SceneNode& node = network_.node(static_cast<NodeId>(n));
     state_.velocity[n] = velocity_[n];
     if (n == 0 || std::isnan(node.velocity) || known(static_cast<NodeId>(n))) continue;
     if (std::abs(node.velocity - velocity_[n]) <= rounding * std::abs(node.velocity)) continue;

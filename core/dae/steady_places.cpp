@@ -114,7 +114,7 @@ std::vector<std::string> Settling::fix_places(ConvexNetwork& problem, Sets& hang
   for (const bool given : {true, false}) {
     for (std::size_t n = 0; n < velocity_.size(); ++n) {
       const NodeId node = static_cast<NodeId>(n);
-      if (placed[at(hang.find(node))] || std::isnan(network_.scene->nodes[n].position) == given) continue;
+      if (placed[at(hang.find(node))] || std::isnan(network_.node(static_cast<NodeId>(n)).position) == given) continue;
       fix(node);
       open.push_back(network_.node_name(node));
     }

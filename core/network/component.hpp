@@ -100,6 +100,10 @@ class DeflectionBatch {
   virtual double stored_energy(std::size_t i, double p) const = 0;
   /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
   virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;
+  /// Where the law knows it as a function of its deflection: what has turned into heat since the memory changed last [J].
+  /// No quadrature of a power that jumps is then needed.
+  virtual bool knows_heat() const { return false; }
+  virtual double heat(std::size_t, double) const { return 0; }
 };
 
 /// f = coefficient abs(w)^exponent sgn(w) for large velocities w.
@@ -139,6 +143,14 @@ struct Slip {
   double breakaway;  ///< N, not less than coulomb
 };
 
+/// A deflection law f = stiffness (d - rest).
+struct LinearSpring {
+  double stiffness;     ///< N/m
+  double rest;          ///< m
+  double force;         ///< at the start [N]; takes the place of `rest`; not_given
+  double displacement;  ///< at the start [m]; not_given
+};
+
 /// A law at a limit of its parameters is another law.
 struct Limit {
   std::string when = {};     ///< "damping = inf", for the reference
@@ -157,6 +169,7 @@ struct Component {
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
+  std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is one
   std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
 };
 

@@ -7,6 +7,8 @@
 #include "core/netlist/scene.hpp"
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"
+#include "core/network/iwan.hpp"
+#include "core/network/pairs.hpp"
 
 namespace rheonet {
 
@@ -25,15 +27,16 @@ struct Laws {
 };
 
 /// A scene's elements by what they are to the structure; laws sorted by type, so that each type is one contiguous batch.
-/// Elements at a limit of their parameters have become the law of the limit. Time counts from the scene's start.
+/// Elements at a limit of their parameters have become the law of the limit, springs in series with sliders alone one
+/// element (pairs.hpp). Time counts from the scene's start.
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Motion { int element; NodeId node; Signal signal; bool position; };
   struct Slider { Branch branch; Slip law; };
   struct Force { int element; NodeId a, b; Signal signal; };  ///< b = -1 for a force at one node
   /// Where an element went: a branch of `deflections` or `rates`, or an index into sliders, masses, motions,
-  /// forces.
-  struct Place { Role role; int index; };
+  /// forces; or into `pairs`, whatever its role.
+  struct Place { Role role; int index; bool paired = false; };
 
   const Scene* scene = nullptr;
   std::vector<Branch> deflections;
@@ -45,6 +48,13 @@ struct Network {
   std::vector<Motion> motions;
   std::vector<Force> forces;
   std::vector<Place> places;  ///< one for each element of the scene
+  /// Springs and sliders in series, and what they are together: the last branches of `deflections`. A bundle goes by the
+  /// name of its first slider.
+  std::vector<Pair> pairs;
+  IwanBatch* bundles = nullptr;  ///< nullptr if there are none
+  int first_bundle = 0;          ///< branch of the first one
+  std::vector<NodeId> scene_node;  ///< the scene's number of each node: those between pairs are not of the network
+  std::vector<int> node_of;        ///< of each of the scene's nodes: its number here, or -1 - the pair that it is in
   /// All nodes, ground first, in the order in which elements name them: the equations are numbered by it, so that two
   /// ways of writing a network give the same numbers.
   std::vector<NodeId> node_order;
@@ -57,8 +67,12 @@ struct Network {
   DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   /// Where an element and a node stand in the netlist.
   const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }
-  const Spot& spot_of_node(NodeId node) const { return scene->nodes[static_cast<std::size_t>(node)].spot; }
-  const std::string& node_name(NodeId node) const { return scene->nodes[static_cast<std::size_t>(node)].name; }
+  const Spot& spot_of_node(NodeId n) const { return node(n).spot; }
+  const std::string& node_name(NodeId n) const { return node(n).name; }
+  std::size_t nodes() const { return scene_node.size(); }
+  const SceneNode& node(NodeId n) const {
+    return scene->nodes[static_cast<std::size_t>(scene_node[static_cast<std::size_t>(n)])];
+  }
 };
 
 /// "at t = 1.3 s", for messages: t counts from the scene's start, what is shown does not.

@@ -112,7 +112,7 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
 }
 
 Structure blank(const Network& network) {
-  const std::size_t n = network.scene->nodes.size();
+  const std::size_t n = network.nodes();
   Structure s;
   s.kind.assign(n, Kind::floating);
   s.motion.assign(n, -1);

@@ -23,9 +23,28 @@ Ends ends_of(const Scene& scene, const Record& record) {
   return {scene.assemblies[at(record.index)].a, scene.assemblies[at(record.index)].b};
 }
 
+/// A spring and its slider in a state of their bundle, from the spring's end to the slider's.
+struct PairView {
+  PairView(const Network& network, int k, const Dae::View& view)
+      : pair(network.pairs[at(k)]),
+        bundle((*network.bundles)[at(pair.bundle)]),
+        branch(network.first_bundle + pair.bundle),
+        p(view.p[at(branch)]) {}
+  double force() const { return pair.sign * bundle.pair_force(pair.index, p); }
+  double stretch() const { return pair.sign * bundle.stretch(pair.index, p); }
+  double slide() const { return pair.sign * bundle.slide(pair.index, p); }
+  bool slips() const { return bundle.pair_yields(pair.index, p); }
+
+  const Pair& pair;
+  const Iwan& bundle;
+  int branch;
+  double p;
+};
+
 bool own_displacement(const Network& network, const Record& record) {
   if (record.subject != Record::Subject::element) return false;
   const Network::Place& place = network.places[at(record.index)];
+  if (place.paired) return true;
   if (place.role != Role::deflection) return false;
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     const int i = place.index - laws.first;
@@ -41,11 +60,14 @@ bool is_place(const Record& record) {
 }  // namespace
 
 std::vector<char> needed_positions(const Network& network) {
-  std::vector<char> needed(network.scene->nodes.size(), 0);
+  std::vector<char> needed(network.nodes(), 0);
   for (const Record& record : network.scene->records) {
     if (!is_place(record) || own_displacement(network, record)) continue;
     const Ends ends = ends_of(*network.scene, record);
-    needed[at(ends.a)] = needed[at(ends.b)] = 1;
+    for (const NodeId end : {ends.a, ends.b}) {
+      const int node = network.node_of[at(end)];
+      needed[at(node < 0 ? network.pairs[at(-1 - node)].slider_end : node)] = 1;
+    }
   }
   // Positions go over sliders that stick, so both ends must be known when they begin to.
   if (std::find(needed.begin(), needed.end(), 1) == needed.end()) return needed;
@@ -59,7 +81,13 @@ void Channels::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
   consistency_ = &consistency;
   const Structure& structure = dae.structure();
-  const auto floating = [&](NodeId node) { return structure.group[at(structure.rigid[at(node)])] >= 0; };
+  const auto floating_node = [&](NodeId node) { return structure.group[at(structure.rigid[at(node)])] >= 0; };
+  const auto floating = [&](NodeId end) {
+    const int node = network_.node_of[at(end)];
+    if (node >= 0) return floating_node(node);
+    const Pair& pair = network_.pairs[at(-1 - node)];
+    return floating_node(pair.spring_end) || floating_node(pair.slider_end);
+  };
   rates_needed_ = false;
   for (const Record& record : scene_.records) {
     if (record.channel != Record::Channel::velocity) continue;
@@ -71,6 +99,10 @@ void Channels::attach(Dae& dae, Consistency& consistency) {
 double Channels::element_force(int element, const Dae::View& view) const {
   const Network& network = network_;
   const Network::Place& place = network.places[at(element)];
+  if (place.paired) {
+    const PairView pair(network, place.index, view);
+    return (element == pair.pair.spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.force();
+  }
   switch (place.role) {
     case Role::deflection:
       return view.f[at(place.index)];
@@ -95,21 +127,47 @@ double Channels::element_force(int element, const Dae::View& view) const {
   return 0;
 }
 
+double Channels::position(NodeId end, const Dae::View& view) const {
+  const int node = network_.node_of[at(end)];
+  if (node >= 0) return view.position[at(node)];
+  const PairView pair(network_, -1 - node, view);
+  return view.position[at(pair.pair.slider_end)] + pair.slide();
+}
+
+double Channels::velocity(NodeId end, const Dae::View& view) const {
+  const int node = network_.node_of[at(end)];
+  if (node >= 0) return view.velocity[at(node)];
+  const PairView pair(network_, -1 - node, view);
+  return view.velocity[at(pair.slips() ? pair.pair.spring_end : pair.pair.slider_end)];
+}
+
 double Channels::displacement(const Record& record, const Dae::View& view) const {
-  if (own_displacement(network_, record)) return dae_->displacement(network_.places[at(record.index)].index);
+  if (own_displacement(network_, record)) {
+    const Network::Place& place = network_.places[at(record.index)];
+    if (!place.paired) return dae_->displacement(place.index);
+    const PairView pair(network_, place.index, view);
+    return record.index == pair.pair.spring ? pair.pair.spring_sign * pair.stretch()
+                                            : pair.pair.slider_sign * pair.slide();
+  }
   const Ends ends = ends_of(scene_, record);
-  return view.position[at(ends.a)] - view.position[at(ends.b)];
+  return position(ends.a, view) - position(ends.b, view);
 }
 
 double Channels::velocity(const Record& record, const Dae::View& view) const {
   if (record.subject == Record::Subject::element) {
     const Network::Place& place = network_.places[at(record.index)];
+    if (place.paired) {
+      const PairView pair(network_, place.index, view);
+      const bool spring = record.index == pair.pair.spring;
+      if (spring == pair.slips()) return 0;
+      return (spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.pair.sign * view.flow[at(pair.branch)];
+    }
     if (place.role == Role::deflection) return view.flow[at(place.index)];
     if (place.role == Role::rate) return view.rate_velocity[at(place.index)];
     if (place.role == Role::slip) return view.slider_velocity[at(place.index)];
   }
   const Ends ends = ends_of(scene_, record);
-  return view.velocity[at(ends.a)] - view.velocity[at(ends.b)];
+  return velocity(ends.a, view) - velocity(ends.b, view);
 }
 
 const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,

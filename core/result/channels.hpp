@@ -26,6 +26,8 @@ class Channels {
  private:
   const std::vector<double>& read_state(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
   double element_force(int element, const Dae::View& view) const;
+  double position(NodeId node, const Dae::View& view) const;
+  double velocity(NodeId node, const Dae::View& view) const;
   double displacement(const Record& record, const Dae::View& view) const;
   double velocity(const Record& record, const Dae::View& view) const;
 

@@ -28,6 +28,7 @@ void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {
   dae_->view(t, y.data(), yp.data());
   last_ = {dae_->supplied_power(), dae_->dissipated_power()};
+  heat_ = dae_->heat_of_laws();
   const double stored = dae_->stored_energy();
   if (!begun_) {
     stored_at_start_ = stored;
@@ -82,6 +83,9 @@ void EnergyAccount::step(const Integrator& integrator) {
   const Power pa = last_, pb = power(integrator, b);
   stored_ = dae_->stored_energy();
   last_ = pb;
+  const double heat = dae_->heat_of_laws();
+  sum_.dissipated += heat - heat_;
+  heat_ = heat;
   const Power added = lobatto(integrator, a, b, pa, pb, 0);
   sum_.supplied += added.supplied;
   sum_.dissipated += added.dissipated;

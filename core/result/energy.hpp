@@ -10,7 +10,7 @@ namespace rheonet {
 
 /// The energy account of a run: power integrated over each step from the integrator's polynomial, by the 4-point Lobatto
 /// rule; where an element is driven on all sides (steps are then longer than what happens in it) by its adaptive 7-point
-/// Kronrod extension (Gander and Gautschi, BIT 40 (2000) 84).
+/// Kronrod extension (Gander and Gautschi, BIT 40 (2000) 84). Laws that know their heat in closed form are asked for it.
 class EnergyAccount {
  public:
   /// `tolerance` is relative to the largest energy so far.
@@ -39,6 +39,7 @@ class EnergyAccount {
   bool adaptive_ = false;
   bool begun_ = false;
   Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`
+  double heat_ = 0;    ///< of the laws that know it, when `last_` was
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
   std::vector<double> y_, yp_;
 };

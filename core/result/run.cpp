@@ -27,6 +27,7 @@ class Recorder final : public Observer {
         channels_(network),
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
+        tells_(settings.events != nullptr),
         energy_(scene_.accuracy * 0.01),
         switched_(scene_.elements.size(), 0) {
     for (const Record& record : scene_.records) names_.push_back(record.path);
@@ -76,7 +77,7 @@ class Recorder final : public Observer {
   void event(const Event& event) override {
     const std::size_t element = static_cast<std::size_t>(event.element);
     ++switched_[element];
-    events_.text_row(scene_time(event_time(event.t)), {scene_.elements[element].name, event.what, std::to_string(event.direction)});
+    if (tells_) events_.text_row(scene_time(event_time(event.t)), {scene_.elements[element].name, event.what, std::to_string(event.direction)});
     if (!scene_.output_events || pending_event_) return;
     write(event_time(event.t), before_);
     pending_event_ = true;
@@ -143,6 +144,7 @@ class Recorder final : public Observer {
   std::vector<std::string> names_;
   Channels channels_;
   CsvWriter csv_, events_;
+  bool tells_;  ///< of events
   EnergyAccount energy_;
   std::vector<long> switched_;  ///< how often, of each element
   std::int64_t next_ = 0;
@@ -168,6 +170,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
                            .accuracy = scene.accuracy,
+                           .switch_times = settings.events != nullptr,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress},
                           recorder);

@@ -134,7 +134,7 @@ class Run {
     system_->consistency.derivative(t, y_, yp_);
     drive_.past().remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
     check_ties(t);
-    for (const Event& event : switches_.follow(t, modes_)) {
+    for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
@@ -217,6 +217,9 @@ class Run {
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       drive_.past().remember(t, view.velocity);
+      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, settings_.switch_times)) {
+        observer_.event(event);
+      }
       soften_laws();
       if (settings_.progress) settings_.progress(t / settings_.stop);
       if (outcome == Integrator::Outcome::stop) {

@@ -1,10 +1,54 @@
 #include "core/solve/switches.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace rheonet {
+
+namespace {
+
+/// Where g falls through 0 between two times, by the Illinois variant of the rule of false position (Dowell and
+/// Jarratt, BIT 11 (1971) 168): at once where it is about straight.
+template <class G>
+double first_below_zero(const G& g, double left, double right) {
+  constexpr int most = 60;
+  constexpr double rounding = 1e-15;  // of the values at both ends
+  double gl = g(left), gr = g(right);
+  if (gl <= 0 || gr >= 0) return gl <= 0 ? left : right;
+  const double enough = rounding * (gl - gr);
+  double best = -gr < gl ? right : left, least = std::min(gl, -gr);
+  int kept = 0;  // the side that has not moved
+  for (int k = 0; k < most; ++k) {
+    const double t = left + (right - left) * (gl / (gl - gr));
+    if (!(t > left && t < right)) break;
+    const double now = g(t);
+    if (std::abs(now) < least) {
+      best = t;
+      least = std::abs(now);
+    }
+    if (least <= enough) break;
+    if (now > 0) {
+      left = t;
+      gl = now;
+      if (kept > 0) gr /= 2;
+      kept = 1;
+    } else {
+      right = t;
+      gr = now;
+      if (kept < 0) gl /= 2;
+      kept = -1;
+    }
+  }
+  return best;
+}
+
+}  // namespace
 
 Switches::Switches(const Network& network) : network_(network) {
   last_.slider.assign(network.sliders.size(), Modes::stuck);
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    if (laws.batch.get() == network.bundles) continue;
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       if (laws.batch->events(i) == 0) continue;
       const int element = network.deflections[static_cast<std::size_t>(laws.first) + i].element;
@@ -12,9 +56,21 @@ Switches::Switches(const Network& network) : network_(network) {
       laws_.back().last = laws_.back().now();
     }
   }
+  for (std::size_t k = 0; network.bundles && k < network.bundles->size(); ++k) {
+    const Iwan& law = (*network.bundles)[k];
+    bundles_.push_back({.branch = network.first_bundle + static_cast<int>(k),
+                        .law = &law,
+                        .pairs = std::vector<int>(law.size()),
+                        .mode = std::vector<signed char>(law.size(), 0),
+                        .slipping = {}});
+  }
+  for (std::size_t k = 0; k < network.pairs.size(); ++k) {
+    const Pair& pair = network.pairs[k];
+    bundles_[static_cast<std::size_t>(pair.bundle)].pairs[pair.index] = static_cast<int>(k);
+  }
 }
 
-const std::vector<Event>& Switches::follow(double t, const Modes& modes) {
+const std::vector<Event>& Switches::follow(double t, const Modes& modes, const std::vector<double>& p) {
   events_.clear();
   for (Law& law : laws_) {
     const Condition now = law.now();
@@ -32,6 +88,64 @@ const std::vector<Event>& Switches::follow(double t, const Modes& modes) {
          law.breakaway > law.coulomb ? "breakaway" : "slip");
     last_.slider[k] = modes.slider[k];
   }
+  for (Bundle& bundle : bundles_) follow(t, bundle, p[static_cast<std::size_t>(bundle.branch)]);
+  return events_;
+}
+
+void Switches::follow(double t, Bundle& bundle, double p) {
+  const Iwan& law = *bundle.law;
+  if (bundle.on != law.branch()) {
+    // It has turned, perhaps more than once: what slipped sticks, unless it has come to a bound again.
+    bundle.on = law.branch();
+    std::vector<std::size_t> before;
+    before.swap(bundle.slipping);
+    for (std::size_t rank = 0; rank < law.yielded(p); ++rank) yield(t, bundle, law.in_order(rank));
+    for (std::size_t pair : before) {
+      if (!law.pair_yields(pair, p)) {
+        tell(t, bundle, pair, bundle.mode[pair], 0);
+        bundle.mode[pair] = 0;
+      }
+    }
+  }
+  for (std::size_t rank = bundle.slipping.size(); rank < law.yielded(p); ++rank) yield(t, bundle, law.in_order(rank));
+}
+
+void Switches::yield(double t, Bundle& bundle, std::size_t pair) {
+  const auto direction = static_cast<signed char>(bundle.law->direction());
+  tell(t, bundle, pair, bundle.mode[pair], direction);
+  bundle.mode[pair] = direction;
+  bundle.slipping.push_back(pair);
+}
+
+void Switches::tell(double t, const Bundle& bundle, std::size_t index, int before, int after) {
+  if (before == after) return;
+  const Pair& pair = network_.pairs[static_cast<std::size_t>(bundle.pairs[index])];
+  const int sign = pair.sign * pair.slider_sign < 0 ? -1 : 1;
+  turn(t, pair.slider, sign * before, sign * after, "stick", "slip");
+}
+
+const std::vector<Event>& Switches::follow_step(const Integrator& integrator, Dae& dae, bool timed) {
+  events_.clear();
+  if (bundles_.empty()) return events_;
+  std::vector<double> y, yp;
+  const auto deflection = [&](const Bundle& bundle, double t) {
+    integrator.interpolate(t, 0, y);
+    integrator.interpolate(t, 1, yp);
+    return dae.view(t, y.data(), yp.data()).p[static_cast<std::size_t>(bundle.branch)];
+  };
+  const double end = integrator.time();
+  for (Bundle& bundle : bundles_) {
+    const Iwan& law = *bundle.law;
+    double t = integrator.previous_time();
+    const std::size_t yielded = law.yielded(
+        dae.view(end, integrator.y().data(), integrator.yp().data()).p[static_cast<std::size_t>(bundle.branch)]);
+    for (std::size_t rank = bundle.slipping.size(); rank < yielded; ++rank) {
+      const auto left = [&](double at) { return law.direction() * (law.yield_point(rank) - deflection(bundle, at)); };
+      t = timed ? first_below_zero(left, t, end) : end;
+      yield(t, bundle, law.in_order(rank));
+    }
+  }
+  std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.t < b.t; });
   return events_;
 }
 

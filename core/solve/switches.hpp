@@ -3,8 +3,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/dae/dae.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
+#include "core/solve/integrator.hpp"
 
 namespace rheonet {
 
@@ -22,13 +24,19 @@ struct Event {
 ///   slider             "slip", "stick"; "breakaway": it slips and lets go of more than its force of sliding
 ///   law with a memory  "start", "stop": between rest and motion; "yield", "release": it comes to its bound, leaves it
 ///   both               "reversal"
+///
+/// A slider in a pair (core/network/pairs.hpp) is told of as any other, though a bundle goes on without an event: when it
+/// yielded within a step follows from the deflection of the bundle.
 class Switches {
  public:
   /// The network must outlive this.
   explicit Switches(const Network& network);
 
-  /// What has changed since the last call. Valid until the next one.
-  const std::vector<Event>& follow(double t, const Modes& modes);
+  /// What has changed since the last call, with the deflections of all branches. Valid until the next one.
+  const std::vector<Event>& follow(double t, const Modes& modes, const std::vector<double>& p);
+  /// The same at the end of the last step, of the pairs that have yielded within it: at their times, in their order; not
+  /// `timed`, all at its end.
+  const std::vector<Event>& follow_step(const Integrator& integrator, Dae& dae, bool timed);
 
  private:
   struct Condition { int direction; bool bound; };
@@ -39,10 +47,23 @@ class Switches {
     Condition last;
     Condition now() const { return {batch->direction(i), batch->constant(i)}; }
   };
+  /// What has been told of the pairs of a bundle.
+  struct Bundle {
+    int branch;              ///< of the network
+    const Iwan* law;
+    std::vector<int> pairs;  ///< index into Network::pairs, of each
+    std::vector<signed char> mode;      ///< of each: the direction in which it slips
+    std::vector<std::size_t> slipping;  ///< since they yielded on a branch of the law, the first of its order
+    long on = -1;                       ///< that branch
+  };
+  void follow(double t, Bundle& bundle, double p);
+  void yield(double t, Bundle& bundle, std::size_t pair);
+  void tell(double t, const Bundle& bundle, std::size_t pair, int before, int after);
   void turn(double t, int element, int before, int after, const char* to_rest, const char* from_rest);
 
   const Network& network_;
   std::vector<Law> laws_;
+  std::vector<Bundle> bundles_;
   Modes last_;
   std::vector<Event> events_;
 };

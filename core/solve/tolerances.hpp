@@ -44,6 +44,8 @@ class Tolerances {
   double& foreseen_of(const Quantity& q) { return foreseen_[static_cast<std::size_t>(q.sort)][q.index]; }
   void forget();
   void see(const std::vector<double>& y, const Dae::View& view);
+  void watch_kinks(const Dae::View& view);
+  double local() const;
   void update(double t, const std::vector<double>& yp);
   void find_parts();
   void find_rounding(const Dae::View& view);
@@ -66,6 +68,10 @@ class Tolerances {
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
   std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
   std::vector<double> restless_;                      ///< of each part: the largest of its velocities
+  /// How far each bundle has yielded, and on which of its branches.
+  struct Yielded { long branch = 0; std::size_t pairs = 0; };
+  std::vector<Yielded> yielded_;
+  double kink_pace_ = 0;  ///< share of the last steps that went over such kinks
   double unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, tolerance_;

@@ -1,0 +1,109 @@
+#include "core/network/pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// What touches a node.
+struct Touch {
+  int count = 0;
+  int spring = -1, slider = -1;
+  bool firm = false;          ///< ground, a mass or a motion: its start value is its own
+  std::vector<double> start;  ///< where it may start [m]; NaN where that follows from something else
+};
+
+bool is_spring(const Reduced& law) { return law.component && law.component->spring; }
+
+bool is_plain_slider(const Reduced& law) {
+  if (!law.component || law.component->role != Role::slip) return false;
+  const Slip slip = law.component->slip(law.values);
+  return slip.breakaway == slip.coulomb && std::isfinite(slip.coulomb);
+}
+
+bool starts_displaced(const Scene& scene, std::size_t element) {
+  const SceneElement& e = scene.elements[element];
+  const std::vector<Parameter>& parameters = components()[at(e.declaration)]->declaration.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const Parameter& p = parameters[k];
+    if (p.kind == Parameter::Kind::initial && p.quantity == Quantity::position && !std::isnan(e.values[k])) return true;
+  }
+  return false;
+}
+
+std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws) {
+  std::vector<Touch> result(scene.nodes.size());
+  result[ground].firm = true;
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    const double given = scene.nodes[n].position;
+    result[n].start.push_back(std::isnan(given) ? 0 : given);
+  }
+  for (std::size_t e = 0; e < laws.size(); ++e) {
+    const SceneElement& element = scene.elements[e];
+    const Role role = laws[e].component ? laws[e].component->role : Role::nothing;
+    const auto touch = [&](NodeId node) {
+      Touch& t = result[at(node)];
+      ++t.count;
+      if (is_spring(laws[e])) t.spring = static_cast<int>(e);
+      if (is_plain_slider(laws[e])) t.slider = static_cast<int>(e);
+      t.firm = t.firm || role == Role::mass || role == Role::motion;
+      if (role == Role::motion && element.signal_parameters.at(0) == 0) {
+        t.start = {element.signals.at(0).before(scene.start), element.signals.at(0).value(scene.start)};
+      }
+      if (starts_displaced(scene, e)) t.start = {not_given};
+    };
+    touch(element.a);
+    if (!element.at) touch(element.b);
+  }
+  return result;
+}
+
+NodeId other_end(const SceneElement& element, NodeId node) { return element.a == node ? element.b : element.a; }
+
+/// Wherever the spring's end starts, its force is not beyond what the slider holds.
+bool holds_at_start(const Pair& pair, const Touch& end) {
+  return std::all_of(end.start.begin(), end.start.end(), [&](double x) {
+    return std::abs(pair.law.stiffness * (pair.spring_sign * x - pair.law.rest)) <= pair.coulomb;  // not for NaN
+  });
+}
+
+}  // namespace
+
+std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& laws) {
+  const std::vector<Touch> touched = touches(scene, laws);
+  std::vector<char> taken(scene.elements.size(), 0);
+  std::vector<Pair> pairs;
+  for (NodeId node = 1; node < static_cast<NodeId>(scene.nodes.size()); ++node) {
+    const Touch& touch = touched[at(node)];
+    if (touch.count != 2 || touch.spring < 0 || touch.slider < 0) continue;
+    if (taken[at(touch.spring)] || taken[at(touch.slider)] || !std::isnan(scene.nodes[at(node)].velocity)) continue;
+    const SceneElement &spring = scene.elements[at(touch.spring)], &slider = scene.elements[at(touch.slider)];
+    const Reduced &spring_law = laws[at(touch.spring)], &slider_law = laws[at(touch.slider)];
+    Pair pair{.spring = touch.spring,
+              .slider = touch.slider,
+              .node = node,
+              .spring_end = other_end(spring, node),
+              .slider_end = other_end(slider, node),
+              .law = spring_law.component->spring(spring_law.values),
+              .coulomb = slider_law.component->slip(slider_law.values).coulomb,
+              .spring_sign = spring.b == node ? 1.0 : -1.0,
+              .slider_sign = slider.a == node ? 1.0 : -1.0};
+    if (pair.spring_end == pair.slider_end) continue;
+    // A start displacement of the spring may be what places its end. (NaN: not given.)
+    if (!std::isnan(pair.law.displacement)) continue;
+    // Where an end has no place of its own, what is given here may have to balance what is given there; and a slider
+    // that cannot hold its spring slides as far as all others there let it.
+    const bool firm = touched[at(pair.spring_end)].firm && touched[at(pair.slider_end)].firm;
+    const bool given = !std::isnan(pair.law.force) || !std::isnan(scene.nodes[at(node)].position);
+    if (!firm && (given || !holds_at_start(pair, touched[at(pair.spring_end)]))) continue;
+    taken[at(touch.spring)] = taken[at(touch.slider)] = 1;
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+}  // namespace rheonet
