@@ -213,3 +213,19 @@ TEST_CASE("laws/davidenkov.toml") {
   }
   CHECK_EQ(file.summary.dissipated, doctest::Approx(heat).epsilon(1e-5));
 }
+
+TEST_CASE("davidenkov-wired.toml") {
+  std::vector<double> errors;
+  for (const int pairs : {25, 50, 100, 200}) {
+    const SceneFile file = run_file("thesis/davidenkov-wired.toml", {fmt::format("parameters.N={}", pairs)});
+    double worst = 0;
+    for (std::size_t row = 0; row < file.rows.time().size(); ++row) {
+      worst = std::max(worst, std::abs(file.rows["one.force"][row] - file.rows["wired.force"][row]));
+    }
+    errors.push_back(worst / file.rows.scale("one.force"));
+    CHECK_EQ(file.rows.scale("one.force"), doctest::Approx(file.value("one", "coulomb")).epsilon(1e-3));  // it flows, too
+  }
+  CHECK_LT(errors.back(), 1e-4);
+  const double order = std::log2(errors.front() / errors.back()) / 3;
+  CHECK_MESSAGE(std::abs(order - 2) < 0.3, fmt::format("order {:.3f}", order));
+}
