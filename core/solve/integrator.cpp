@@ -66,10 +66,12 @@ struct Integrator::Implementation {
     require(IDASetLinearSolver(ida, linear, matrix), "IDASetLinearSolver");
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
-    if (dae.rough()) {  // what follows from the others at every instant need not be followed by steps
-      for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
-      require(IDASetId(ida, nw), "IDASetId");
-      require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+    // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
+    // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
+    for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
+    require(IDASetId(ida, nw), "IDASetId");
+    require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+    if (dae.rough()) {
       newton = SUNNonlinSol_Newton(ny, context);
       require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
       require(SUNNonlinSolSetConvTestFn(newton, converged, this), "SUNNonlinSolSetConvTestFn");

@@ -106,16 +106,6 @@ double check_constant(const Trajectory& rows, const std::string& column, double 
   return value;
 }
 
-Scene scene_of(const std::string& toml, double accuracy) {
-  ReadOptions options;
-  if (accuracy > 0) options.accuracy = accuracy;
-  const ReadResult read = read_scene_text(toml, "scene.toml", "/nonexistent", declarations(), options);
-  std::string text;
-  for (const Diagnostic& diagnostic : read.diagnostics) text += format(diagnostic, read.sources) + "\n";
-  REQUIRE_MESSAGE(read.scene, text);
-  return *read.scene;
-}
-
 Outcome outcome(const std::string& toml, double accuracy) {
   Outcome result;
   result.rows = simulate(scene_of(toml, accuracy), &result.summary);

@@ -34,9 +34,6 @@ struct Outcome {
 };
 Outcome outcome(const std::string& toml, double accuracy = 0);
 
-/// A netlist's scene; fails the test if it is refused.
-Scene scene_of(const std::string& toml, double accuracy = 0);
-
 /// How many notes of a run name all of these.
 int notes_naming(const Summary& summary, const std::vector<std::string>& names);
 

@@ -20,6 +20,20 @@ bool ReferenceBundle::set_valued() const {
                      [](const Member& m) { return m.law.type() == Type::slider || m.law.type() == Type::cfm; });
 }
 
+bool ReferenceBundle::relaxing() const {
+  return std::any_of(members_.begin(), members_.end(), [](const Member& m) { return m.law.type() == Type::cfm; });
+}
+
+bool ReferenceBundle::could_slip_on(const ReferenceBundle& before) const {
+  for (std::size_t k = 0; k < members_.size(); ++k) {
+    const ReferenceLaw& law = members_[k].law;
+    if (law.type() != Type::slider || law.breakaway() <= law.coulomb()) continue;
+    const bool stopped = before.members_[k].law.slip() != 0 && law.slip() == 0;
+    if (stopped && std::abs(law.force()) > (1 - 1e-4) * law.coulomb()) return true;
+  }
+  return false;
+}
+
 bool ReferenceBundle::ambiguous_at_rest() const {
   return std::count_if(members_.begin(), members_.end(),
                        [](const Member& m) { return m.law.type() == Type::slider; }) > 1;

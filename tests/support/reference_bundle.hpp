@@ -41,6 +41,10 @@ class ReferenceBundle {
   bool ambiguous_at_rest() const;
   /// True if at step = 0 the force may lie anywhere in an interval.
   bool set_valued() const;
+  /// True if a slider has stopped since `before` under a force at which it could as well have gone on: one that is above
+  /// what it slips with, but not above what breaks it away.
+  bool could_slip_on(const ReferenceBundle& before) const;
+  bool relaxing() const;  ///< with a cfm, whose force at rest goes on from the one before
 
   const std::vector<Member>& members() const { return members_; }
   ReferenceLaw& law(std::size_t member) { return members_[member].law; }

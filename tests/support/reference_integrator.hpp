@@ -14,6 +14,7 @@ namespace rheonet::test {
 struct ReferenceSolution {
   struct Column {
     std::vector<double> value;  ///< at each output time
+    std::vector<double> coarse; ///< the same from the two longest steps
     std::vector<double> error;  ///< estimated; infinite where the laws leave the value open, or a turn lies too near
     double scale = 0;           ///< largest magnitude in the rows
   };
@@ -21,6 +22,7 @@ struct ReferenceSolution {
   std::vector<Column> columns;  ///< one for each record of the scene
   double end = 0;               ///< s: the stop, or where the forces could no longer be balanced
   bool complete = true;         ///< false: nothing resists what is applied at `end`
+  double fork = 0;              ///< s: the laws leave open what comes after; infinite if they decide all
   int steps = 0;                ///< of the finest run
 };
 

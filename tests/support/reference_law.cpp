@@ -137,8 +137,8 @@ void ReferenceLaw::accept(double step, double force, double h) {
   if (type_ == Type::spring || type_ == Type::dashpot || type_ == Type::vfm) return;
   const int sign = step > 0 ? 1 : step < 0 ? -1 : 0;
   if (type_ == Type::slider) slip_ = sign;
-  // What moves by no more than rounding has not turned.
-  const bool moves = step == 0 || stiffness_ * std::abs(step) > 1e-10 * coulomb_;
+  // What moves by no more than rounding has not turned; a slider that sticks does not move at all.
+  const bool moves = type_ == Type::slider || step == 0 || stiffness_ * std::abs(step) > 1e-10 * coulomb_;
   const int direction = moves ? sign : piece_.direction;
   const double velocity = step / h, change = (velocity - velocity_) * h / (h + h_);
   const bool turning = moves && direction != 0 && direction == piece_.direction && direction * (velocity + change) < 0;

@@ -40,6 +40,7 @@ class ReferenceLaw {
   void accept(double step, double force, double h);
   double force() const { return force_; }
   double coulomb() const { return coulomb_; }
+  double breakaway() const { return breakaway_; }
 
   /// The piece of its map that the last step was on: another one means a corner in the force.
   struct Piece {
@@ -54,8 +55,10 @@ class ReferenceLaw {
   }
 
   /// If this law has not turned since `before` but `other` has, as `other`.
-  void follow(const ReferenceLaw& other, const ReferenceLaw& before) {
-    if (piece_.direction == before.piece_.direction) piece_.direction = piece_.leaving = other.piece_.direction;
+  bool follow(const ReferenceLaw& other, const ReferenceLaw& before) {
+    if (piece_.direction != before.piece_.direction || piece_.direction == other.piece_.direction) return false;
+    piece_.direction = piece_.leaving = other.piece_.direction;
+    return true;
   }
 
   /// A slider's direction of slip; 0 if it sticks. It sticks up to `breakaway`, and slips at `coulomb`.

@@ -8,14 +8,17 @@ namespace rheonet::test {
 
 namespace {
 
-// The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed.
-constexpr double stiffer = 1e3;
-constexpr int corrections = 200;
+// The series spring of a steep law is this much stiffer than all around it: few corrections of its preload are needed. If
+// its rounding is then too much, less has to do.
+constexpr double stiffer[] = {1e3, 10};
+constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
 // The stretch of a series spring that is left, against a force of the network in the spring.
 constexpr double unstretched = 1e-8;
+// The same, as a length, against the largest displacement in the step.
+constexpr double little_stretch = 1e-6;
 
 /// Solves a symmetric positive definite system in place; `a` is overwritten by its Cholesky factor.
 void solve(std::vector<double>& a, std::vector<double>& b) {
@@ -72,6 +75,7 @@ ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<Referenc
 void ReferenceNetwork::evaluate(const Input& input) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   std::fill(size_.begin(), size_.end(), 0.0);
+  largest_force_ = largest_step_ = 0;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
     const int i = unknown_[at(b.a)], j = unknown_[at(b.b)];
@@ -79,6 +83,7 @@ void ReferenceNetwork::evaluate(const Input& input) {
     const double total = x_[at(b.a)] - x_[at(b.b)];
     points_[k] = K_[k] > 0 ? b.with_spring(total, K_[k], preload_[k], input.h) : b.at(total, input.h);
     const double f = points_[k].force;
+    largest_step_ = std::max(largest_step_, std::abs(total));
     // The rounding of the positions of both ends shows in the force.
     const double magnitude = std::abs(f) + points_[k].slope * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
     largest_force_ = std::max(largest_force_, std::abs(f));
@@ -92,10 +97,13 @@ void ReferenceNetwork::evaluate(const Input& input) {
     const double inertia = node.mass * (x / input.h - node.velocity) / input.h;
     gradient_[i] += inertia - F;
     size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / input.h;
-    worst = std::max(worst, std::abs(gradient_[i]) / (balanced * (size_[i] + 1e-2 * largest_force_) + rounding_));
+    worst = std::max(worst, std::abs(gradient_[i]) / tolerance(size_[i]));
   }
   unbalance_ = worst;
 }
+
+/// What rounding may leave out of balance where the magnitudes of the forces sum to `size`.
+double ReferenceNetwork::tolerance(double size) const { return balanced * (size + 1e-2 * largest_force_) + rounding_; }
 
 double ReferenceNetwork::slope_along(const Input& input, const std::vector<double>& direction) {
   evaluate(input);
@@ -110,12 +118,20 @@ bool ReferenceNetwork::search(const Input& input, const std::vector<double>& dir
     for (std::size_t i = 0; i < node_of_.size(); ++i) x_[at(node_of_[i])] = from[at(node_of_[i])] + t * direction[i];
     return slope_along(input, direction);
   };
+  // Far away rounding is more than what there is to be seen.
+  const auto blurred = [&](double slope) {
+    double noise = 0;
+    for (std::size_t i = 0; i < node_of_.size(); ++i) noise += 1e-15 * size_[i] * std::abs(direction[i]);
+    return !(noise <= 0.1 * slope);
+  };
   const double first = std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
   if (first >= 0) return true;  // rounding: no way down any more
   double low = 0, high = 1, at_low = first, at_high = go(1);
+  const bool close = blurred(-first);
+  while (close && high > 1e-60 && blurred(-first)) at_high = go(high /= 16);
   while (at_high < 0.5 * first) {
     low = high, at_low = at_high;
-    if ((high *= 4) > 1e12) return false;
+    if (close || (high *= 4) > 1e12) return false;
     at_high = go(high);
   }
   for (int iteration = 0; iteration < 100 && at_high > -0.5 * first; ++iteration) {
@@ -149,11 +165,23 @@ bool ReferenceNetwork::newton(const Input& input) {
       matrix_[i * n + i] += nodes_[at(node_of_[i])].mass / (input.h * input.h);
       largest = std::max(largest, matrix_[i * n + i]);
     }
-    for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += 1e-14 * largest + 1e-200;
+    for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += 1e-14 * matrix_[i * n + i] + 1e-30 * largest + 1e-200;
     std::vector<double> direction(n);
     for (std::size_t i = 0; i < n; ++i) direction[i] = -gradient_[i];
     solve(matrix_, direction);
-    if (!search(input, direction)) return false;
+    // A full step that does well needs no search, which sees nothing of a node that moves too little: its share of the
+    // slope is lost in the rounding of the others'.
+    const std::vector<double> from = x_, slope = gradient_, size = size_;
+    for (std::size_t i = 0; i < n; ++i) x_[at(node_of_[i])] += direction[i];
+    evaluate(input);
+    // By the measure that held before: far away any force is small beside the rounding there.
+    double left = 0;
+    for (std::size_t i = 0; i < n; ++i) left = std::max(left, std::abs(gradient_[i]) / tolerance(size[i]));
+    if (!(left <= 0.5 * worst)) {
+      x_ = from;
+      gradient_ = slope;
+      if (!search(input, direction)) return false;
+    }
     worst = unbalance_;
     // Rounding sets a floor that the estimate of it may miss by a little.
     stalled = worst < 0.5 * before ? 0 : stalled + 1;
@@ -163,45 +191,66 @@ bool ReferenceNetwork::newton(const Input& input) {
   return worst <= 1e4;
 }
 
-/// The spring in series with a steep bundle: stiffer than what it works against, the bundle itself and the way around it.
-double ReferenceNetwork::series_spring(std::size_t bundle, double h) const {
-  double compliance = 0;
-  for (const NodeId end : {bundles_[bundle].a, bundles_[bundle].b}) {
-    if (unknown_[at(end)] < 0) continue;
-    double stiffness = nodes_[at(end)].mass / (h * h);
+/// The stiffness of what a bundle works against, the way around it.
+double ReferenceNetwork::around(std::size_t bundle, double h) const {
+  double compliance = 0, largest = 0;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    double stiffness = nodes_[n].mass / (h * h);
     for (std::size_t k = 0; k < bundles_.size(); ++k) {
-      if (k != bundle && (bundles_[k].a == end || bundles_[k].b == end)) stiffness += bundles_[k].typical_slope(h);
+      if (k != bundle && (at(bundles_[k].a) == n || at(bundles_[k].b) == n)) stiffness += bundles_[k].typical_slope(h);
     }
-    compliance += 1 / stiffness;
+    largest = std::max(largest, stiffness);
+    const bool end = at(bundles_[bundle].a) == n || at(bundles_[bundle].b) == n;
+    if (end && unknown_[n] >= 0 && stiffness > 0) compliance += 1 / stiffness;
   }
-  const double sum = 1 / compliance + bundles_[bundle].typical_slope(h);
-  return stiffer * (sum > 0 ? sum : 1);
+  // Between sliders alone, what is beyond them.
+  const double stiffness = compliance > 0 ? 1 / compliance : largest;
+  return stiffness > 0 ? stiffness : 1;
 }
 
 /// Where a law is steep, the minimum is sought with a stiff spring in series. The spring is then given the force found as
 /// its preload, so that it need not stretch for it, and so on until it is not stretched (method of multipliers).
 bool ReferenceNetwork::minimise(const Input& input) {
+  const std::vector<double> from = x_;
+  for (const double factor : stiffer) {
+    if (minimise(input, factor)) return true;
+    x_ = from;
+  }
+  return false;
+}
+
+bool ReferenceNetwork::minimise(const Input& input, double factor) {
   bool any = false;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const bool free = unknown_[at(bundles_[k].a)] >= 0 || unknown_[at(bundles_[k].b)] >= 0;
-    K_[k] = free && bundles_[k].steep() ? series_spring(k, input.h) : 0;
+    K_[k] = free && bundles_[k].steep() ? factor * around(k, input.h) : 0;
     any = any || K_[k] > 0;
   }
   for (int correction = 0; correction < corrections; ++correction) {
     if (!newton(input)) return false;
-    double change = 0;
+    typical_step_ = std::max(typical_step_, largest_step_);
+    bool settled = true;
     for (std::size_t k = 0; k < bundles_.size(); ++k) {
       if (K_[k] == 0) continue;
-      change = std::max(change, std::abs(points_[k].force - preload_[k]));
+      const double stretching = K_[k] * (std::abs(x_[at(bundles_[k].a)]) + std::abs(x_[at(bundles_[k].b)]));
+      const double change = std::abs(points_[k].force - preload_[k]);
+      if (change > 10 * rounding_ + 10 * balanced * stretching &&
+          (change > unstretched * largest_force_ || change > little_stretch * K_[k] * typical_step_)) {
+        settled = false;
+      }
       preload_[k] = points_[k].force;
     }
-    if (!any || change <= unstretched * largest_force_ + 10 * rounding_) return true;
+    if (settled) return true;
+    // Where there is little motion, or nothing but friction around, it was not stiff enough.
+    if (correction % stiffen_after == stiffen_after - 1) {
+      for (double& K : K_) K *= 10;
+    }
   }
   return false;
 }
 
 bool ReferenceNetwork::step(const Input& input) {
-  largest_force_ = 0;
+  typical_step_ = 0;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     x_[n] = nodes_[n].prescribed ? input.displacement[n] : nodes_[n].velocity * input.h;
   }
@@ -250,17 +299,28 @@ bool ReferenceNetwork::turned_since(const ReferenceNetwork& before) const {
   return false;
 }
 
-void ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetwork& before) {
+bool ReferenceNetwork::could_slip_on(const ReferenceNetwork& before) const {
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
-    for (std::size_t m = 0; m < bundles_[k].members().size(); ++m) {
-      bundles_[k].law(m).follow(other.bundles_[k].members()[m].law, before.bundles_[k].members()[m].law);
-    }
+    if (bundles_[k].could_slip_on(before.bundles_[k])) return true;
   }
+  return false;
 }
 
-/// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it.
+bool ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetwork& before) {
+  bool any = false;
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    for (std::size_t m = 0; m < bundles_[k].members().size(); ++m) {
+      any = bundles_[k].law(m).follow(other.bundles_[k].members()[m].law, before.bundles_[k].members()[m].law) || any;
+    }
+  }
+  return any;
+}
+
+/// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it. A cfm there goes on to
+/// relax from its own.
 void ReferenceNetwork::note_ambiguity() {
   ambiguous_ = false;
+  bool loop = false, relaxing = false;
   std::vector<std::size_t> part(nodes_.size());
   std::iota(part.begin(), part.end(), std::size_t{0});
   const auto root = [&](NodeId node) {
@@ -270,15 +330,20 @@ void ReferenceNetwork::note_ambiguity() {
   };
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
-    if (points_[k].step != 0 || !b.set_valued()) continue;
+    // Where several solutions fit, the one found may leave some a little beside rest.
+    if (std::abs(points_[k].step) > little_stretch * typical_step_ || !b.set_valued()) continue;
     const std::size_t i = root(b.a), j = root(b.b);
     const bool cfms = std::none_of(b.members().begin(), b.members().end(), [](const ReferenceBundle::Member& m) {
       return m.law.type() == ReferenceLaw::Type::slider;
     });
     const bool given = unknown_[at(b.a)] < 0 && unknown_[at(b.b)] < 0;
-    if (b.ambiguous_at_rest() || (i == j && !(cfms && given))) ambiguous_ = true;
+    if (b.ambiguous_at_rest()) ambiguous_ = true;
+    if (i == j && !(cfms && given)) loop = true;
+    if (b.relaxing() && !given) relaxing = true;
     part[i] = j;
   }
+  ambiguous_ = ambiguous_ || loop;
+  forked_ = forked_ || (loop && relaxing);
 }
 
 }  // namespace rheonet::test

@@ -38,17 +38,24 @@ class ReferenceNetwork {
   double nodal_force(NodeId node) const { return nodal_[at(node)]; }
   /// True if a law is on another piece of its map than in `before`, or about to be: a reversal, a stop, a yield.
   bool turned_since(const ReferenceNetwork& before) const;
-  /// Takes over the directions of those laws of `other` that have turned since `before`, though not here.
-  void follow(const ReferenceNetwork& other, const ReferenceNetwork& before);
+  /// Takes over the directions of those laws of `other` that have turned since `before`, though not here. False if there
+  /// are none.
+  bool follow(const ReferenceNetwork& other, const ReferenceNetwork& before);
   /// True if in the last step forces at rest did not follow from the balance alone, as with sliders that form a loop: the
   /// laws leave them open.
   bool ambiguous() const { return ambiguous_; }
+  /// True if that has been so at a law that remembers its force: all that follows is then one of many solutions.
+  bool forked() const { return forked_; }
+  /// True if a slider has stopped since `before` where it could as well have gone on.
+  bool could_slip_on(const ReferenceNetwork& before) const;
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   bool minimise(const Input& input);
-  double series_spring(std::size_t bundle, double h) const;
+  bool minimise(const Input& input, double factor);
+  double around(std::size_t bundle, double h) const;
   void evaluate(const Input& input);
+  double tolerance(double size) const;
   bool newton(const Input& input);
   bool search(const Input& input, const std::vector<double>& direction);
   double slope_along(const Input& input, const std::vector<double>& direction);
@@ -65,9 +72,10 @@ class ReferenceNetwork {
   std::vector<double> matrix_;
   std::vector<double> nodal_;
   double unbalance_ = 0;                ///< the worst, of what rounding may leave
-  double largest_force_ = 0;
+  double largest_force_ = 0, largest_step_ = 0;  ///< at the present point
+  double typical_step_ = 0;             ///< at any balance found in this step
   double rounding_ = 1e-300;            ///< of forces that are reckoned as a part of a Coulomb level [N]
-  bool ambiguous_ = false;
+  bool ambiguous_ = false, forked_ = false;
 };
 
 }  // namespace rheonet::test

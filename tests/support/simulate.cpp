@@ -66,7 +66,7 @@ double Trajectory::scale(const std::string& name) const {
   return largest;
 }
 
-Trajectory simulate(const std::string& toml, double accuracy) {
+Scene scene_of(const std::string& toml, double accuracy) {
   ReadOptions options;
   if (accuracy > 0) options.accuracy = accuracy;
   options.model_folders = {std::filesystem::path(RHEONET_SOURCE_DIR) / "netlists"};
@@ -76,10 +76,19 @@ Trajectory simulate(const std::string& toml, double accuracy) {
     for (const Diagnostic& diagnostic : read.diagnostics) text += format(diagnostic, read.sources) + "\n";
     throw std::runtime_error(text);
   }
-  return simulate(*read.scene);
+  return *read.scene;
 }
 
+Trajectory simulate(const std::string& toml, double accuracy) { return simulate(scene_of(toml, accuracy)); }
+
 Trajectory simulate(const Scene& scene, Summary* summary) {
+  Attempt result = attempt(scene);
+  if (!result.refusal.empty()) throw SimulationError(result.refusal);
+  if (summary) *summary = result.summary;
+  return std::move(result.rows);
+}
+
+Attempt attempt(const Scene& scene) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> csv(std::tmpfile(), &std::fclose);
   if (!csv) throw std::runtime_error("no temporary file");
   long steps = 0;
@@ -88,9 +97,14 @@ Trajectory simulate(const Scene& scene, Summary* summary) {
     throw SimulationError("the run gets nowhere: " + std::to_string(steps) + " steps for " + std::to_string(fraction) +
                           " of it");
   };
-  const Summary result = run(scene, {.csv = csv.get(), .interrupt = nullptr, .progress = count});
-  if (summary) *summary = result;
-  return read_rows(csv.get());
+  Attempt result;
+  try {
+    result.summary = run(scene, {.csv = csv.get(), .interrupt = nullptr, .progress = count});
+  } catch (const SimulationError& error) {
+    result.refusal = error.what();
+  }
+  result.rows = read_rows(csv.get());
+  return result;
 }
 
 Trajectory read_rows(std::FILE* csv) { return parse(contents(csv)); }

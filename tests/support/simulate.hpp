@@ -22,12 +22,23 @@ struct Trajectory {
   double scale(const std::string& name) const;
 };
 
-/// Reads and runs a netlist given as text (accuracy 0: as the text says). A netlist that is refused, or a run that fails,
-/// throws std::runtime_error with the message that a user would see.
+/// Reads a netlist given as text (accuracy 0: as the text says). One that is refused throws std::runtime_error with the
+/// message that a user would see.
+Scene scene_of(const std::string& toml, double accuracy = 0);
+
+/// Reads and runs a netlist given as text. A run that fails throws std::runtime_error with its message too.
 Trajectory simulate(const std::string& toml, double accuracy = 0);
 
 /// Runs a scene. Throws SimulationError, also where the run would go on for ever.
 Trajectory simulate(const Scene& scene, Summary* summary = nullptr);
+
+/// What came of a run: if it ended with a SimulationError, its text and the rows up to there.
+struct Attempt {
+  Trajectory rows;
+  Summary summary;
+  std::string refusal;
+};
+Attempt attempt(const Scene& scene);
 
 /// The rows that a run has written to a file.
 Trajectory read_rows(std::FILE* csv);

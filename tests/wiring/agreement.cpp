@@ -1,0 +1,84 @@
+#include "tests/wiring/agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace rheonet::test {
+
+namespace {
+
+// The last halving of the step changes an extrapolated value by more than what is then left: some times that.
+constexpr double of_error = 3;
+// What the simulator promises is 1.
+constexpr double of_accuracy = 20;
+// Of a record's scale: values with more doubt say nothing.
+constexpr double largest_doubt = 1e-3;
+// What sticks moves in the reference by as much as the force on it is not balanced, in parts of the largest value of its
+// kind. A record of which that is all has no scale of its own.
+constexpr double unstretched = 1e-8, nothing = 1e-4;
+// m | m/s | N: where nothing moves at all, what is little in the scenes of the catalogue.
+constexpr double least = 0.1;
+
+std::size_t kind_of(const Record& record) {
+  switch (record.channel) {
+    case Record::Channel::velocity:
+      return 0;
+    case Record::Channel::force:
+      return 1;
+    case Record::Channel::position:
+    case Record::Channel::displacement:
+      break;
+  }
+  return 2;
+}
+
+}  // namespace
+
+Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference) {
+  Agreement result;
+  if (rows.header.empty()) return result;  // refused before the first row
+  std::array<double, 3> largest{least, least, least};
+  for (std::size_t k = 0; k < scene.records.size(); ++k) {
+    double& kind = largest[kind_of(scene.records[k])];
+    kind = std::max(kind, reference.columns[k].scale);
+  }
+  std::size_t count = std::min(rows.time().size(), reference.time.size());
+  while (count > 0 && reference.time[count - 1] > reference.fork) --count;
+  std::size_t all = 0, judged = 0;
+  double fine = 0, coarse = 0;
+  for (std::size_t k = 0; k < scene.records.size(); ++k) {
+    const ReferenceSolution::Column& column = reference.columns[k];
+    const std::vector<double>& found = rows[scene.records[k].path];
+    const double most = largest[kind_of(scene.records[k])], scale = std::max(column.scale, nothing * most);
+    std::size_t here = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      ++all;
+      const double allowed = of_error * column.error[i] + of_accuracy * scene.accuracy * scale + unstretched * most;
+      if (!(allowed <= largest_doubt * scale)) continue;
+      ++here;
+      const double off = std::abs(found[i] - column.value[i]), before = std::abs(found[i] - column.coarse[i]);
+      fine += std::pow(std::max(0.0, off - unstretched * most) / scale, 2);
+      coarse += std::pow(std::max(0.0, before - unstretched * most) / scale, 2);
+      const double part = allowed > 0 ? off / allowed : off > 0 ? HUGE_VAL : 0;
+      if (part <= result.worst) continue;
+      result.worst = part;
+      result.deviation = off / scale;
+      result.where = fmt::format("{} at row {}, t = {:.6g}: {:.9g}, the reference has {:.9g} +- {:.1e} (scale {:.3g})",
+                                 scene.records[k].path, i, reference.time[i], found[i], column.value[i],
+                                 column.error[i], scale);
+    }
+    judged += here;
+    if (here == 0 && count > 0) result.unjudged = scene.records[k].path;
+  }
+  if (all > 0) result.judged = double(judged) / double(all);
+  if (judged > 0) {
+    result.from_fine = std::sqrt(fine / double(judged));
+    result.from_coarse = std::sqrt(coarse / double(judged));
+  }
+  return result;
+}
+
+}  // namespace rheonet::test

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rheonet::test {
+
+/// Calls work(number) for each number in a process of its own, up to `jobs` at a time, and done(number, result) here with
+/// what it returned, in no certain order. One that crashes, or takes more than `seconds` of a core, harms no other: its
+/// result is the one that lost(number, why) makes.
+struct Apart {
+  std::function<std::string(int number)> work;
+  std::function<void(int number, const std::string& result)> done;
+  std::function<void(int number, const std::string& why)> lost;
+  int jobs = 1;
+  int seconds = 60;
+
+  void run(const std::vector<int>& numbers) const;
+};
+
+}  // namespace rheonet::test

@@ -1,0 +1,136 @@
+#include "tests/wiring/catalogue.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "tests/support/random.hpp"
+#include "tests/wiring/random_wiring.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+using Drive = Wiring::Drive;
+
+constexpr int random_trees = 500, random_graphs = 300;
+constexpr unsigned seed = 20260313;
+
+constexpr std::array<std::string_view, 4> drive_names = {"velocity", "position", "force", "force on a mass"};
+
+struct Shape { const char* name; Tree tree; };
+
+std::vector<Shape> shapes() {
+  const Tree a = Tree::of_leaf(0), b = Tree::of_leaf(1), c = Tree::of_leaf(2);
+  return {
+      {"two in series", Tree::series({a, b})},
+      {"two in parallel", Tree::parallel({a, b})},
+      {"three in series", Tree::series({a, b, c})},
+      {"three in parallel", Tree::parallel({a, b, c})},
+      {"first in series with two in parallel", Tree::series({a, Tree::parallel({b, c})})},
+      {"two in parallel in series with last", Tree::series({Tree::parallel({a, b}), c})},
+      {"first in parallel with two in series", Tree::parallel({a, Tree::series({b, c})})},
+      {"two in series in parallel with last", Tree::parallel({Tree::series({a, b}), c})},
+  };
+}
+
+class Maker {
+ public:
+  std::vector<Wiring> all() {
+    for (const Shape& shape : shapes()) every_choice(shape);
+    Random random(seed);
+    for (int k = 0; k < random_trees; ++k) {
+      Wiring w;
+      w.tree = random_tree(random, 4 + k % 5);
+      w.graph = wired(*w.tree);
+      w.types = random_types(random, w.graph.branches.size());
+      w.name = "tree " + described(*w.tree, w.types);
+      add_random(std::move(w), random, k);
+    }
+    for (int k = 0; k < random_graphs; ++k) {
+      Wiring w;
+      w.graph = random_graph(random);
+      w.types = random_types(random, w.graph.branches.size());
+      w.name = "graph " + described(w.graph, w.types);
+      add_random(std::move(w), random, k);
+    }
+    return std::move(wirings_);
+  }
+
+ private:
+  void every_choice(const Shape& shape) {
+    const Graph graph = wired(shape.tree);
+    const std::size_t leaves = graph.branches.size();
+    std::vector<std::size_t> choice(leaves, 0);
+    for (;;) {
+      Wiring w;
+      w.tree = shape.tree;
+      w.graph = graph;
+      std::string list;
+      for (const std::size_t c : choice) {
+        w.types.emplace_back(law_types[c]);
+        list += (list.empty() ? "" : ", ") + w.types.back();
+      }
+      w.name = std::string(shape.name) + "(" + list + ")";
+      for (const bool masses : {false, true}) {
+        if (masses && graph.nodes == 2) continue;
+        for (int drive = 0; drive < 4; ++drive) add(w, std::vector<char>(node_count(graph), masses), Drive(drive));
+      }
+      std::size_t last = leaves;
+      while (last > 0 && ++choice[last - 1] == law_types.size()) choice[--last] = 0;
+      if (last == 0) return;
+    }
+  }
+
+  void add_random(Wiring w, Random& random, int k) {
+    std::vector<char> masses(node_count(w.graph), 0);
+    // A third without, a third with all, a third with some.
+    for (char& m : masses) m = k % 3 == 2 ? random.below(2) == 0 : k % 3 == 1;
+    add(std::move(w), std::move(masses), Drive(random.below(4)));
+  }
+
+  static std::size_t node_count(const Graph& graph) { return static_cast<std::size_t>(graph.nodes); }
+
+  void add(Wiring w, std::vector<char> massive, Drive drive) {
+    massive[0] = 0;
+    massive[1] = drive == Drive::force_on_mass;
+    w.number = static_cast<int>(wirings_.size());
+    w.drive = drive;
+    const auto masses = std::count(massive.begin() + 2, massive.end(), char{1});
+    if (masses > 0) w.name += masses + 2 == w.graph.nodes ? ", masses" : ", some masses";
+    w.name += ", " + std::string(drive_names[static_cast<std::size_t>(drive)]);
+    w.massive = std::move(massive);
+    wirings_.push_back(std::move(w));
+  }
+
+  std::vector<Wiring> wirings_;
+};
+
+}  // namespace
+
+const std::vector<Wiring>& catalogue() {
+  static const std::vector<Wiring> all = Maker().all();
+  return all;
+}
+
+std::vector<int> sample(int count, unsigned seed) {
+  Random random(seed);
+  const int all = static_cast<int>(catalogue().size());
+  std::vector<int> numbers;
+  for (int k = 0; k < count; ++k) {
+    const int from = static_cast<int>(std::int64_t{all} * k / count);
+    const int to = static_cast<int>(std::int64_t{all} * (k + 1) / count);
+    numbers.push_back(from + random.below(to - from));
+  }
+  return numbers;
+}
+
+std::vector<int> part(int i, int n) {
+  std::vector<int> numbers;
+  for (int k = 0; k < static_cast<int>(catalogue().size()); ++k) {
+    if (Random(static_cast<std::uint64_t>(k)).below(n) == i) numbers.push_back(k);
+  }
+  return numbers;
+}
+
+}  // namespace rheonet::test

@@ -1,0 +1,144 @@
+#include "tests/wiring/identities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/network/component.hpp"
+#include "tests/support/simulate.hpp"
+#include "tests/wiring/refusals.hpp"
+#include "tests/wiring/seen_differently.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+// Times the accuracy asked for. Two runs are each within 1 of the truth by what the simulator promises.
+constexpr double of_energy = 10, of_accuracy = 20;
+// Two ends of a scene that cannot go on, of its length.
+constexpr double same_end = 1e-4;
+// A record this much smaller than the largest of its kind is 0 but for rounding; m | m/s | N: where all of a kind is.
+constexpr double nothing = 1e-6, least = 1e-3;
+
+double parameter(const SceneElement& e, const std::string& name) {
+  const std::vector<Parameter>& parameters = declarations()[static_cast<std::size_t>(e.declaration)]->parameters;
+  const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  return found == parameters.end() ? std::nan("") : e.values[static_cast<std::size_t>(found - parameters.begin())];
+}
+
+/// "" or what is wrong with the energy account of a whole run.
+std::string wrong_energy(const Scene& scene, const Summary& whole) {
+  const double allowed = of_energy * scene.accuracy * whole.largest;
+  if (!(std::abs(whole.missing) <= allowed)) {
+    return fmt::format("energy: {:.3g} J of {:.3g} J missing", whole.missing, whole.largest);
+  }
+  // What is dissipated never comes back: a run of half the length has dissipated no more.
+  Scene first = scene;
+  first.output_intervals /= 2;
+  first.stop = scene.start + scene.output_every * static_cast<double>(first.output_intervals);
+  const Attempt half = attempt(first);
+  if (!half.refusal.empty()) return "the first half alone is refused: " + half.refusal;
+  if (!(half.summary.dissipated >= -allowed && whole.dissipated >= half.summary.dissipated - allowed)) {
+    return fmt::format("dissipation: {:.9g} J in the first half, {:.9g} J in all", half.summary.dissipated, whole.dissipated);
+  }
+  return "";
+}
+
+/// "" or where friction is beyond its bounds.
+std::string wrong_friction(const Scene& scene, const Trajectory& rows) {
+  for (const SceneElement& e : scene.elements) {
+    const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
+    if (type != "slider" && type != "sfm" && type != "cfm") continue;
+    const double Fc = parameter(e, "coulomb"), given = parameter(e, "breakaway"), Fs = std::isnan(given) ? Fc : given;
+    const std::vector<double>&force = rows[e.name + ".force"], &velocity = rows[e.name + ".velocity"];
+    for (std::size_t i = 0; i < force.size(); ++i) {
+      const double f = force[i], w = velocity[i];
+      const bool slips = type == "slider" && w != 0;
+      const double rounding = type == "cfm" ? of_accuracy * scene.accuracy * Fc : 0;
+      if (slips ? f == std::copysign(Fc, w) : std::abs(f) <= Fs + rounding) continue;
+      return fmt::format("friction: {} of {:.17g} at t = {:.6g}, where its velocity is {:.3g}, bound {:.17g}",
+                         e.name, f, rows.time()[i], w, slips ? Fc : Fs);
+    }
+  }
+  return "";
+}
+
+/// The worst difference between a run and the same one seen differently, in parts of the scale, and where.
+struct Difference {
+  double worst = 0;
+  std::string where;
+};
+
+std::string channel_of(const std::string& path) {
+  const std::string channel = path.substr(path.rfind('.') + 1);
+  return channel == "displacement" ? "position" : channel;
+}
+
+Difference difference(const View& view, const Trajectory& original, const Trajectory& seen) {
+  Difference result;
+  std::map<std::string, double> largest;
+  for (const View::Column& column : view.columns) {
+    double& kind = largest[channel_of(column.original)];
+    kind = std::max({kind, original.scale(column.original), least});
+  }
+  for (const View::Column& column : view.columns) {
+    const std::vector<double>&from = original[column.original], &to = seen[column.path];
+    const std::size_t count = std::min(from.size(), to.size());
+    double scale = nothing * largest[channel_of(column.original)];
+    // That of the quantity as it is seen: a moving frame adds to it.
+    for (double x : to) scale = std::max(scale, std::abs(x / column.factor));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double back = (to[i] - column.offset - column.rate * seen.time()[i]) / column.factor;
+      const double off = std::abs(back - from[i]);
+      if (!(off > result.worst * scale)) continue;
+      result.worst = off / scale;
+      result.where = fmt::format("{} at row {}, t = {:.6g}: {:.9g} becomes {:.9g} (scale {:.3g})", column.original, i,
+                                 original.time()[i], from[i], back, scale);
+    }
+  }
+  return result;
+}
+
+/// "" or what is wrong with how a view ends.
+std::string wrong_end(const View& view, const Scene& scene, const std::string& refusal, const std::string& seen) {
+  if (refusal.empty() != seen.empty()) return refusal.empty() ? "refused: " + seen : "not refused";
+  if (refusal.empty()) return "";
+  const double t = time_in(refusal), u = time_in(seen) / view.time;
+  const bool same = std::isnan(t) || std::isnan(u) ? std::isnan(t) == std::isnan(u)
+                                                   : std::abs(t - u) <= same_end * (scene.stop - scene.start);
+  return same ? "" : fmt::format("refused otherwise: {}, but {}", refusal, seen);
+}
+
+}  // namespace
+
+Judgement check_identities(const Wiring& wiring) {
+  const Scene scene = scene_of(netlist_of(wiring));
+  const Attempt run = attempt(scene);
+  Judgement result{.verdict = Verdict::wrong, .judged = 1, .text = ""};
+  if (!run.refusal.empty() && !says(run.refusal, overload)) {
+    result.text = "refused: " + run.refusal;
+    return result;
+  }
+  if (run.refusal.empty()) result.text = wrong_energy(scene, run.summary);
+  if (result.text.empty() && !run.rows.header.empty()) result.text = wrong_friction(scene, run.rows);
+  if (!result.text.empty()) return result;
+  for (const View& view : seen_differently(wiring, scene)) {
+    const Attempt seen = attempt(view.scene);
+    result.text = wrong_end(view, scene, run.refusal, seen.refusal);
+    if (result.text.empty() && !run.rows.header.empty() && !seen.rows.header.empty()) {
+      const Difference off = difference(view, run.rows, seen.rows);
+      result.deviation = std::max(result.deviation, off.worst);
+      if (off.worst > of_accuracy * scene.accuracy) result.text = fmt::format("{:.3g} of the scale: {}", off.worst, off.where);
+    }
+    if (result.text.empty() && !seen.rows.header.empty()) result.text = wrong_friction(view.scene, seen.rows);
+    if (result.text.empty()) continue;
+    result.text = view.name + ": " + result.text;
+    return result;
+  }
+  result.verdict = run.refusal.empty() ? Verdict::agrees : Verdict::refused;
+  return result;
+}
+
+}  // namespace rheonet::test

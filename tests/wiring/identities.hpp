@@ -1,0 +1,13 @@
+#pragma once
+
+#include "tests/wiring/catalogue.hpp"
+#include "tests/wiring/judge.hpp"
+
+namespace rheonet::test {
+
+/// What holds for every network, whatever its solution: the energy account closes and nothing gives back what was
+/// dissipated, friction stays within its bounds, and the same experiment seen differently (seen_differently.hpp) gives the
+/// same trajectory. `refused` where the run ended early, and then so in every view.
+Judgement check_identities(const Wiring& wiring);
+
+}  // namespace rheonet::test

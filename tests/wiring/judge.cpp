@@ -1,0 +1,104 @@
+#include "tests/wiring/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/network/component.hpp"
+#include "tests/support/reference_integrator.hpp"
+#include "tests/support/simulate.hpp"
+#include "tests/wiring/agreement.hpp"
+#include "tests/wiring/overload.hpp"
+#include "tests/wiring/refusals.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+// Less than this share of sure values decides nothing.
+constexpr double enough = 0.5;
+// Both ends of a scene that cannot go on lie this near to each other, of its length: some steps of the reference.
+constexpr double same_end = 3e-3;
+// A slope of the deviation from the reference over its step can be told above this, of the scale.
+constexpr double told = 1e-5;
+
+/// What the bounds of the forces say against the reference itself; "" if they agree.
+std::string contradiction(const Scene& scene, const ReferenceSolution& reference) {
+  const std::optional<Capacity> capacity = capacity_of(scene);
+  const double slack = same_end * (scene.stop - scene.start);
+  const std::optional<double> might = capacity ? first_above(scene, capacity->sliding * (1 - 1e-6)) : std::nullopt;
+  const std::optional<double> must = capacity ? first_above(scene, capacity->sticking * (1 + 1e-6)) : std::nullopt;
+  if (!reference.complete && !(might && reference.end >= *might - slack)) {
+    return fmt::format("the reference stops at {:.6g} s, before the friction is overloaded", reference.end);
+  }
+  if (must && (reference.complete || reference.end > *must + slack)) {
+    return fmt::format("the reference goes on beyond {:.6g} s, where the friction is overloaded", *must);
+  }
+  return "";
+}
+
+/// What is wrong with how the run ended; "" if it did as the reference.
+std::string wrong_end(const Scene& scene, const std::string& refusal, const ReferenceSolution& reference) {
+  if (reference.complete) return refusal.empty() ? "" : "refused: " + refusal;
+  const std::string expected = fmt::format("{} at {:.6g} s", overload.name, reference.end);
+  if (refusal.empty()) return "not refused, though there is " + expected;
+  double t = time_in(refusal);
+  if (std::isnan(t)) t = scene.start;
+  const bool names = refusal.find("`end`") != std::string::npos || refusal.find("`n") != std::string::npos;
+  if (!says(refusal, overload) || !names || !(std::abs(t - reference.end) <= same_end * (scene.stop - scene.start))) {
+    return fmt::format("refused for another reason than {}: {}", expected, refusal);
+  }
+  return "";
+}
+
+Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution& reference) {
+  const Agreement found = agreement(scene, run.rows, reference);
+  Judgement result{.verdict = Verdict::wrong,
+                   .deviation = found.deviation,
+                   .judged = found.judged,
+                   .reference_steps = reference.steps,
+                   .text = found.where};
+  if (found.worst > 1) {
+    result.text = fmt::format("off by {:.3g} times what is allowed: {}", found.worst, found.where);
+  } else if (reference.fork < reference.end) {
+    result.verdict = run.refusal.empty() || says(run.refusal, overload) ? Verdict::open : Verdict::wrong;
+    result.text = run.refusal;
+  } else if (const std::string why = contradiction(scene, reference); !why.empty()) {
+    result.text = why;
+    result.verdict = Verdict::undecided;
+  } else if (const std::string end = wrong_end(scene, run.refusal, reference); !end.empty()) {
+    result.text = end;
+  } else if (found.from_fine > 0.5 * found.from_coarse && found.from_fine > told) {
+    result.text = fmt::format("the reference comes no nearer with its step: {:.2g} after {:.2g}", found.from_fine,
+                              found.from_coarse);
+  } else if (!reference.complete) {
+    result.verdict = Verdict::refused;
+  } else if (found.judged < enough) {
+    result.verdict = Verdict::undecided;
+    result.text = fmt::format("only {:.0f} % of the reference's values are sure", 100 * found.judged);
+  } else {
+    result.verdict = Verdict::agrees;
+  }
+  return result;
+}
+
+}  // namespace
+
+Judgement judge(const Wiring& wiring, bool closer) {
+  const Scene scene = scene_of(netlist_of(wiring), closer ? 1e-9 : 0);
+  const Attempt run = attempt(scene);
+  Judgement result;
+  for (const int more : {closer ? 4 : 0, 2, 4}) {
+    ReferenceSettings settings;
+    settings.halvings += more;
+    // What did not do is not to be taken for good again.
+    if (more > 0) settings.target *= 1e-2;
+    result = beside(scene, run, integrate_reference(scene, declarations(), settings));
+    const bool refused_without_need = !run.refusal.empty() && !says(run.refusal, overload);
+    if (closer || refused_without_need || (result.verdict != Verdict::wrong && result.verdict != Verdict::undecided)) break;
+  }
+  return result;
+}
+
+}  // namespace rheonet::test

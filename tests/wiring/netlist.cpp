@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <array>
+
+#include "tests/support/random.hpp"
+#include "tests/wiring/catalogue.hpp"
+#include "tests/wiring/random_wiring.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+constexpr std::uint64_t seed = 0x9e3779b97f4a7c15;
+constexpr int intervals = 60;
+
+template <std::size_t n>
+double one_of(Random& random, const std::array<double, n>& values) {
+  return values[static_cast<std::size_t>(random.below(static_cast<int>(n)))];
+}
+
+/// The parameters of a law, as they stand in a netlist, in SI.
+std::string parameters(Random& random, const std::string& type) {
+  std::string text;
+  const auto add = [&](const char* name, double value) { text += fmt::format(", {} = {}", name, value); };
+  const double stiffness = random.around(20, 3), damping = random.around(1.5, 3), coulomb = random.around(1, 2.5);
+  const double exponent = one_of<5>(random, {0, 0.5, 1, 1.5, 2}), index = one_of<5>(random, {0.5, 0.7, 1.4, 1.75, 2});
+  if (type == "spring" || type == "sfm" || type == "vfm" || type == "cfm") add("stiffness", stiffness);
+  if (type == "dashpot" || type == "vfm" || type == "cfm") add("damping", damping);
+  if (type == "slider" || type == "sfm" || type == "cfm") add("coulomb", coulomb);
+  if (type == "sfm" || type == "cfm") add("exponent", exponent);
+  if (type == "dashpot" && random.below(5) < 2) add("flow_index", index);
+  if (type == "slider" && random.below(3) == 0) add("breakaway", coulomb * random.uniform(1.05, 1.6));
+  return text;
+}
+
+std::string periodic(const char* shape, double amplitude, double frequency) {
+  return fmt::format("{{ {} = {}, frequency = {} }}", shape, amplitude, frequency);
+}
+
+/// Straight lines between points, from `first` at 0, with extremes on alternating sides; `jumps`: one of them is a step.
+std::string table(Random& random, double amplitude, double first, double stop, bool jumps) {
+  std::string points = fmt::format("[0, {}]", first);
+  const int count = 5;
+  for (int k = 1; k <= count; ++k) {
+    const double t = stop * (k - random.uniform(0.1, 0.5)) / count;
+    const double x = amplitude * (k % 2 == 0 ? -1 : 1) * random.uniform(0.4, 1);
+    if (jumps && k == 3) points += fmt::format(", [{}, {}]", t, -0.37 * x);
+    points += fmt::format(", [{}, {}]", t, x);
+  }
+  return "{ table = [" + points + "] }";
+}
+
+std::string signal(Random& random, Wiring::Drive drive, double stop) {
+  const double frequency = random.uniform(1.5, 3) / stop, sign = random.sign();
+  const int shape = random.below(5);
+  if (drive == Wiring::Drive::position) {
+    // No steps: what they do to dashpots is another matter.
+    const double reach = sign * random.around(0.12, 2);
+    if (shape < 2) return periodic("sine", reach, frequency);
+    if (shape < 4) return periodic("triangle", reach, frequency);
+    return table(random, reach, 0, stop, false);
+  }
+  const double amplitude = sign * random.around(1, 2);
+  if (shape == 0) return periodic("sine", amplitude, frequency);
+  if (shape == 1) return periodic("cosine", amplitude, frequency);
+  if (shape == 2) return periodic("square", amplitude, frequency);
+  if (shape == 3) return periodic("triangle", amplitude, frequency);
+  return table(random, amplitude, -0.3 * amplitude, stop, true);
+}
+
+}  // namespace
+
+std::string netlist_of(const Wiring& wiring) { return netlist_of(wiring, wiring.graph); }
+
+std::string netlist_of(const Wiring& wiring, const Graph& graph) {
+  Random random(seed * static_cast<std::uint64_t>(wiring.number + 1));
+  const double stop = random.uniform(0.8, 1.2);
+  std::string text = fmt::format("title = \"wiring {}: {}\"\n\n[elements]\n", wiring.number, wiring.name);
+  const bool by_force = wiring.drive == Wiring::Drive::force || wiring.drive == Wiring::Drive::force_on_mass;
+  text += fmt::format("drive = {{ type = \"{}\", at = \"end\", {} = {} }}\n", by_force ? "force" : "motion",
+                      by_force                                  ? "force"
+                      : wiring.drive == Wiring::Drive::velocity ? "velocity"
+                                                                : "position",
+                      signal(random, wiring.drive, stop));
+  for (std::size_t k = 0; k < wiring.types.size(); ++k) {
+    const std::string values = parameters(random, wiring.types[k]);
+    auto [a, b] = graph.branches[k];
+    if (random.below(2) == 0) std::swap(a, b);
+    text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"]{} }}\n", k + 1, wiring.types[k],
+                        node_name(a), node_name(b), values);
+  }
+  for (std::size_t n = 1; n < wiring.massive.size(); ++n) {
+    const double mass = random.around(0.03, 3);
+    if (wiring.massive[n]) {
+      text += fmt::format("m_{0} = {{ type = \"mass\", at = \"{0}\", mass = {1} }}\n", node_name(static_cast<int>(n)),
+                          mass);
+    }
+  }
+  return text + fmt::format("\n[simulate]\nstop = {}\naccuracy = 1e-6\noutput = {{ points = {} }}\n", stop, intervals + 1);
+}
+
+}  // namespace rheonet::test
