@@ -170,10 +170,10 @@ double Past::interpolate(const Run& run, double t) {
 
 // At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
 // was before.
-double Past::velocity(NodeId node, double t, bool before) const {
+double Past::velocity(NodeId node, double t, double aside) const {
   if (node == ground) return 0;
   const Track& track = tracks_[static_cast<std::size_t>(track_of_[static_cast<std::size_t>(node)])];
-  const double side = before ? t - grain(t) : t + grain(t);
+  const double side = t + aside;
   if (track.motion >= 0) {
     const Stretch* stretch = current(track.stretches, side);
     if (!stretch) return track.before;
@@ -185,8 +185,9 @@ double Past::velocity(NodeId node, double t, bool before) const {
 
 double Past::felt(std::size_t k, double t) const {
   const Delayed& d = delayed_[k];
-  const bool before = t > since_ + grain(t);
-  return velocity(d.a, t - d.delay, before) - velocity(d.b, t - d.delay, before);
+  // t - delay has the rounding of t, also where it is nearly 0.
+  const double aside = t > since_ + grain(t) ? -grain(t) : grain(t);
+  return velocity(d.a, t - d.delay, aside) - velocity(d.b, t - d.delay, aside);
 }
 
 double Past::take_steps(std::size_t k, double t) {

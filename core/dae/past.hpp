@@ -56,7 +56,7 @@ class Past {
     std::deque<Move> moves;
   };
   Track* track(NodeId node);
-  double velocity(NodeId node, double t, bool before) const;
+  double velocity(NodeId node, double t, double aside) const;  ///< of the stretch that t + aside lies in
   static double interpolate(const Run& run, double t);
   void forget(double t);
 

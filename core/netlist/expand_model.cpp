@@ -83,7 +83,7 @@ const Plan& Expander::overridden(const Plan& plan, Scope* scope, const ActiveOve
   if (own.empty()) return plan;
   TomlValue& value = patched_values_.emplace_back(*plan.source);
   for (const ActiveOverride& active : own) apply(active, value, context_.mistakes);
-  return patched_plans_.emplace_back(planner_.read_entry(plan.name, plan.spot, value, scope));
+  return patched_plans_.emplace_back(planner_.read_entry(plan.name, plan.spot, value, scope, plan.in_model));
 }
 
 bool Expander::instance_parameters(const Plan& plan, const Environment& around, Environment& inside) {

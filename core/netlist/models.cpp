@@ -155,7 +155,7 @@ void plan_models(Context& context, Models& models) {
     all.push_back(model.get());
     const std::size_t before = mistakes.errors();
     if (const TomlEntry* elements = model->source->find("elements"))
-      planner.read_elements(elements->value, model->scope);
+      planner.read_elements(elements->value, model->scope, true);
     refuse_unused_ports(*model, mistakes);
     evaluate_defaults(*model, mistakes);
     model->sound = model->sound && mistakes.errors() == before;

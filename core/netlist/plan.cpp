@@ -46,7 +46,7 @@ const Plan* Scope::find(const std::string& name) const {
   return found == entry_index.end() ? nullptr : &entries[found->second];
 }
 
-void Planner::read_elements(const TomlValue& table, Scope& scope) {
+void Planner::read_elements(const TomlValue& table, Scope& scope, bool in_model) {
   if (!expect_table(table, "`elements`", context_.mistakes)) return;
   scope.entries.reserve(table.entries.size());
   for (const TomlEntry& entry : table.entries) {
@@ -56,13 +56,14 @@ void Planner::read_elements(const TomlValue& table, Scope& scope) {
       continue;
     }
     scope.entry_index.emplace(entry.key, scope.entries.size());
-    scope.entries.push_back(read_entry(entry.key, entry.spot, entry.value, &scope));
+    scope.entries.push_back(read_entry(entry.key, entry.spot, entry.value, &scope, in_model));
   }
   check_names(scope, context_.mistakes);
 }
 
-Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope) {
+Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope, bool in_model) {
   Plan plan;
+  plan.in_model = in_model;
   plan.name = std::move(name);
   plan.spot = spot;
   plan.source = &source;
@@ -191,7 +192,9 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
   plan.values.resize(declaration.parameters.size());
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
-    const std::string& name = parameter.name_in(domain);
+    const bool as_in_translation = plan.in_model && rotation && keys.find_quietly(parameter.name) &&
+                                   !keys.find_quietly(parameter.rotational_name);
+    const std::string& name = as_in_translation ? parameter.name : parameter.name_in(domain);
     // Where a parameter has two names, the other one deserves more than "unknown key".
     bool misnamed = false;
     for (const std::string& other : {parameter.name, parameter.rotational_name}) {
@@ -259,7 +262,7 @@ void Planner::read_group(Plan& plan, const TomlEntry& group, Keys& keys) {
     return;
   if (group.value.items.empty()) context_.mistakes.error(group.value.spot, "`" + group.key + "` has no members");
   plan.members.reserve(group.value.items.size());
-  for (const TomlValue& item : group.value.items) plan.members.push_back(read_entry("", item.spot, item, nullptr));
+  for (const TomlValue& item : group.value.items) plan.members.push_back(read_entry("", item.spot, item, nullptr, plan.in_model));
 }
 
 void Planner::read_place(Plan& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, Keys& keys) {

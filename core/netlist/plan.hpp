@@ -30,6 +30,7 @@ struct Plan {
 
   Kind kind = Kind::element;
   bool sound = false;  ///< false: something is wrong with it, nothing comes of it
+  bool in_model = false;  ///< stands in a model: that has no domain of its own
   std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
   Spot spot;           ///< of its name, or of its table
   const TomlValue* source = nullptr;
@@ -88,9 +89,9 @@ class Planner {
   Planner(Context& context, const Models& models) : context_(context), models_(models) {}
 
   /// All entries of an `elements` table. Ports are in `scope` already.
-  void read_elements(const TomlValue& table, Scope& scope);
+  void read_elements(const TomlValue& table, Scope& scope, bool in_model = false);
   /// One entry. `scope` is where its nodes are named; nullptr for a member of a group, which names none.
-  Plan read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope);
+  Plan read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope, bool in_model);
 
  private:
   void read_element(Plan& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope, Keys& keys);

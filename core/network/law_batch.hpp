@@ -22,7 +22,9 @@ namespace rheonet {
 ///     };
 ///
 /// One whose force goes on beyond a bound until the event there also has `force_reached(p)`, the force within its bounds.
-/// One that creeps also has `steady` and `settle`, one that feels velocities later `delay()` [s]: see DeflectionBatch.
+/// One whose memory changes within a motion, not at its reversals alone, also has `follow(p, step)`, which changes it as the
+/// deflection goes from p to p + step. One that creeps also has `steady` and `settle`, one that feels velocities later
+/// `delay()` [s]: see DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
@@ -119,7 +121,11 @@ class DeflectionBatchOf final : public DeflectionBatch {
   }
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     Law law = laws_[i];
-    if (step != 0) law.set_direction(p, step, step < 0 ? -1 : 1);
+    if constexpr (requires { law.follow(p, step); }) {
+      law.follow(p, step);
+    } else if (step != 0) {
+      law.set_direction(p, step, step < 0 ? -1 : 1);
+    }
     const Dual end(p + step, 1);
     const Dual f = [&] {
       if constexpr (requires { law.force_reached(end); }) return law.force_reached(end);

@@ -55,6 +55,24 @@ bool rigid(const Limit& limit, const std::vector<double>& values) {
   return limit.becomes == "slider" && std::isinf(limit.values(values)[0]);
 }
 
+/// Where the trajectory of values near the limit is not near that of the limit.
+std::vector<std::string> misses_of(const Scene& law, const Trajectory& nearby, const Trajectory& of_limit) {
+  constexpr double distance = 1e-5;
+  std::vector<std::string> misses;
+  for (const Record& r : law.records) {
+    // What the element alone has caused is 0 at the limit, and has no scale there.
+    const double scale = std::max(of_limit.scale(r.path), factor(law, r, typical));
+    double worst = 0;
+    for (std::size_t row = 1; row < nearby.time().size(); ++row) {
+      worst = std::max(worst, std::abs(nearby[r.path][row] - of_limit[r.path][row]));
+    }
+    if (!(worst <= distance * (scale + nearby.scale(r.path)))) {
+      misses.push_back(fmt::format("{}: {:.3g} from the limit of {:.3g}", r.path, worst, scale));
+    }
+  }
+  return misses;
+}
+
 std::string refusal(const Scene& scene) {
   try {
     simulate(scene);
@@ -89,25 +107,22 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
       // at once takes a moment.
       // A law that sticks is not reached smoothly: what is nearly rigid rings.
       if (limit.becomes == "slider") continue;
-      constexpr double small = 1e-9, distance = 1e-5;
-      Trajectory nearby;
+      // A limit may be approached like a small power of the distance from it: then from much nearer.
+      constexpr double distances[] = {1e-9, 1e-60};
       ++tried;
-      try {
-        nearby = simulate(situate(*c.component, near(values, generic, small), c.place, c.seed).scene);
-      } catch (const SimulationError&) {
-        continue;  // a velocity that goes with a high power of 1/small is beyond any numbers
-      }
-      ++compared;
-      for (const Record& r : law.records) {
-        // What the element alone has caused is 0 at the limit, and has no scale there.
-        const double scale = std::max(of_limit.scale(r.path), factor(law, r, typical));
-        double worst = 0;
-        for (std::size_t row = 1; row < nearby.time().size(); ++row) {
-          worst = std::max(worst, std::abs(nearby[r.path][row] - of_limit[r.path][row]));
+      std::vector<std::string> misses;
+      for (const double small : distances) {
+        Trajectory nearby;
+        try {
+          nearby = simulate(situate(*c.component, near(values, generic, small), c.place, c.seed).scene);
+        } catch (const SimulationError&) {
+          break;  // a velocity that goes with a high power of 1/small is beyond any numbers
         }
-        CHECK_MESSAGE(worst <= distance * (scale + nearby.scale(r.path)),
-                      fmt::format("{}: {:.3g} from the limit of {:.3g}", r.path, worst, scale));
+        if (small == distances[0]) ++compared;
+        misses = misses_of(law, nearby, of_limit);
+        if (misses.empty()) break;
       }
+      for (const std::string& miss : misses) FAIL_CHECK(miss);
     }
   });
   CHECK_MESSAGE(compared >= 0.95 * tried, compared << " of " << tried << " could be run near the limit");

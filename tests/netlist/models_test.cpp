@@ -174,4 +174,25 @@ k = { type = "spring", between = ["x", "y"], stiffness = "k" }
                   .scene);
 }
 
+TEST_CASE("a model that is written with the names of translation serves a rotational scene too") {
+  const std::string models = R"~(
+[models.part]
+ports = ["a"]
+parameters = ["m", "F"]
+elements = { m = { type = "mass", at = "a", mass = "m" }, f = { type = "force", at = "a", force = "F" } }
+[parameters]
+J = "3 kg*m^2"
+T = "5 N*m"
+)~";
+  const std::string instance = "[elements]\np = { type = \"part\", at = \"x\", m = \"J\", F = \"T\" }\n";
+  ReadOptions options;
+  CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 3\n"));
+  options.overrides = {"p.m.mass=\"7 kg*m^2\""};
+  CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
+  options.overrides = {"p.m.inertia=\"7 kg*m^2\""};
+  CHECK_FALSE(read("domain = \"rotation\"\n" + models + instance, options).scene);  // it has `mass` already
+  options.overrides = {};
+  CHECK_FALSE(read(models + instance, options).scene);  // kg*m^2 is no mass
+}
+
 }  // namespace rheonet::test

@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+#include "core/network/law_batch.hpp"
+
+namespace rheonet {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Davidenkov's hysteresis. With x the travel on the first loading, and X = n/(n - 1) Fc/sigma the travel to its bound,
+//
+//     g(x) = sigma (x - x^n/(n X^(n-1))),   g(X) = Fc,   g'(X) = 0;  Fc beyond
+//
+// and every branch after a reversal at (p_r, f_r) is the same curve, twice as large: f = f_r + 2 s g(s (p - p_r)/2)
+// (Masing). In a cycle of amplitude a that is Davidenkov's loop sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with
+// eta = (2 X)^(1-n). A branch that comes back to the point where an earlier one turned goes on as that one would have
+// (Madelung): so the reversals that are still open are all its memory.
+//
+// It is a bundle of Prandtl elements of all travels up to X (Iwan): from there the energies. With z = x/X on the first
+// loading, half of that after a reversal, heat comes at Fc z^n per travel.
+struct Davidenkov {
+  static constexpr bool creeping = false;
+
+  struct Reversal {
+    double p, f, stored;
+  };
+
+  double sigma;  // N/m
+  double Fc;     // N
+  double n;      // exponent
+  double X;      // m
+
+  double s = 1;                // direction of motion
+  bool virgin = true;          // the outermost of `open` is the unloaded state, where no loop begins
+  std::vector<Reversal> open;  // outermost first, the present branch begins at the last; none: it flows at its bound
+
+  explicit Davidenkov(std::span<const double> v) : sigma(v[0]), Fc(v[1]), n(v[2]), X(n / (n - 1) * Fc / sigma) {
+    begin(0, std::isnan(v[3]) ? 0 : v[3]);
+  }
+
+  double size() const { return virgin && open.size() == 1 ? 1 : 2; }
+  double travelled(double p) const { return s * (p - open.back().p); }
+
+  template <class T>
+  T force(const T& p) const {
+    using std::pow;
+    if (open.empty()) return T(s * Fc);
+    const Reversal& r = open.back();
+    const T x = (s / size()) * (p - r.p), z = x / X;
+    // Behind the point of reversal lies no state of the branch. Iterates of a solver may: go on along the tangent.
+    if (value_of(z) <= 0) return r.f + (s * size() * sigma) * x;
+    if (value_of(z) >= 1) return T(r.f + s * size() * Fc);
+    return r.f + (s * size() * sigma) * x * (1 - pow(z, n - 1) / n);
+  }
+  template <class T>
+  T creep(const T&) const {
+    return T(0.0);
+  }
+  double slope_along(double p, int direction) const {
+    if (direction != s) return sigma;
+    return open.empty() ? 0 : sigma * std::max(0.0, 1 - std::pow(part(p), n - 1));
+  }
+  bool constant() const { return open.empty(); }
+  int direction() const { return s < 0 ? -1 : 1; }
+
+  // Unloaded, then loaded to f: p is the place where that ends.
+  void begin(double p, double f) {
+    s = f < 0 ? -1 : 1;
+    virgin = std::abs(f) < Fc;
+    open.clear();
+    if (!virgin) return;
+    // g is concave: from the left, Newton's method does not go beyond the root.
+    const double wanted = std::abs(f) / (sigma * X);
+    double z = 0;
+    for (double step = 1; step > 1e-16 && z < 1;) {
+      step = (wanted - z * (1 - std::pow(z, n - 1) / n)) / (1 - std::pow(z, n - 1));
+      z = std::min(1.0, z + step);
+    }
+    open.push_back({p - s * z * X, 0, 0});
+  }
+  double start(double) const { return 0; }
+  double start_with(double f) {
+    begin(0, f);
+    return 0;
+  }
+  DeflectionBatch::Steady steady() const { return {Fc, 0, Fc}; }
+  double settle(double p, double f, int direction) {
+    begin(p, f);
+    set_direction(p, 0, direction);
+    return p;
+  }
+
+  // Travel at which the present branch ends: it meets the one before it, or its bound.
+  double closing() const {
+    if (open.size() == 1) return size() * X;
+    const double loop = std::abs(open.back().p - open[open.size() - 2].p);
+    return virgin && open.size() == 2 ? 2 * loop : loop;  // the first loading goes on from the mirror of its reversal
+  }
+  // Loops narrower than rounding of their ends are none.
+  double narrow(double p) const { return 1e-13 * X + 1e-15 * std::abs(p); }
+
+  void close() {
+    if (open.size() == 1) {
+      open.clear();
+      virgin = false;
+    } else {
+      open.pop_back();
+      if (!(virgin && open.size() == 1)) open.pop_back();
+    }
+  }
+  void turn(double p) {
+    if (!open.empty() && closing() - travelled(p) <= narrow(p)) close();
+    if (open.empty()) {
+      open.push_back({p, s * Fc, stored_energy(p)});
+    } else if (travelled(p) > narrow(p)) {
+      open.push_back({p, force(p), stored_energy(p)});
+    } else if (size() == 2) {  // turned where it had just turned: as if it had not
+      open.pop_back();
+    }
+    s = -s;
+  }
+
+  int event_count() const { return 2; }
+  void event_functions(double p, double, double w, double noise, double* g) const {
+    g[0] = s * w + noise;  // reversal
+    g[1] = open.empty() ? 1 : closing() - travelled(p);
+  }
+  void switch_memory(int which, double p, double) {
+    if (which == 0) {
+      turn(p);
+    } else {
+      close();
+    }
+  }
+  bool fits(double w) const { return w * s >= 0; }
+  bool set_direction(double p, double, int direction) {
+    if (direction == 0 || direction == s) return false;
+    turn(p);
+    return true;
+  }
+  bool can_hold() const { return false; }
+  void hold_rates(const Dual&, Dual&, Dual&) const {}
+  bool hold(double, int) { return false; }
+  bool holds() const { return false; }
+
+  // The memory of a motion from p to p + step; returns the heat.
+  double follow(double p, double step) {
+    if (step == 0) return 0;
+    set_direction(p, step, step < 0 ? -1 : 1);
+    double heat = 0, left = std::abs(step);
+    while (!open.empty()) {
+      const double x = travelled(p), end = std::min(x + left, closing());
+      heat += heat_until(end) - heat_until(x);
+      if (x + left < closing()) return heat;
+      left -= std::max(0.0, end - x);
+      p += s * std::max(0.0, end - x);
+      close();
+    }
+    return heat + Fc * left;
+  }
+  double jump(double p, double step) { return follow(p, step); }
+
+  // The share z of the way to the bound.
+  double part(double p) const { return std::clamp(travelled(p) / (size() * X), 0.0, 1.0); }
+  // Heat on the present branch up to a travel of x.
+  double heat_until(double x) const {
+    return Fc * std::max(x, 0.0) * std::pow(std::clamp(x / (size() * X), 0.0, 1.0), n) / (n + 1);
+  }
+  double stored_energy(double p) const {
+    if (open.empty()) return sigma * X * X * (n - 1) / (2 * (n + 1));  // all its elements have yielded
+    const double x = std::min(travelled(p), size() * X);
+    const double work = s * open.back().f * x + sigma * x * x * (0.5 - std::pow(part(p), n - 1) / (n * (n + 1)));
+    return open.back().stored + work - heat_until(x);
+  }
+  double dissipated_power(double p, double, double w) const {
+    return s * w * Fc * (open.empty() ? 1 : std::pow(part(p), n));
+  }
+};
+
+bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
+
+std::optional<Misfit> start_within_bound(std::span<const double> v) {
+  if (std::isnan(v[3]) || std::abs(v[3]) <= v[1]) return {};
+  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
+}
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "davidenkov",
+            .ports = Declaration::Ports::between,
+            .parameters =
+                {
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true,
+                     .symbol = "sigma",
+                     .description = "slope df/dd at the start and just after each reversal; 0 means no force"},
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
+                     .symbol = "Fc",
+                     .description = "force at which the slope has come to 0 and it flows; 0 means no force"},
+                    {.name = "exponent", .quantity = Quantity::number, .fallback = 2.0, .lower = 1.1,
+                     .lower_open = false, .may_be_infinite = true, .symbol = "n",
+                     .description = "shape of the loop: 2 is made of parabolas, inf is Prandtl's elastic-plastic law"},
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = -infinity,
+                     .symbol = "f0",
+                     .description = "force at the start (0 unless given), to which it was loaded once, within +-Fc"},
+                },
+            .check = start_within_bound,
+            .summary = "Davidenkov's hysteresis: elastic to plastic along power curves, the same loops at any speed",
+            .law = "f = f_r + 2 s g(abs(d - d_r)/2) after a reversal,  g(x) = sigma (x - x^n/(n X^(n-1)))",
+            .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; "
+                      "energies: W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
+            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and Fc from there. After "
+                     "each reversal the same curve, twice as large, from (d_r, f_r); where it comes back to a point at "
+                     "which an earlier branch turned, it goes on as that one would have. In a cycle of amplitude a < X, "
+                     "which need not be known beforehand, this is Davidenkov's loop "
+                     "f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], upper signs while d grows, with "
+                     "eta = (2 X)^(1-n); for given eta, coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop "
+                     "dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)), at Fc z^n per travel, z being the part of the "
+                     "way to flow.",
+        },
+    .role = Role::deflection,
+    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
+               {.when = "stiffness = inf", .becomes = "slider",
+                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }},
+               {.when = "coulomb = inf", .becomes = "spring",
+                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
+                .values = [](std::span<const double> v) {
+                  return std::vector<double>{v[0], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
+                }},
+               {.when = "exponent = inf (`exponent` is 0 there)", .becomes = "sfm",
+                .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], 0, v[3]}; }}},
+    .deflection = deflection_batch<Davidenkov>,
+    .drawing = "M0 .5 H.15 M.15 .8 C.25 .4 .5 .2 .85 .2 M.85 .2 C.75 .6 .5 .8 .15 .8 M.85 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+/// A netlist of the project that has been run: its rows, and the values in it [SI], so that a test of what it claims
+/// holds for others too.
+struct SceneFile {
+  Scene scene;
+  Trajectory rows;
+  Summary summary;
+
+  /// A parameter of an element as the scene has it; fails the test if there is none.
+  double value(const std::string& element, const std::string& parameter) const;
+};
+
+/// `path` counts from the folder netlists; each override is "PATH=VALUE", as after --set. Fails the test if the scene
+/// is refused.
+SceneFile run_file(const std::string& path, const std::vector<std::string>& overrides = {});
+
+}  // namespace rheonet::test
