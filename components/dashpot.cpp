@@ -55,8 +55,9 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .flow_index = "flow_index",
-                     .symbol = "B", .description = "force at unit velocity (the consistency); 0 means no dashpot"},
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true,
+                     .flow_index = "flow_index", .symbol = "B",
+                     .description = "force at unit velocity (the consistency); 0 means no dashpot, inf a rigid link"},
                     {.name = "flow_index", .quantity = Quantity::number, .fallback = 1.0, .lower = 0.05, .lower_open = false,
                      .upper = 20, .symbol = "n",
                      .description = "1: Newtonian; below 1: pseudoplastic; above 1: dilatant; 7/4 and 2: turbulent drag"},
@@ -70,7 +71,10 @@ const RegisterComponent registered({
             .notes = "Dissipates f w, stores nothing. The unit of B goes with n: N*(s/m)^n.",
         },
     .role = Role::rate,
-    .limits = {{.when = "damping = 0", .becomes = "", .applies = no_damping, .values = {}}},
+    .limits = {{.when = "damping = 0", .becomes = "", .applies = no_damping, .values = {}},
+               {.when = "damping = inf", .becomes = "slider",
+                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .rate = rate_batch<Dashpot>,
     .drawing = "M0 .5 H.45 M.45 .3 V.7 M.3 .2 H.65 V.8 H.3 M.65 .5 H1",
 });

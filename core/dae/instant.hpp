@@ -44,6 +44,7 @@ class Instant {
   struct Nodal { std::vector<double> sum, magnitude; };
   double time_ahead(double t, double horizon, const State& state) const;
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
+  Structure take_along(double t, std::vector<double>& dx) const;
   void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes);
   /// The displacements within the instant, on the way to the balance of the forces under the drive last evaluated.
   struct Jump {

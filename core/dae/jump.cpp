@@ -6,6 +6,7 @@
 
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/instant.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -18,15 +19,46 @@ constexpr double balance_rounding = 1e-12;
 
 }  // namespace
 
+/// What rigid links join to a prescribed node steps as it does, whatever its mass: it is as good as prescribed.
+Structure Instant::take_along(double t, std::vector<double>& dx) const {
+  Structure led = structure_;
+  Sets linked(dx.size());
+  for (const Network::Slider& s : network_.sliders) {
+    if (std::isinf(s.law.breakaway)) linked.join(s.branch.a, s.branch.b);
+  }
+  std::vector<NodeId> leader(dx.size(), -1);
+  for (std::size_t n = 0; n < dx.size(); ++n) {
+    if (structure_.kind[n] != Kind::known) continue;
+    NodeId& first = leader[at(linked.find(static_cast<NodeId>(n)))];
+    if (first < 0) {
+      first = static_cast<NodeId>(n);
+    } else if (!step_together(dx[at(first)], dx[n])) {
+      throw SimulationError(fmt::format("{} nodes `{}` and `{}` step apart, and rigid links join them; leave the links out, or one "
+                                        "of the motions",
+                                        at_time(*network_.scene, t), network_.node_name(first),
+                                        network_.node_name(static_cast<NodeId>(n))));
+    }
+  }
+  for (std::size_t n = 0; n < dx.size(); ++n) {
+    const NodeId first = leader[at(linked.find(static_cast<NodeId>(n)))];
+    if (first < 0 || structure_.group[n] >= 0) continue;  // what floats goes along by itself: see find_jump
+    dx[n] = dx[at(first)];
+    led.kind[n] = Kind::known;
+  }
+  return led;
+}
+
 void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = drive_.steps()[m];
-  if (!go_with_dashpots(network_, structure_, dx)) {
+  if (std::all_of(dx.begin(), dx.end(), [](double step) { return step == 0; })) return;
+  const Structure led = take_along(t, dx);
+  if (!go_with_dashpots(network_, led, dx)) {
     throw SimulationError(at_time(*network_.scene, t) +
                           " rounding hides how dashpots share a step in position; give it a time to rise in");
   }
-  const std::vector<double> momentum = momentum_through_dashpots(network_, structure_, dx, t);
+  const std::vector<double> momentum = momentum_through_dashpots(network_, led, dx, t);
   for (std::size_t n = 0; n < dx.size(); ++n) {
-    if (structure_.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / structure_.mass[n];
+    if (led.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / led.mass[n];
   }
   const auto tell = [&](int element, const std::string& what, double by, const char* whose) {
     char& told = impulse_told_[at(element)];
@@ -44,7 +76,7 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
   }
   for (const Network::Mass& mass : network_.masses) {
     const double by = dx[at(mass.node)];
-    if (by == 0 || structure_.kind[at(mass.node)] != Kind::known) continue;
+    if (by == 0 || led.kind[at(mass.node)] != Kind::known) continue;
     tell(mass.element, fmt::format("mass `{}`", network_.scene->elements[at(mass.element)].name), by, "the motion's");
   }
 }
@@ -131,7 +163,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double step = moved(b.a) - moved(b.b);
-    heat += network_.sliders[k].law.coulomb * std::abs(step);
+    if (step != 0) heat += network_.sliders[k].law.coulomb * std::abs(step);
     if (slider_branch[k] < 0) continue;
     if (step != 0) broken_[k] = 1;
     force[k] += problem.force(slider_branch[k]);

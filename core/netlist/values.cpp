@@ -182,8 +182,8 @@ bool check_bounds(double value, const Parameter& parameter, const Formula& formu
         parameter.kind == Parameter::Kind::value && parameter.lower >= 0 && std::isinf(parameter.upper);
     mistakes.error(spot, formula.name() + " must be finite, but is infinite",
                    magnitude && value > 0
-                       ? "\"inf\" is for laws that become another one there, and this one does not in "
-                         "this version; a value large beside those around it comes close"
+                       ? "\"inf\" is for laws that become another one there, and this one does not; a "
+                         "value large beside those around it comes close"
                        : "");
     return false;
   }

@@ -174,6 +174,9 @@ class Recorder final : public Observer {
   std::vector<double> y_, yp_, before_;
 };
 
+// What is missing of the energy may be so many times the accuracy asked for before it is told.
+constexpr double loose_account = 10;
+
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
@@ -220,6 +223,12 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   summary.findings = recorder.findings();
   summary.notes = network.notes;
   summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());
+  if (std::abs(summary.missing) > loose_account * scene.accuracy * summary.largest) {
+    summary.notes.push_back(fmt::format(
+        "the energy account misses {:.2g} of the largest energy in the run, more than the accuracy of {:g} that was asked for: "
+        "rows may be off by as much; a tighter accuracy costs time and tells",
+        std::abs(summary.missing) / summary.largest, scene.accuracy));
+  }
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   summary.cpu_seconds = cpu_seconds() - cpu;
   return summary;

@@ -162,7 +162,7 @@ k1 = { type = "spring", between = ["a", "ground"], stiffness = "inf" }
 scene.toml:2:64: error: `stiffness` must be finite, but is infinite
     2 | k1 = { type = "spring", between = ["a", "ground"], stiffness = "inf" }
       |                                                                ^
-  "inf" is for laws that become another one there, and this one does not in this version; a value large beside those around it comes close
+  "inf" is for laws that become another one there, and this one does not; a value large beside those around it comes close
 )~"},
       {"minus infinity, and infinity of what is no magnitude",
        R"~(

@@ -59,4 +59,44 @@ TEST_CASE("masses that a rigid link joins go on with their common momentum; what
   CHECK(notes_of(linked(v1, v1)).empty());
 }
 
+TEST_CASE("a rigid link takes a mass along with a step in position, and dashpots beyond it; the impulse is told") {
+  constexpr double dx = 0.31, m2 = 1.7, B = 2.9;
+  SceneBuilder b;
+  b.motion("drive", "p", "position", Signal(Signal::Step{dx, 0.4, 0}));
+  b.between("link", "slider", "p", "q", {{"coulomb", INFINITY}, {"breakaway", INFINITY}});
+  b.at("m", "mass", "q", {{"mass", 0.7}});
+  b.between("c", "dashpot", "q", "far", {{"damping", B}});
+  b.at("m2", "mass", "far", {{"mass", m2}});
+  b.between("k", "spring", "q", "ground", {{"stiffness", 31}});
+  Summary summary;
+  const Trajectory run = simulate(b.finish(1, 10, 1e-9), &summary);
+  CHECK_EQ(run["q.position"].back(), doctest::Approx(dx).epsilon(1e-12));
+  CHECK_EQ(run.scale("link.displacement"), 0);
+  CHECK_EQ(run["k.force"].back(), doctest::Approx(31 * dx).epsilon(1e-12));
+  // The dashpot gives the mass beyond the momentum B dx, and takes it back from there on.
+  CHECK_EQ(run["far.velocity"][4], doctest::Approx(B * dx / m2).epsilon(1e-8));
+  REQUIRE_EQ(summary.notes.size(), 2);
+  CHECK(summary.notes[0].find("moves dashpot `c` by 0.31 m in no time") != std::string::npos);
+  CHECK(summary.notes[1].find("moves mass `m` by 0.31 m in no time") != std::string::npos);
+
+  b.motion("other", "far", "position", Signal(Signal::Constant{0}));
+  b.between("link2", "slider", "q", "far", {{"coulomb", INFINITY}, {"breakaway", INFINITY}});
+  CHECK_THROWS_WITH_AS(simulate(b.finish(1, 10, 1e-6)),
+                       doctest::Contains("nodes `p` and `far` step apart, and rigid links join them"), SimulationError);
+}
+
+TEST_CASE("energy that is missing is told where it is more than the accuracy asked for allows") {
+  SceneBuilder b;
+  b.at("m", "mass", "a", {{"mass", 1.3}});
+  b.between("k", "spring", "a", "ground", {{"stiffness", 170}});
+  b.start("a", 0.1, 0);
+  for (const double stop : {3.0, 1000.0}) {
+    Summary summary;
+    simulate(b.finish(stop, 10, 1e-6), &summary);
+    const bool told = summary.notes.size() == 1 && summary.notes[0].find("the energy account misses ") == 0;
+    CHECK_EQ(told, std::abs(summary.missing) > 1e-5 * summary.largest);
+    CHECK_EQ(told, stop > 100);
+  }
+}
+
 }  // namespace rheonet::test
