@@ -18,7 +18,7 @@ constexpr double of_accuracy = 20;
 constexpr double largest_doubt = 1e-3;
 // What sticks moves in the reference by as much as the force on it is not balanced, in parts of the largest value of its
 // kind. A record of which that is all has no scale of its own.
-constexpr double unstretched = 1e-8, nothing = 1e-4;
+constexpr double unstretched = 3e-8, nothing = 1e-4;
 // m | m/s | N: where nothing moves at all, what is little in the scenes of the catalogue.
 constexpr double least = 0.1;
 

@@ -57,7 +57,9 @@ std::string wrong_friction(const Scene& scene, const Trajectory& rows) {
       const double f = force[i], w = velocity[i];
       const bool slips = type == "slider" && w != 0;
       const double rounding = type == "cfm" ? of_accuracy * scene.accuracy * Fc : 0;
-      if (slips ? f == std::copysign(Fc, w) : std::abs(f) <= Fs + rounding) continue;
+      // What slips has its force of sliding; where a spring carries the same, to the rounding of that.
+      const bool slides = f * w > 0 && std::abs(f) <= Fc && std::abs(f) >= Fc * (1 - slip_rounding);
+      if (slips ? slides : std::abs(f) <= Fs + rounding) continue;
       return fmt::format("friction: {} of {:.17g} at t = {:.6g}, where its velocity is {:.3g}, bound {:.17g}",
                          e.name, f, rows.time()[i], w, slips ? Fc : Fs);
     }
