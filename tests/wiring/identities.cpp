@@ -17,6 +17,7 @@ namespace {
 
 // Times the accuracy asked for. Two runs are each within 1 of the truth by what the simulator promises.
 constexpr double of_energy = 10, of_accuracy = 20;
+constexpr double slip_rounding = 1e-12;
 // Two ends of a scene that cannot go on, of its length.
 constexpr double same_end = 1e-4;
 // A record this much smaller than the largest of its kind is 0 but for rounding; m | m/s | N: where all of a kind is.
