@@ -245,7 +245,7 @@ class Run {
   /// Causes that fire over and over while nothing changes, in less time than the network or its drive takes for anything.
   bool gets_nowhere(double t, const std::vector<int>& causes) {
     if (!headway_.lost(t, causes, state_)) return false;
-    const double rate = std::max(system_->consistency.fastest_rate(t, y_, yp_), drive_.fastest());
+    const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), drive_.fastest());
     if (rate > 0 ? (t - headway_.since()) * rate < 1 : t - headway_.since() < lookahead * horizon(t)) return true;
     headway_.reset();
     return false;
@@ -308,15 +308,15 @@ class Run {
   /// is what the forces are a moment later that counts.
   double fastest_rate(double t, double ahead) {
     Consistency& consistency = system_->consistency;
-    if (!system_->dae.rough()) return consistency.fastest_rate(t, y_, yp_);
+    if (!system_->dae.rough()) return consistency.fastest_rate(t, ahead, y_, yp_);
     std::vector<double> y = y_, yp(y.size());
     for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * yp_[i];
     try {
       consistency.project(t + ahead, y);
       consistency.derivative(t + ahead, y, yp);
-      return consistency.fastest_rate(t + ahead, y, yp);
+      return consistency.fastest_rate(t + ahead, ahead, y, yp);
     } catch (const SimulationError&) {  // no state of the network: it was a guess
-      return consistency.fastest_rate(t, y_, yp_);
+      return consistency.fastest_rate(t, ahead, y_, yp_);
     }
   }
 
