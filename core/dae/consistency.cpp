@@ -217,27 +217,35 @@ void Consistency::second_derivative(double t, double dt, const std::vector<doubl
 }
 
 /// A few steps of power iteration with y' as a function of y. Two steps of it are compared, each unknown with itself, as
-/// that is free of units: an oscillator turns displacement into velocity and back.
-double Consistency::fastest_rate(double t, const std::vector<double>& y, const std::vector<double>& yp) {
+/// that is free of units: an oscillator turns displacement into velocity and back. Sizes too are those of each kind.
+double Consistency::fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp) {
   constexpr int steps = 6;
   const std::size_t n = y.size();
   std::vector<double> u(yp), next, moved(n), before(n, 0);
-  const auto largest = [](const std::vector<double>& x) {
-    double m = 0;
-    for (double v : x) m = std::max(m, std::abs(v));
+  using Sizes = std::array<double, kinds>;
+  const auto largest = [this](const std::vector<double>& x) {
+    Sizes m{};
+    for (std::size_t i = 0; i < x.size(); ++i) m[kind_[i]] = std::max(m[kind_[i]], std::abs(x[i]));
     return m;
   };
+  Sizes there = largest(y);
+  const Sizes soon = largest(yp);
+  for (std::size_t k = 0; k < kinds; ++k) there[k] = std::max(there[k], within * soon[k]);
   double rate = 0;
   for (int k = 0; k < steps; ++k) {
-    const double size = largest(u);
-    if (size == 0) break;
     // A change this small keeps to the branch of every law, and its effect is far above rounding.
-    const double step = 1e-7 * (largest(y) > 0 ? largest(y) : 1) / size;
+    double step = std::numeric_limits<double>::infinity();
+    const Sizes size = largest(u);
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, 1e-7 * there[kind] / size[kind]);
+    }
+    if (!std::isfinite(step)) break;
     for (std::size_t i = 0; i < n; ++i) moved[i] = y[i] + step * u[i];
     derivative(t, moved, next);
     for (std::size_t i = 0; i < n; ++i) next[i] = (next[i] - yp[i]) / step;
+    const Sizes most = largest(before);
     for (std::size_t i = 0; i < n && k > 0; ++i) {
-      if (std::abs(before[i]) > 1e-3 * largest(before)) rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
+      if (std::abs(before[i]) > 1e-3 * most[kind_[i]]) rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
     }
     before = u;
     u = next;

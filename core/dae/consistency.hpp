@@ -31,8 +31,8 @@ class Consistency {
                          std::vector<double>& ypp);
 
   /// Estimate of the fastest rate at which the network itself changes near a state, like omega of an oscillator or 1/T of
-  /// a lag [1/s]; 0 if nothing changes.
-  double fastest_rate(double t, const std::vector<double>& y, const std::vector<double>& yp);
+  /// a lag [1/s]; 0 if nothing changes. What is 0 is judged by what it comes to `within` a time [s].
+  double fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp);
 
  private:
   struct Factor;

@@ -245,7 +245,7 @@ class Run {
   /// Causes that fire over and over while nothing changes, in less time than the network or its drive takes for anything.
   bool gets_nowhere(double t, const std::vector<int>& causes) {
     if (!headway_.lost(t, causes, state_)) return false;
-    const double rate = std::max(system_->consistency.fastest_rate(t, y_, yp_), drive_.fastest());
+    const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), drive_.fastest());
     if (rate > 0 ? (t - headway_.since()) * rate < 1 : t - headway_.since() < lookahead * horizon(t)) return true;
     headway_.reset();
     return false;
@@ -306,17 +306,18 @@ class Run {
 
   /// The fastest rate at which the network itself changes [1/s]. A power law at rest has a slope of 0 or infinity: there it
   /// is what the forces are a moment later that counts.
-  double fastest_rate(double t, double ahead) {
+  double fastest_rate(double t, double ahead, const std::vector<double>& ypp) {
     Consistency& consistency = system_->consistency;
-    if (!system_->dae.rough()) return consistency.fastest_rate(t, y_, yp_);
+    if (!system_->dae.rough()) return consistency.fastest_rate(t, horizon(t), y_, yp_);
     std::vector<double> y = y_, yp(y.size());
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * yp_[i];
+    // Where the drive starts from rest nothing has changed yet to first order.
+    for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * (yp_[i] + ahead / 2 * ypp[i]);
     try {
       consistency.project(t + ahead, y);
       consistency.derivative(t + ahead, y, yp);
-      return consistency.fastest_rate(t + ahead, y, yp);
+      return consistency.fastest_rate(t + ahead, horizon(t), y, yp);
     } catch (const SimulationError&) {  // no state of the network: it was a guess
-      return consistency.fastest_rate(t, y_, yp_);
+      return consistency.fastest_rate(t, horizon(t), y_, yp_);
     }
   }
 
@@ -324,12 +325,12 @@ class Run {
   /// (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * horizon(t);
-    if (tolerances_.blind()) {
-      const double rate = fastest_rate(t, ahead);
-      if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
-    }
     std::vector<double> ypp;
     system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
+    if (tolerances_.blind()) {
+      const double rate = fastest_rate(t, ahead, ypp);
+      if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
+    }
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
     system_->events.begin(t, y_.data(), yp_.data());
     if (system_->dae.rough()) {
