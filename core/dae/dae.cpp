@@ -6,6 +6,8 @@
 #include <cmath>
 #include <queue>
 
+#include "core/network/sets.hpp"
+
 namespace rheonet {
 
 Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
@@ -58,17 +60,31 @@ void Dae::number_unknowns() {
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     if (!structure_->driven[j]) ip_[j] = size_++;
   }
+  const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
+  const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
+  // Velocities that laws without a flat place tell from each other, or that masses and motions give.
+  Sets told(network.nodes());
+  for (NodeId node : network.node_order) {
+    if (!massless(node)) told.join(node, ground);
+  }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
-      const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
-      const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
+      if (std::isfinite(laws.batch->impulse(i))) told.join(b.a, b.b);
+    }
+  }
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = structure_->rates[at(laws.first) + i];
       const double impulse = laws.batch->impulse(i);
       const bool linear = impulse > 0 && std::isfinite(impulse);
       rough_ = rough_ || !linear;
       // Where the velocities are given or belong to masses the force follows from them. At a massless node the balance
-      // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for.
-      by_force_.push_back(!linear && b.a != b.b && (massless(b.a) || massless(b.b)));
+      // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for. One with slope
+      // 0 needs that only where nothing else tells the velocities: its force is lost in the tolerance long before its
+      // velocity is.
+      const bool needed = std::isfinite(impulse) || told.find(b.a) != told.find(b.b);
+      by_force_.push_back(!linear && needed && b.a != b.b && (massless(b.a) || massless(b.b)));
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }
   }
