@@ -94,7 +94,7 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
 void ConvexNetwork::choose_weak() {
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<double> least(u_.size(), none);  // slope around each node
-  double farthest = 0;
+  double farthest = 0, least_of_all = none;
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (inertia_[k] > 0) least[k] = inertia_[k];
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
@@ -104,6 +104,7 @@ void ConvexNetwork::choose_weak() {
     if (slope == 0) continue;
     for (int node : {b.a, b.b}) least[at(node)] = std::min(least[at(node)], slope);
   }
+  for (const double slope : least) least_of_all = std::min(least_of_all, slope);
   const auto heavy = [&](int node) { return fixed_[at(node)] || inertia_[at(node)] > 0; };
   for (Branch& b : branches_) {
     if (heavy(b.a) && heavy(b.b)) continue;  // decided without
@@ -112,7 +113,10 @@ void ConvexNetwork::choose_weak() {
     const double around = std::min(least[at(b.a)], least[at(b.b)]);
     double bounds = 0;
     for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
-    b.weak = around < none ? weak_share * around : farthest > 0 && bounds > 0 ? weak_force * bounds / farthest : 1;
+    const bool by_bounds = farthest > 0 && bounds > 0;
+    b.weak = around < none ? weak_share * around
+             : by_bounds   ? weak_force * bounds / farthest
+                           : weak_share * (least_of_all < none ? least_of_all : 1);
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace rheonet {
 
-Drive::Drive(const Network& network, double start, const std::vector<double>& positions) : past_(network) {
+Drive::Drive(const Network& network, double start, const std::vector<double>& positions) : stop_(network.scene->stop - network.scene->start), past_(network) {
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
     motion.anchor_time = start;
@@ -142,6 +142,18 @@ double Drive::search_reversal(int a, int b, double t, double limit, double grain
     now += std::max(stride, grain);
   }
   return never;
+}
+
+Drive::Reach Drive::reach() const {
+  Reach result;
+  const auto lasts = [&](const Piece& p) { return std::abs(std::min(p.end, stop_) - p.origin); };
+  const auto value = [&](const Piece& p) { return std::abs(p.level) + std::abs(p.slope) * lasts(p) + std::abs(p.amplitude); };
+  const auto rate = [&](const Piece& p) {
+    return std::abs(p.slope) + std::abs(p.amplitude) * (std::abs(p.omega) + std::abs(p.chirp) * lasts(p));
+  };
+  for (const Motion& m : motions_) result.velocity = std::max(result.velocity, m.by_position ? rate(m.piece) : value(m.piece));
+  for (const Force& f : forces_) result.force = std::max(result.force, value(f.piece));
+  return result;
 }
 
 double Drive::fastest() const {

@@ -50,6 +50,10 @@ class Drive {
   /// Remembered: asked again before that instant, with the same `limit`, it costs nothing.
   double next_reversal(int a, int b, double t, double limit);
 
+  /// About the largest force [N] and velocity [m/s] that the present stretches come to.
+  struct Reach { double force = 0, velocity = 0; };
+  Reach reach() const;
+
   /// Largest angular frequency of the present stretches [rad/s]: 0 if nothing oscillates.
   double fastest() const;
 
@@ -74,6 +78,7 @@ class Drive {
   std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present stretches
   std::vector<double> steps_;
   double next_break_ = 0;  ///< of the signals
+  double stop_;            ///< of the run [s]
   Past past_;
   double time_;
 };

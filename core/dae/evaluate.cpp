@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/dae/dae.hpp"
+#include "core/dae/rate_law.hpp"
 
 namespace rheonet {
 
@@ -186,10 +187,9 @@ void Dae::stiffen_resting_laws() {
         for (std::size_t n = 1; n < v_.size(); ++n) {
           scale = std::max({scale, std::abs(view_.nodal[n]), std::abs(view_.applied[n])});
         }
-        if (!(scale > 0)) scale = 1;
       }
-      const double w = laws.batch->velocity_at(i, scale);
-      rate_d_[r] = if_[r] >= 0 ? w / scale : scale / w;
+      const double f = scale > 0 ? scale : coming_force(*laws.batch, i, *drive_, v_), w = laws.batch->velocity_at(i, f);
+      rate_d_[r] = if_[r] >= 0 ? w / f : f / w;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/dae/instant.hpp"
+#include "core/dae/rate_law.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
@@ -95,10 +96,14 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     problem.load(slot(delayed.a), -df);
     problem.load(slot(delayed.b), df);
   }
+  const double largest = *std::max_element(now.magnitude.begin(), now.magnitude.end());
+  const auto scale = [&](const RateBatch& batch, std::size_t i) {
+    return largest > 0 ? largest : coming_force(batch, i, drive_, state.velocity);
+  };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], now));
+      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], scale(*laws.batch, i)));
     }
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
@@ -155,13 +160,10 @@ ConvexNetwork::Law Instant::released(ConvexNetwork::Law law, double slope, doubl
 }
 
 /// What a law of velocity alone adds to its force at w0 when the velocity changes from there; where it has no finite slope,
-/// one that leads away.
-ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, const Nodal& now) {
+/// one that leads away, towards forces of about `scale` [N].
+ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, double scale) {
   const double impulse = batch.impulse(i);
   if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
-  double scale = 0;
-  for (double f : now.magnitude) scale = std::max(scale, f);
-  if (scale == 0) scale = 1;
   // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
   const auto steeper = [&batch, i](double w, double f) {
     return f == 0 ? 0 : f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
