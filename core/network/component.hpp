@@ -98,7 +98,8 @@ class DeflectionBatch {
   virtual double settle(std::size_t i, double p, double f, int direction) = 0;
 
   virtual double stored_energy(std::size_t i, double p) const = 0;
-  /// Power turned into heat at deflection p, its rate dp and velocity w; never negative.
+  /// Power turned into heat at deflection p, its rate dp and velocity w; never negative but for a law with a delay, which
+  /// may give back what it has not stored.
   virtual double dissipated_power(std::size_t i, double p, double dp, double w) const = 0;
   /// Where the law knows it as a function of its deflection: what has turned into heat since the memory changed last [J].
   /// No quadrature of a power that jumps is then needed.

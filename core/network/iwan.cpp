@@ -34,10 +34,6 @@ Iwan::Iwan(std::vector<Pair> pairs, double kink_share)
     total_force_ += pair.coulomb;
   }
   std::iota(order_.begin(), order_.end(), 0);
-  std::sort(order_.begin(), order_.end(), [&](std::size_t i, std::size_t j) {
-    const double a = pairs_[i].coulomb * pairs_[j].stiffness, b = pairs_[j].coulomb * pairs_[i].stiffness;
-    return a != b ? a < b : i < j;
-  });
   begin(0, std::vector<double>(size(), 0), 1);
 }
 
