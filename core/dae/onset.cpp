@@ -37,8 +37,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   const std::size_t nodes = structure_.kind.size();
   ConvexNetwork problem(static_cast<int>(nodes));
   drive_.evaluate(t);
-  const std::vector<double> velocity = drive_.velocity, acceleration = drive_.acceleration, load = drive_.force,
-                            load_rate = drive_.force_rate;
+  const std::vector<double> velocity = drive_.velocity, load = drive_.force, load_rate = drive_.force_rate;
   for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = velocity[m];
   const Nodal now = nodal(state, force, true);
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -50,9 +49,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   problem.fix(slot(ground), 0);
   drive_.evaluate(t + h);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
-    // A difference of two near values says nothing; where the rate is 0 it is all there is.
-    problem.fix(slot(network_.motions[m].node),
-                acceleration[m] != 0 ? h * acceleration[m] : drive_.velocity[m] - velocity[m]);
+    // A difference of two near velocities says nothing. The acceleration is that of the end, as of everything else here:
+    // how it changes may be all that changes the force of a slider that sticks.
+    problem.fix(slot(network_.motions[m].node), h * drive_.acceleration[m]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
     const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
@@ -114,6 +113,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     const bool at_bound = std::abs(std::abs(force[k]) - limit) <= balance_rounding * limit;
     if (modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || contains(fired.sliders, static_cast<int>(k)))) {
       (force[k] > 0 ? law.high : law.low) = 0;
+    } else if (contains(fired.sliders, static_cast<int>(k)) && (massless(b.a) || massless(b.b))) {
+      // It has come to rest. How the velocity of a massless node goes on this first-order look does not see.
+      (modes.slider[k] > 0 ? law.high : law.low) = modes.slider[k] * std::numeric_limits<double>::infinity();
     }
     slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);
     bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;

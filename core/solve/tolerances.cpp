@@ -139,8 +139,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
     double& largest = force[at(part_[n])];
     largest = std::max(largest, std::abs(view.applied[n]));
   }
-  restless_.assign(nodes, 0);
-  find_restless_rates(view, df, force);
+  settled_.assign(nodes, 0);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const auto [sort, k] = quantity_[i];
     rounding_[i] = 0;
@@ -149,7 +148,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const double impedance = std::sqrt(stiffness[k] * structure.mass[k]) + damping[k];
       const std::size_t part = at(part_[k]);
       rounding_[i] = eps * (speed[part] + (impedance > 0 ? force[part] / impedance : 0));
-      restless_[part] = std::max(restless_[part], rounding_[i]);
+      settled_[part] = std::max(settled_[part], rounding_[i]);
     } else if (sort == Sort::deflection) {
       const Branch& b = structure.deflections[k];
       const bool alone = known(b.a) && known(b.b);
@@ -161,26 +160,46 @@ void Tolerances::find_rounding(const Dae::View& view) {
       rounding_[i] = eps * force[at(part_[at(known(b.a) ? b.b : b.a)])];
     }
   }
-  for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    if (quantity_[i].sort == Sort::position) drift_[i] = {restless_[at(part_[quantity_[i].index])]};
-  }
+  restless_ = settled_;
+  find_grain(view, df, force);
+  find_wobble(view);
 }
 
-/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity.
-void Tolerances::find_restless_rates(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force) {
+int Tolerances::part_of(const Branch& b) const {
+  return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
+}
+
+/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, the
+/// more so at rest.
+void Tolerances::find_grain(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force) {
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
-  const auto part = [&](const Branch& b) { return at(part_[at(structure.kind[at(b.a)] == Kind::known ? b.b : b.a)]); };
-  std::vector<double> grain(force);
+  grain_ = force;
   for (std::size_t j = 0; j < df.size(); ++j) {
-    double& largest = grain[part(structure.deflections[j])];
+    double& largest = grain_[at(part_of(structure.deflections[j]))];
     largest = std::max(largest, std::abs(df[j] * view.p[j]));
   }
+  for (double& grain : grain_) grain *= eps;
+  for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
+    restless_[at(part)] = std::max(restless_[at(part)], law.velocity_at(i, grain_[at(part)]));
+  });
+}
+
+/// The same at present.
+void Tolerances::find_wobble(const Dae::View& view) {
+  wobble_ = settled_;
+  for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
+    const double f = std::abs(view.rate_force[r]);
+    wobble_[at(part)] = std::max(wobble_[at(part)], law.velocity_at(i, f + grain_[at(part)]) - law.velocity_at(i, f));
+  });
+}
+
+template <class Visit>
+void Tolerances::for_each_dilatant(Visit visit) const {
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (!(laws.batch->growth(i).exponent > 1)) continue;
-      double& restless = restless_[part(structure.rates[at(laws.first) + i])];
-      restless = std::max(restless, laws.batch->velocity_at(i, eps * grain[part(structure.rates[at(laws.first) + i])]));
+      const std::size_t r = at(laws.first) + i;
+      if (laws.batch->growth(i).exponent > 1) visit(*laws.batch, i, r, part_of(dae_->structure().rates[r]));
     }
   }
 }
@@ -257,6 +276,7 @@ double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowanc
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
+  find_wobble(view);
   watch_kinks(view);
   update(t, yp);
 }
@@ -294,7 +314,11 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     if (q.sort == Sort::deflection) {
       tolerance_[i] = std::max(tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q));
     }
-    tolerance_[i] = std::max(tolerance_[i], drift_[i].velocity * std::min(t - begin_, drift_[i].lasting));
+    if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
+      tolerance_[i] = std::max(tolerance_[i], wobble_[at(part_[q.index])]);
+    }
+    const Drift drift = q.sort == Sort::position ? Drift{wobble_[at(part_[q.index])]} : drift_[i];
+    tolerance_[i] = std::max(tolerance_[i], drift.velocity * std::min(t - begin_, drift.lasting));
     // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
     if (q.sort == Sort::deflection || q.sort == Sort::position) {
       const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
@@ -307,7 +331,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   const auto noise = [&](bool given, double flow, const Branch& b) {
     const double unresolved =
         given ? given_noise * flow
-              : std::max(noise_share * relative_ * std::max(flow, floor_of_kind * velocity), restless_[at(part_[at(structure.kind[at(b.a)] == Kind::known ? b.b : b.a)])]);
+              : std::max(noise_share * relative_ * std::max(flow, floor_of_kind * velocity), restless_[at(part_of(b))]);
     // More than nothing: an event function that begins at 0 would never be seen to fall through it.
     return std::max(unresolved, std::numeric_limits<double>::min());
   };

@@ -49,7 +49,12 @@ class Tolerances {
   void update(double t, const std::vector<double>& yp);
   void find_parts();
   void find_rounding(const Dae::View& view);
-  void find_restless_rates(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
+  int part_of(const Branch& b) const;
+  void find_grain(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
+  void find_wobble(const Dae::View& view);
+  /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
+  template <class Visit>
+  void for_each_dilatant(Visit visit) const;
 
   const Network& network_;
   Dae* dae_ = nullptr;
@@ -68,7 +73,10 @@ class Tolerances {
   /// That of a velocity, and how long it adds up in what comes of it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
   std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
-  std::vector<double> restless_;                      ///< of each part: the largest of its velocities
+  std::vector<double> settled_;                       ///< of each part: the largest of its velocities, power laws apart
+  std::vector<double> restless_;                      ///< the same with power laws at rest
+  std::vector<double> wobble_;                        ///< the same with power laws as they are at present
+  std::vector<double> grain_;                         ///< of each part: what rounding leaves of its forces [N]
   /// How far each bundle has yielded, and on which of its branches.
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;

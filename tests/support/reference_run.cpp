@@ -179,7 +179,7 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
   if (network_.turned_since(start)) note_turn(before, after);
   if ((network_.forked() && !start.forked()) || network_.could_slip_on(start)) fork_ = std::min(fork_, before);
   for (std::size_t i = 0; i < acceleration_.size(); ++i) {
-    acceleration_[i] = (network_.nodes()[i].velocity - start.nodes()[i].velocity) / h;
+    acceleration_[i] = network_.nodes()[i].acceleration;
   }
   for (const Motion& m : motions_) acceleration_[at(m.node)] = m.by_position ? m.piece.curvature(after) : m.piece.rate(after);
   applied_ = given.applied;
@@ -198,8 +198,10 @@ bool ReferenceRun::jump(const std::vector<double>& steps) {
   input.velocity = input.displacement;
   for (double& x : input.velocity) x /= input.h;
   for (int k = 0; k < n; ++k) {
+    network_.begin();
     if (!network_.step(input)) return false;
   }
+  network_.begin();
   return true;
 }
 

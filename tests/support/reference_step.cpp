@@ -94,9 +94,9 @@ void ReferenceNetwork::evaluate(const Input& input) {
   for (std::size_t i = 0; i < node_of_.size(); ++i) {
     const Node& node = nodes_[at(node_of_[i])];
     const double F = input.applied[at(node_of_[i])], x = x_[at(node_of_[i])];
-    const double inertia = node.mass * (x / input.h - node.velocity) / input.h;
+    const double inertia = node.mass * (x / input.h - node.velocity) / span(input);
     gradient_[i] += inertia - F;
-    size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / input.h;
+    size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / span(input);
     worst = std::max(worst, std::abs(gradient_[i]) / tolerance(size_[i]));
   }
   unbalance_ = worst;
@@ -162,7 +162,7 @@ bool ReferenceNetwork::newton(const Input& input) {
     }
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      matrix_[i * n + i] += nodes_[at(node_of_[i])].mass / (input.h * input.h);
+      matrix_[i * n + i] += nodes_[at(node_of_[i])].mass / (input.h * span(input));
       largest = std::max(largest, matrix_[i * n + i]);
     }
     for (std::size_t i = 0; i < n; ++i) matrix_[i * n + i] += 1e-14 * matrix_[i * n + i] + 1e-30 * largest + 1e-200;
@@ -285,8 +285,11 @@ bool ReferenceNetwork::step(const Input& input) {
   }
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     nodes_[n].position += x_[n];
-    nodes_[n].velocity = nodes_[n].prescribed ? input.velocity[n] : x_[n] / input.h;
+    const double velocity = nodes_[n].prescribed ? input.velocity[n] : x_[n] / input.h;
+    nodes_[n].acceleration = (velocity - nodes_[n].velocity) / span(input);
+    nodes_[n].velocity = velocity;
   }
+  before_ = input.h;
   return true;
 }
 

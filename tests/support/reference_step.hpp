@@ -9,8 +9,10 @@ namespace rheonet::test {
 /// A network of nodes, bundles of elements and masses, and one implicit Euler step of it. With x the displacements of
 /// the nodes in a step of length h, the step is the minimum over the free nodes of the convex function
 ///
-///     sum over bundles  int f d(step)  +  sum over masses  m (x/h - v)^2/2  -  sum  F x
+///     sum over bundles  int f d(step)  +  sum over masses  m (h/s) (x/h - v)^2/2  -  sum  F x
 ///
+/// v is the mean velocity in the step before, s the time between the middles of both: else a mass that moves as prescribed
+/// would feel a force without bound whenever a short step follows a long one.
 /// where each law is a monotone map from the displacement of its ends to its force at the end of the step.
 class ReferenceNetwork {
  public:
@@ -18,6 +20,7 @@ class ReferenceNetwork {
     bool prescribed = false;
     double mass = 0;
     double position = 0, velocity = 0;  ///< at the end of the last step
+    double acceleration = 0;            ///< in it
   };
   /// What a step is given.
   struct Input {
@@ -31,6 +34,8 @@ class ReferenceNetwork {
 
   /// Takes one step. False if there is no minimum: nothing resists what is applied.
   bool step(const Input& input);
+  /// The velocities are those of an instant from here on, and no means: s is h in the next step.
+  void begin() { before_ = 0; }
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<ReferenceBundle>& bundles() const { return bundles_; }
@@ -51,6 +56,7 @@ class ReferenceNetwork {
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  double span(const Input& input) const { return before_ > 0 ? (before_ + input.h) / 2 : input.h; }
   bool minimise(const Input& input);
   bool minimise(const Input& input, double factor);
   double around(std::size_t bundle, double h) const;
@@ -63,6 +69,7 @@ class ReferenceNetwork {
 
   std::vector<Node> nodes_;
   std::vector<ReferenceBundle> bundles_;
+  double before_ = 0;                   ///< length of the last step, 0 for none
   std::vector<int> unknown_;            ///< of each node; -1 if prescribed
   std::vector<NodeId> node_of_;         ///< of each unknown
   std::vector<double> x_;               ///< displacement of each node in this step
