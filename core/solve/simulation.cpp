@@ -8,6 +8,7 @@
 
 #include "core/dae/given_reversals.hpp"
 #include "core/dae/instant.hpp"
+#include "core/dae/rate_law.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
 #include "core/solve/headway.hpp"
@@ -56,6 +57,7 @@ class Run {
         headway_(network.scene->elements.size() + 1, settings.accuracy) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
+    find_least_velocities();
   }
 
   SimulationStatistics go() {
@@ -297,7 +299,22 @@ class Run {
   void soften_laws() {
     if (!system_->dae.rough()) return;
     for (const Laws<RateBatch>& laws : network_.rate_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) laws.batch->soften(i, tolerances_.unresolved_velocity());
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        laws.batch->soften(i, std::max(tolerances_.unresolved_velocity(), least_velocity_[at(laws.first) + i]));
+      }
+    }
+  }
+
+  /// Dilatant laws that start from rest would let their ends go there: rounding of the velocities that the drive comes to
+  /// gives them some slope.
+  void find_least_velocities() {
+    least_velocity_.assign(network_.rates.size(), 0);
+    for (const Laws<RateBatch>& laws : network_.rate_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        if (!(laws.batch->growth(i).exponent > 1)) continue;
+        const double velocity = laws.batch->velocity_at(i, coming_force(*laws.batch, i, drive_, state_.velocity));
+        least_velocity_[at(laws.first) + i] = std::numeric_limits<double>::epsilon() * velocity;
+      }
     }
   }
 
@@ -385,6 +402,7 @@ class Run {
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
+  std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
   std::vector<int> fired_;  ///< elements at the last event
 };
 
