@@ -148,7 +148,8 @@ void ReferenceBundle::share_at_rest(double force, double h) {
       given += m.sign * m.law.preferred(h);
     }
   }
-  const bool sliders = friction > 0;
+  // Where the motion is given nothing asks for a mixture: s = 0, as with sliders.
+  const bool own = friction > 0 || force == this->preferred(h);
   friction = std::clamp(force - given - preferred, -friction, friction);
   // The level up to which every slider is loaded, if it can be.
   double level = 0, low_level = 0, high_level = std::abs(friction);
@@ -173,7 +174,7 @@ void ReferenceBundle::share_at_rest(double force, double h) {
     if (m.law.type() == Type::slider) {
       f = m.sign * std::copysign(std::min(room[k], level), friction);
     } else if (m.law.type() == Type::cfm) {
-      f = sliders ? f + away * ((combined > preferred ? to : from) - f) : from + up * (to - from);
+      f = own ? f + away * ((combined > preferred ? to : from) - f) : from + up * (to - from);
     }
     m.law.accept(0, f, h);
   }

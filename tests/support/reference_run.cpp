@@ -18,6 +18,8 @@ constexpr int instant_steps = 8;
 // like turns without end takes all the time.
 constexpr int bisections = 12;
 constexpr int most_searches = 300;
+// A law that turns in every short step is at rest but for rounding: there is no instant to be found.
+constexpr int most_halvings = 20 * bisections;
 
 }  // namespace
 
@@ -156,7 +158,8 @@ bool ReferenceRun::turns_ahead(double ahead) const {
 /// `ahead`, a turn that a step of that length shows after this one is taken to lie in this one.
 bool ReferenceRun::step(double after, int depth, double ahead) {
   const double before = t_, h = after - before;
-  if (depth == bisections && searches_ >= most_searches) depth = 0;
+  if (depth == bisections) halvings_ = 0;
+  if (halvings_ >= most_halvings || (depth == bisections && searches_ >= most_searches)) depth = 0;
   const ReferenceNetwork start = network_;
   const ReferenceNetwork::Input given = input(before, after);
   const bool done = network_.step(given);
@@ -166,6 +169,7 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
     network_ = start;
     t_ = before;
     if (depth == bisections) ++searches_;
+    ++halvings_;
     if (!step(before + h / 2, depth - 1, ahead) || !step(after, depth - 1, ahead)) return false;
     // A motion may be too slow to be told from rounding in the shortest steps.
     if (done && network_.follow(whole, start)) note_turn(before, after);
