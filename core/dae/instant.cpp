@@ -27,7 +27,7 @@ bool contains(const std::vector<int>& list, int x) { return std::find(list.begin
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
-    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), impulse_told_(network.scene->elements.size(), 0), slipping_(network.sliders.size(), 0) {}
+    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), impulse_told_(network.scene->elements.size(), 0), slipping_(network.sliders.size(), 0), came_to_rest_(network.sliders.size(), Modes::stuck) {}
 
 // What slips one way must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {
@@ -47,6 +47,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
+    came_to_rest_[k] = event && !stepped ? modes.slider[k] : Modes::stuck;
     slipping_[k] = event ? 0 : modes.slider[k];
   }
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.

@@ -100,6 +100,7 @@ class Instant {
   std::vector<char> broken_;           ///< of each slider: its bounds are those of sliding
   std::vector<char> impulse_told_;     ///< of each element: that a step of a position gives it an impulse
   std::vector<signed char> slipping_;  ///< the direction in which it slips already
+  std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this instant
 };
 
 }  // namespace rheonet

@@ -113,9 +113,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     const bool at_bound = std::abs(std::abs(force[k]) - limit) <= balance_rounding * limit;
     if (modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || contains(fired.sliders, static_cast<int>(k)))) {
       (force[k] > 0 ? law.high : law.low) = 0;
-    } else if (contains(fired.sliders, static_cast<int>(k)) && (massless(b.a) || massless(b.b))) {
-      // It has come to rest. How the velocity of a massless node goes on this first-order look does not see.
-      (modes.slider[k] > 0 ? law.high : law.low) = modes.slider[k] * std::numeric_limits<double>::infinity();
+    } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
+      // How the velocity of a massless node goes on this first-order look does not see: the event knows better.
+      (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
     }
     slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);
     bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
