@@ -63,7 +63,7 @@ class Instant {
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
   static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
-  static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale);
+  static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest);
   /// Sliders that slip no way: what stands beside them takes up all that they cannot.
   std::vector<int> let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
                             const std::vector<int>& side, const std::vector<double>& at_rest, const Fired& fired,

@@ -20,6 +20,8 @@ constexpr double balance_rounding = 1e-12;
 constexpr double velocity_rounding = 1e-14;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
 constexpr double difference_limit = 1e-6;
+// Slopes further apart than this cannot be told from a rigid link.
+constexpr double rigid_ratio = 1e12;
 
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
@@ -63,6 +65,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   drive_.evaluate(t);
 
   std::vector<double> f(state.p.size()), c(f), at_rest(f);
+  double least_slope = std::numeric_limits<double>::infinity();
   std::vector<int> deflection_branch(state.p.size()), slider_branch(network_.sliders.size()), bound_side(slider_branch);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     const std::size_t k = at(laws.first);
@@ -78,6 +81,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
       at_rest[k + i] = -h * laws.batch->slope(i, state.p[k + i], 0) * c[k + i];
+      for (const double slope : {forward, backward}) {
+        if (slope > 0) least_slope = std::min(least_slope, slope);
+      }
       double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
       // What has stopped does not go on as before: again the event knows better.
       if (contains(fired.turns, static_cast<int>(k + i)) && may_stand(static_cast<int>(k + i))) {
@@ -102,7 +108,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], scale(*laws.batch, i)));
+      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], scale(*laws.batch, i), rigid_ratio * least_slope));
     }
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
@@ -162,18 +168,22 @@ ConvexNetwork::Law Instant::released(ConvexNetwork::Law law, double slope, doubl
 }
 
 /// What a law of velocity alone adds to its force at w0 when the velocity changes from there; where it has no finite slope,
-/// one that leads away, towards forces of about `scale` [N].
-ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, double scale) {
+/// one that leads away, towards forces of about `scale` [N]. Where it is steeper than `steepest` [N s/m] it is as good as
+/// rigid, and has that slope.
+ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest) {
   const double impulse = batch.impulse(i);
   if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
-  // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
-  const auto steeper = [&batch, i](double w, double f) {
-    return f == 0 ? 0 : f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
+  const Growth growth = batch.growth(i);
+  const double rigid = growth.exponent < 1 ? std::pow(growth.coefficient / steepest, 1 / (1 - growth.exponent)) : 0;
+  const auto force = [&batch, i, rigid, steepest](double w) {
+    return std::abs(w) < rigid ? steepest * w : batch.force_at(i, w);
   };
-  const double f0 = batch.force_at(i, w0), slope = w0 != 0 ? steeper(w0, f0) : scale / batch.velocity_at(i, scale);
+  // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
+  const auto steeper = [force](double w, double f) { return f == 0 ? 0 : f / w * std::max(1.0, std::log2(force(2 * w) / f)); };
+  const double f0 = force(w0), slope = w0 != 0 ? steeper(w0, f0) : std::min(steepest, scale / batch.velocity_at(i, scale));
   return {.backward = slope, .forward = slope, .rounding = std::abs(f0), .of_change = true,
-          .beyond = [&batch, i, w0, f0, slope, steeper](double change, double& tangent) {
-            const double w = w0 + change, f = batch.force_at(i, w);
+          .beyond = [force, w0, f0, slope, steeper](double change, double& tangent) {
+            const double w = w0 + change, f = force(w);
             tangent = w != 0 ? steeper(w, f) : slope;
             return f - f0;
           }};
