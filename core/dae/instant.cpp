@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/sets.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -222,9 +224,29 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
   return result;
 }
 
+/// What has no largest force takes its other end along.
+void Instant::add_carried(std::vector<NodeId>& nodes) const {
+  Sets together(structure_.kind.size());
+  const auto join = [&](const Branch& b) {
+    if (massless(b.a) && massless(b.b)) together.join(b.a, b.b);
+  };
+  for (const Branch& b : network_.rates) join(b);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->events(i) == 0) join(network_.deflections[at(laws.first) + i]);
+    }
+  }
+  const std::vector<NodeId> given = nodes;
+  for (NodeId n = 0; at(n) < structure_.kind.size(); ++n) {
+    const auto goes_with = [&](NodeId other) { return together.find(n) == together.find(other); };
+    if (std::any_of(given.begin(), given.end(), goes_with)) nodes.push_back(n);
+  }
+}
+
 void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
   std::vector<int> nodes;
   for (int k : runaways) nodes.push_back(network_.node_order[at(k)]);
+  add_carried(nodes);
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<char> in(structure_.kind.size(), 0);
@@ -236,7 +258,7 @@ void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
   if (nodes.size() > 5) names += fmt::format(" and {} more", nodes.size() - 5);
   int count = 0;
   const auto mention = [&](const Branch& b) {
-    if ((in[at(b.a)] || in[at(b.b)]) && ++count <= 5) {
+    if (in[at(b.a)] != in[at(b.b)] && ++count <= 5) {
       elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", network_.name_of(b));
     }
   };
@@ -245,8 +267,8 @@ void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
   throw SimulationError(fmt::format(
       "{} nothing resists the force at node{} {}: {} there {} at the largest force that {} can take; give the node "
       "a mass or a dashpot, or apply less force",
-      at_time(*network_.scene, t), nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements, count == 1 ? "is" : "are",
-      count == 1 ? "it" : "they"));
+      at_time(*network_.scene, t), nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements,
+      count < 2 ? "is" : "are", count < 2 ? "it" : "they"));
 }
 
 }  // namespace rheonet

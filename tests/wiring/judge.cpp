@@ -38,6 +38,13 @@ std::string contradiction(const Scene& scene, const ReferenceSolution& reference
   return "";
 }
 
+/// The bound on the forces alone shows that the scene cannot go on where the run was refused for that.
+bool beyond_bounds(const Scene& scene, const std::string& refusal) {
+  const std::optional<Capacity> capacity = capacity_of(scene);
+  const std::optional<double> must = capacity ? first_above(scene, capacity->sticking * (1 + 1e-6)) : std::nullopt;
+  return must && says(refusal, overload) && std::abs(time_in(refusal) - *must) <= same_end * (scene.stop - scene.start);
+}
+
 /// What is wrong with how the run ended; "" if it did as the reference.
 std::string wrong_end(const Scene& scene, const std::string& refusal, const ReferenceSolution& reference) {
   if (reference.complete) return refusal.empty() ? "" : "refused: " + refusal;
@@ -66,7 +73,7 @@ Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution
     result.text = run.refusal;
   } else if (const std::string why = contradiction(scene, reference); !why.empty()) {
     result.text = why;
-    result.verdict = Verdict::undecided;
+    result.verdict = beyond_bounds(scene, run.refusal) ? Verdict::refused : Verdict::undecided;
   } else if (const std::string end = wrong_end(scene, run.refusal, reference); !end.empty()) {
     result.text = end;
   } else if (found.from_fine > 0.5 * found.from_coarse && found.from_fine > told) {
