@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "components/spring_to_slider.hpp"
 #include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
@@ -181,13 +182,6 @@ struct Davidenkov {
   }
 };
 
-bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
-
-std::optional<Misfit> start_within_bound(std::span<const double> v) {
-  if (std::isnan(v[3]) || std::abs(v[3]) <= v[1]) return {};
-  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
-}
-
 const RegisterComponent registered({
     .declaration =
         {
@@ -223,18 +217,11 @@ const RegisterComponent registered({
                      "way to flow.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
-               {.when = "stiffness = inf", .becomes = "slider",
-                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
-                .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }},
-               {.when = "coulomb = inf", .becomes = "spring",
-                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
-                .values = [](std::span<const double> v) {
-                  return std::vector<double>{v[0], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
-                }},
-               {.when = "exponent = inf (`exponent` is 0 there)", .becomes = "sfm",
-                .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
-                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], 0, v[3]}; }}},
+    .limits = spring_to_slider({{.when = "exponent = inf (`exponent` is 0 there)", .becomes = "sfm",
+                                 .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
+                                 .values = [](std::span<const double> v) {
+                                   return std::vector<double>{v[0], v[1], 0, v[3]};
+                                 }}}),
     .deflection = deflection_batch<Davidenkov>,
     .drawing = "M0 .5 H.15 M.15 .8 C.25 .4 .5 .2 .85 .2 M.85 .2 C.75 .6 .5 .8 .15 .8 M.85 .5 H1",
 });
