@@ -98,7 +98,7 @@ scene.toml:12:32: error: `warn` must be a string, but is `true`
 )~");
   refused("not a comparison",
           R"~(a = "n"
-b = "2*(n == 1)"
+b = "2*(n == 7)"
 c = "3 mm"
 d = 1
 e = "0 < n < 3"
@@ -109,8 +109,8 @@ scene.toml:9:5: error: check `a` must be a comparison, but is the string "n"
     9 | a = "n"
       |     ^
   laminar = { that = "speed < critical_speed", warn = "the flow would be turbulent" }
-scene.toml:10:5: error: check `b` must be a comparison, but is the string "2*(n == 1)"
-   10 | b = "2*(n == 1)"
+scene.toml:10:5: error: check `b` must be a comparison, but is the string "2*(n == 7)"
+   10 | b = "2*(n == 7)"
       |     ^
   laminar = { that = "speed < critical_speed", warn = "the flow would be turbulent" }
 scene.toml:11:5: error: check `c` must be a comparison, but is the string "3 mm"

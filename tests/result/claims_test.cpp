@@ -139,7 +139,17 @@ Finding of_course(const Claim& claim, const std::function<double(double)>& x, do
   return claims.findings().at(0);
 }
 
-Claim crossing(double level) { return {.figure = Claim::Figure::crossing, .level = level}; }
+Claim claim_of(Claim::Figure figure) {
+  Claim claim;
+  claim.figure = figure;
+  return claim;
+}
+
+Claim crossing(double level) {
+  Claim claim = claim_of(Claim::Figure::crossing);
+  claim.level = level;
+  return claim;
+}
 
 }  // namespace
 
@@ -150,11 +160,11 @@ TEST_CASE("Claims: a level that is reached between the places where a record is 
   CHECK(hump(under.found) == doctest::Approx(0.9999).epsilon(1e-12));
   CHECK(under.found < 0.29);
   CHECK(std::isnan(of_course(crossing(1.0001), hump).found));
-  CHECK(of_course({.figure = Claim::Figure::max}, hump).found == doctest::Approx(1).epsilon(1e-5));
+  CHECK(of_course(claim_of(Claim::Figure::max), hump).found == doctest::Approx(1).epsilon(1e-5));
   // Downwards the same, and only from the start of what is looked at.
   const auto dip = [&](double t) { return -hump(t); };
   CHECK(of_course(crossing(-0.9999), dip).found == under.found);
-  CHECK(of_course({.figure = Claim::Figure::min}, dip).found == doctest::Approx(-1).epsilon(1e-5));
+  CHECK(of_course(claim_of(Claim::Figure::min), dip).found == doctest::Approx(-1).epsilon(1e-5));
   Claim later = crossing(0.9999);
   later.from = 0.29;
   CHECK(of_course(later, hump).found > 0.29);
@@ -181,7 +191,7 @@ TEST_CASE("Claims: a level is reached by what comes to it as by what jumps to it
 
 TEST_CASE("Claims: a time that a run has not come to has no value, but for rounding of its end") {
   const auto x = [](double t) { return 3 * t; };
-  Claim at{.figure = Claim::Figure::at};
+  Claim at = claim_of(Claim::Figure::at);
   at.time = 1;
   CHECK(of_course(at, x).found == 3);
   CHECK(of_course(at, x, 1 - 1e-13).found == doctest::Approx(3));
