@@ -16,7 +16,7 @@ using namespace rheonet::test;
 namespace {
 
 constexpr double sigma = 512.3, Fc = 2.71, pi = std::numbers::pi;
-constexpr double exponents[] = {1.3, 2, 2.7, 5};
+constexpr double exponents[] = {1.03, 1.3, 2, 2.7, 5};
 
 /// Travel to the bound.
 double bound(double n) { return n / (n - 1) * Fc / sigma; }
