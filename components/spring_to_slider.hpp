@@ -10,8 +10,8 @@
 
 namespace rheonet {
 
-/// For laws that begin as a spring and come to flow as a slider: why a force f0 at the start [N; NaN: not given] cannot be,
-/// if it lies beyond the bound Fc [N].
+/// For laws that begin as a spring and come to flow as a slider: why a force f0 at the start [N; NaN: not given] cannot
+/// be, if it lies beyond the bound Fc [N].
 inline std::optional<Misfit> beyond_bound(double f0, double Fc) {
   if (std::isnan(f0) || std::abs(f0) <= Fc) return {};
   return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};

@@ -167,7 +167,8 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
   for (const char* const time : {"t", "time"}) {
     if (!std::binary_search(names.begin(), names.end(), time) || environment.find(time)) continue;
     context.mistakes.error(main_.source().spot,
-                           main_.name() + ": there is no parameter `" + time + "`, and no expression is one of the time",
+                           main_.name() + ": there is no parameter `" + time +
+                               "`, and no expression is one of the time",
                            "a signal that changes is a table, { sine = \"1 " + unit_of(quantity_, context.domain) +
                                "\", frequency = \"2 Hz\" }; there are " + list_names(shape_names(), "and"));
     return true;
@@ -176,9 +177,11 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
 }
 
 const TableFile* SignalPlan::table_file(Context& context) const {
-  if (!file_)
-    if (auto table = read_table_file(*file_name_, context)) file_ = std::make_shared<const TableFile>(std::move(*table));
-  return file_.get();
+  if (!file_) {
+    auto table = read_table_file(*file_name_, context);
+    file_ = table ? std::make_shared<const TableFile>(std::move(*table)) : nullptr;
+  }
+  return file_->get();
 }
 
 std::optional<double> SignalPlan::scaled(const Formula& formula, const Environment& environment,

@@ -246,6 +246,10 @@ DIR/scenes/words.csv:12:1: error: and 4 more mistakes in this table
    12 | 10,b10
       | ^
 )~"));
+  const std::string many = "[elements]\nm = { type = \"force\", at = \"a\", force = { table = \"three.csv\" }, "
+                           "repeat = { count = 3 } }\n";
+  CHECK(messages(read(many, {}, folder.path() / "scenes")).find("three.csv:1:1") != std::string::npos);
+  CHECK(read(many, {}, folder.path() / "scenes").diagnostics.size() == 1);
   folder.write("scenes/unit.csv", "t [ms],v [mm/sek]\n0,0\n");
   CHECK(messages_in(folder, with_table("unit.csv")) == R"~(
 DIR/scenes/unit.csv:1:8: error: `mm/sek` is no unit: unknown unit `sek`
