@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "components/solid_friction.hpp"
+#include "components/spring_to_slider.hpp"
 #include "core/network/law_batch.hpp"
 
 namespace rheonet {
@@ -150,13 +151,12 @@ struct Cfm : SolidFriction {
 
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
 
-std::optional<Misfit> start_within_bound(std::span<const double> v) {
+std::optional<Misfit> start_that_can_be(std::span<const double> v) {
   if (std::isinf(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]) && v[1] > 0 && v[2] > 0) {
     return Misfit{"stiffness", "= inf needs `damping` or `coulomb` infinite too; with both finite it is a dashpot in series "
                                "with a slider: wire these"};
   }
-  if (std::isnan(v[4]) || std::abs(v[4]) <= v[1]) return {};
-  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
+  return beyond_bound(v[4], v[1]);
 }
 
 const RegisterComponent registered({
@@ -177,7 +177,7 @@ const RegisterComponent registered({
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
-            .check = start_within_bound,
+            .check = start_that_can_be,
             .summary = "combined friction model: solid friction that relaxes",
             .law = "df/dt = E (w - f/B),  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 14-17",

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "components/spring_to_slider.hpp"
 #include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
@@ -42,19 +43,23 @@ struct Davidenkov {
     begin(0, std::isnan(v[3]) ? 0 : v[3]);
   }
 
+  // g(x) = sigma x secant(x/X) and g'(x) = sigma tangent(x/X): 1 - z^(n-1)/n and 1 - z^(n-1), without their cancellation
+  // where n is near 1.
+  double secant(double z) const { return -std::expm1((n - 1) * std::log(z) - std::log(n)); }
+  double tangent(double z) const { return -std::expm1((n - 1) * std::log(z)); }
+
   double size() const { return virgin && open.size() == 1 ? 1 : 2; }
   double travelled(double p) const { return s * (p - open.back().p); }
 
   template <class T>
   T force(const T& p) const {
-    using std::pow;
     if (open.empty()) return T(s * Fc);
     const Reversal& r = open.back();
-    const T x = (s / size()) * (p - r.p), z = x / X;
+    const double z = s / size() * (value_of(p) - r.p) / X;
     // Behind the point of reversal lies no state of the branch. Iterates of a solver may: go on along the tangent.
-    if (value_of(z) <= 0) return r.f + (s * size() * sigma) * x;
-    if (value_of(z) >= 1) return T(r.f + s * size() * Fc);
-    return r.f + (s * size() * sigma) * x * (1 - pow(z, n - 1) / n);
+    if (z <= 0) return r.f + sigma * (p - r.p);
+    if (z >= 1) return T(r.f + s * size() * Fc);
+    return r.f + s * size() * sigma * X * z * secant(z) + sigma * tangent(z) * (p - value_of(p));
   }
   template <class T>
   T creep(const T&) const {
@@ -62,7 +67,7 @@ struct Davidenkov {
   }
   double slope_along(double p, int direction) const {
     if (direction != s) return sigma;
-    return open.empty() ? 0 : sigma * std::max(0.0, 1 - std::pow(part(p), n - 1));
+    return open.empty() ? 0 : sigma * tangent(part(p));
   }
   bool constant() const { return open.empty(); }
   int direction() const { return s < 0 ? -1 : 1; }
@@ -77,7 +82,7 @@ struct Davidenkov {
     const double wanted = std::abs(f) / (sigma * X);
     double z = 0;
     for (double step = 1; step > 1e-16 && z < 1;) {
-      step = (wanted - z * (1 - std::pow(z, n - 1) / n)) / (1 - std::pow(z, n - 1));
+      step = (wanted - z * secant(z)) / tangent(z);
       z = std::min(1.0, z + step);
     }
     open.push_back({p - s * z * X, 0, 0});
@@ -181,13 +186,6 @@ struct Davidenkov {
   }
 };
 
-bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
-
-std::optional<Misfit> start_within_bound(std::span<const double> v) {
-  if (std::isnan(v[3]) || std::abs(v[3]) <= v[1]) return {};
-  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
-}
-
 const RegisterComponent registered({
     .declaration =
         {
@@ -201,8 +199,8 @@ const RegisterComponent registered({
                     {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
                      .symbol = "Fc",
                      .description = "force at which the slope has come to 0 and it flows; 0 means no force"},
-                    {.name = "exponent", .quantity = Quantity::number, .fallback = 2.0, .lower = 1.1,
-                     .lower_open = false, .may_be_infinite = true, .symbol = "n",
+                    {.name = "exponent", .quantity = Quantity::number, .fallback = 2.0, .lower = 1,
+                     .may_be_infinite = true, .symbol = "n",
                      .description = "shape of the loop: 2 is made of parabolas, inf is Prandtl's elastic-plastic law"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = -infinity,
                      .symbol = "f0",
@@ -223,18 +221,11 @@ const RegisterComponent registered({
                      "way to flow.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
-               {.when = "stiffness = inf", .becomes = "slider",
-                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
-                .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }},
-               {.when = "coulomb = inf", .becomes = "spring",
-                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
-                .values = [](std::span<const double> v) {
-                  return std::vector<double>{v[0], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
-                }},
-               {.when = "exponent = inf (`exponent` is 0 there)", .becomes = "sfm",
-                .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
-                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], 0, v[3]}; }}},
+    .limits = spring_to_slider({{.when = "exponent = inf (`exponent` is 0 there)", .becomes = "sfm",
+                                 .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
+                                 .values = [](std::span<const double> v) {
+                                   return std::vector<double>{v[0], v[1], 0, v[3]};
+                                 }}}),
     .deflection = deflection_batch<Davidenkov>,
     .drawing = "M0 .5 H.15 M.15 .8 C.25 .4 .5 .2 .85 .2 M.85 .2 C.75 .6 .5 .8 .15 .8 M.85 .5 H1",
 });

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "components/solid_friction.hpp"
+#include "components/spring_to_slider.hpp"
 #include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
@@ -58,13 +59,6 @@ struct Sfm : SolidFriction {
   double dissipated_power(double p, double, double w) const { return heating(p, w); }
 };
 
-bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
-
-std::optional<Misfit> start_within_bound(std::span<const double> v) {
-  if (std::isnan(v[3]) || std::abs(v[3]) <= v[1]) return {};
-  return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
-}
-
 const RegisterComponent registered({
     .declaration =
         {
@@ -89,15 +83,7 @@ const RegisterComponent registered({
             .notes = "Rate-independent; abs(f) <= Fc. Stores f^2/(2 sigma), dissipates f w (1 - u^i) with u = 1 - s f/Fc.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0 or coulomb = 0", .becomes = "", .applies = no_force, .values = {}},
-               {.when = "stiffness = inf", .becomes = "slider",
-                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
-                .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }},
-               {.when = "coulomb = inf", .becomes = "spring",
-                .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
-                .values = [](std::span<const double> v) {
-                  return std::vector<double>{v[0], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
-                }}},
+    .limits = spring_to_slider(),
     .deflection = deflection_batch<Sfm>,
     .drawing = "M0 .5 H.15 M.15 .3 V.7 M.15 .7 C.3 .3 .5 .3 .85 .3 M.85 .3 C.7 .7 .5 .7 .15 .7 M.85 .3 V.7 M.85 .5 H1",
 });

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "components/spring_to_slider.hpp"
 #include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
@@ -79,9 +80,7 @@ const RegisterComponent registered({
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], 1, not_given}; }},
                {.when = "damping = inf", .becomes = "spring",
                 .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
-                .values = [](std::span<const double> v) {
-                  return std::vector<double>{v[1], 0, std::isnan(v[3]) ? 0 : v[3], not_given};
-                }}},
+                .values = [](std::span<const double> v) { return as_spring(v[1], v[3]); }}},
     .deflection = deflection_batch<Vfm>,
     .drawing = "M0 .5 H.1 M.1 .3 H.9 V.7 H.1 Z M.2 .6 C.4 .6 .4 .4 .8 .4 M.9 .5 H1",
 });

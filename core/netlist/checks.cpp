@@ -55,7 +55,7 @@ std::string values_of(const Formula& formula, const Environment& environment) {
     const Number* number = environment.find(name);
     if (!number) continue;
     const std::string unit = number->dimension.is_number() ? "" : ' ' + to_string(number->dimension);
-    list += fmt::format("{}{} = {:.6g}{}", list.empty() ? "" : ", ", name, number->value, unit);
+    list += fmt::format("{}{} = {}{}", list.empty() ? "" : ", ", name, number_text(number->value), unit);
   }
   return list;
 }
@@ -104,8 +104,8 @@ void evaluate_checks(const TomlValue& checks, const Environment& environment, Mi
     const TomlEntry* error = keys.find("error");
     keys.finish(mistakes);
     if (warn && error) {
-      mistakes.error(error->spot, "check `" + entry.key + "` has both `warn` and `error`",
-                     "only one of them can be given: a run goes on after a warning");
+      refuse_both(*warn, *error, "check `" + entry.key + "`", mistakes,
+                  "only one of them can be given: a run goes on after a warning");
       continue;
     }
     const TomlEntry* message = warn ? warn : error;

@@ -17,7 +17,8 @@ struct Spot {
 
 /// The text of every file read, kept for excerpts.
 struct Sources {
-  struct File { std::filesystem::path path; std::string text; };
+  enum class Role { scene, included, table };
+  struct File { std::filesystem::path path; std::string text; Role role = Role::scene; };
   std::vector<File> files;
   std::vector<std::string> command_line;  ///< options that messages point into, as typed: "--set k1.stiffness=3"
 };

@@ -78,6 +78,25 @@ int column_of_key(std::string_view line, std::string_view key, int column) {
                                             [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+/// The key that begins at a column, as written but for quotes around the whole of it.
+std::string key_at(std::string_view line, int column) {
+  std::string_view key = word_at(line, column);
+  key = key.substr(0, key.find('='));
+  while (!key.empty() && (key.back() == ' ' || key.back() == '\t')) key.remove_suffix(1);
+  if (key.size() > 1 && (key.front() == '"' || key.front() == '\'') && key.find(key.front(), 1) == key.size() - 1)
+    key = key.substr(1, key.size() - 2);
+  return std::string(key);
+}
+
+/// The column where the key that ends before `column` begins: after what separates it from another entry.
+int begin_of_key(std::string_view line, int column) {
+  const std::u32string characters = decode(line);
+  const auto end = std::min(static_cast<std::size_t>(column), characters.size());
+  const auto separator = std::u32string_view(characters).substr(0, end).find_last_of(U",{");
+  const auto begin = characters.find_first_not_of(U" \t", separator == std::u32string::npos ? 0 : separator + 1);
+  return static_cast<int>(begin == std::u32string::npos ? end : begin) + 1;
+}
+
 /// Where a number that the parser stumbled over begins: it says where it gave up.
 int begin_of_number(std::string_view line, int column) {
   const std::u32string characters = decode(line);
@@ -107,9 +126,15 @@ void report(const toml::parse_error& e, std::string_view text, int file, Mistake
       "close it with }: an inline table stands on one line; a long one can be a table of its own, [elements.name]";
   if (says("cannot redefine existing table '") && says("table header")) {
     mistakes.error(spot, "table `" + quoted() + "` is given twice", "put the entries of both under one header");
+  } else if (says("cannot redefine existing") && says("as dotted")) {
+    mistakes.error(spot, "`" + key_at(line, spot.column) + "` adds to a table that is given whole elsewhere",
+                   "put it with the other entries of that table");
   } else if (says("cannot redefine existing") && !quoted().empty()) {
-    spot.column = column_of_key(line, quoted(), spot.column - 1);
-    mistakes.error(spot, "key `" + quoted() + "` is given twice", "a key may stand only once in a table");
+    // Of a key in quotes the parser knows the name no more.
+    const bool named = line.find(quoted()) != line.npos;
+    spot.column = named ? column_of_key(line, quoted(), spot.column - 1) : begin_of_key(line, spot.column - 1);
+    mistakes.error(spot, "key `" + (named ? quoted() : key_at(line, spot.column)) + "` is given twice",
+                   "a key may stand only once in a table");
   } else if (says("could not determine value type")) {
     if (word.find('=') != word.npos)
       mistakes.error(spot, "expected a value, found `" + word + "`", "is a closing bracket missing before it?");

@@ -66,8 +66,8 @@ class ClaimReader {
       const TomlEntry* entry = keys.find(key);
       if (!entry) continue;
       if (figure) {
-        mistakes_.error(entry->spot, what + " has both `" + figure->key + "` and `" + key + "`",
-                        "several claims on a record stand in brackets: [{ max = ... }, { min = ... }]");
+        refuse_both(*figure, *entry, what, mistakes_,
+                    "several claims on a record stand in brackets: [{ max = ... }, { min = ... }]");
         return {};
       }
       figure = entry;
@@ -96,6 +96,7 @@ class ClaimReader {
     }
     const TomlEntry* claimed = crossing ? at : figure;
     if (claimed) read_claimed(claim, *claimed, within);
+    if (other && mistakes_.errors() == before) refuse_fraction_of_nothing(claim, *claimed, within);
     if (crossing) check_in_run(claimed, claim.least);
     if (mistakes_.errors() > before) return {};
     return claim;
@@ -157,6 +158,18 @@ class ClaimReader {
     claim.within = 0;
     if (claim.least > claim.most) mistakes_.error(entry.value.spot, name + " must name the lesser of two values first");
     if (within) mistakes_.error(within->spot, "`within` does not go with two values, which say how far it may be");
+  }
+
+  /// A ratio has no magnitude in the run to compare with but what is claimed of it.
+  void refuse_fraction_of_nothing(const Claim& claim, const TomlEntry& claimed, const TomlEntry* within) {
+    if (claimed.value.is_array() || claim.least != 0 || (within && !claim.fraction)) return;
+    const std::string two = "two values say where it may lie: " + claimed.key + " = [-1e-6, 1e-6]";
+    mistakes_.error(within ? within->value.spot : claimed.value.spot,
+                    (within ? "`within`" : "`" + claimed.key + "` without `within`") +
+                        std::string(" allows a fraction of the claimed ratio, and that is 0"),
+                    dimension_.is_number()
+                        ? two
+                        : "an absolute `within` has a unit, that of " + describe(dimension_) + "; or " + two);
   }
 
   void read_within(Claim& claim, const TomlEntry& within) {

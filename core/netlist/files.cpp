@@ -37,10 +37,10 @@ std::optional<std::string> read_text(const fs::path& file, std::string& why) {
   return text;
 }
 
-int Files::add(fs::path shown, std::string text, fs::path folder) {
+int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role role) {
   // A byte order mark is no part of the text that lines and columns count.
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  sources_.files.push_back({std::move(shown), std::move(text)});
+  sources_.files.push_back({std::move(shown), std::move(text), role});
   folders_.push_back(std::move(folder));
   return static_cast<int>(sources_.files.size()) - 1;
 }
@@ -80,14 +80,14 @@ std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistake
   return {};
 }
 
-std::optional<int> Files::read(const Found& found, Spot spot, Mistakes& mistakes) {
+std::optional<int> Files::read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes) {
   std::string why;
   auto text = read_text(found.canonical, why);
   if (!text) {
     mistakes.error(spot, "`" + found.shown.string() + "` cannot be read: " + why);
     return {};
   }
-  return add(found.shown, std::move(*text), found.shown.parent_path());
+  return add(found.shown, std::move(*text), found.shown.parent_path(), role);
 }
 
 }  // namespace rheonet

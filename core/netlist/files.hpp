@@ -19,7 +19,8 @@ class Files {
       : sources_(sources), library_(std::move(library)) {}
 
   /// Takes a file's text in; `folder` is where it stands. Its number in Sources.
-  int add(std::filesystem::path shown, std::string text, std::filesystem::path folder);
+  int add(std::filesystem::path shown, std::string text, std::filesystem::path folder,
+          Sources::Role role = Sources::Role::scene);
 
   struct Found {
     std::filesystem::path shown;      ///< what messages call it
@@ -29,7 +30,7 @@ class Files {
   std::optional<Found> find(const TomlValue& name, int from, Mistakes& mistakes) const;
 
   /// Reads a file whole and takes it in; a mistake at `spot` if that fails.
-  std::optional<int> read(const Found& found, Spot spot, Mistakes& mistakes);
+  std::optional<int> read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes);
 
   const Sources& sources() const { return sources_; }
   const std::string& text(int file) const { return sources_.files[static_cast<std::size_t>(file)].text; }

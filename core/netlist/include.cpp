@@ -51,7 +51,7 @@ class Includer {
       mistakes.error(name.spot, "files include each other more than " + std::to_string(most_levels) + " levels deep");
       return;
     }
-    const auto file = context_.files.read(*found, name.spot, mistakes);
+    const auto file = context_.files.read(*found, Sources::Role::included, name.spot, mistakes);
     if (!file) return;
     auto document = parse_toml(*file, context_.files.sources(), mistakes);
     if (!document) return;

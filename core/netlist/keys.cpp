@@ -50,6 +50,13 @@ void Keys::finish(Mistakes& mistakes) const {
       mistakes.error(missing.where, what_ + " needs `" + missing.key + "`", missing.hint);
 }
 
+void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what, Mistakes& mistakes,
+                 std::string hint) {
+  const bool in_order = comes_before(a.spot, b.spot);
+  const TomlEntry &first = in_order ? a : b, &later = in_order ? b : a;
+  mistakes.error(later.spot, what + " has both `" + first.key + "` and `" + later.key + "`", std::move(hint));
+}
+
 bool expect_table(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {
   return expect_kind(value, TomlValue::Kind::table, "a table", what, mistakes, std::move(hint));
 }

@@ -43,6 +43,10 @@ class Keys {
   std::vector<Missing> missing_;
 };
 
+/// A mistake at the later of two entries of `what` that exclude each other: "`what` has both `a` and `b`".
+void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what, Mistakes& mistakes,
+                 std::string hint = "only one of them can be given");
+
 /// Mistakes if a value is of another kind; `what` names it: "`title`".
 bool expect_table(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint = {});
 bool expect_string(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint = {});

@@ -93,10 +93,8 @@ Spot Mistakes::inside(const TomlValue& value, std::size_t offset) const {
 
 std::vector<Diagnostic> Mistakes::sorted() const {
   std::vector<Diagnostic> result = all_;
-  std::stable_sort(result.begin(), result.end(), [](const Diagnostic& a, const Diagnostic& b) {
-    const auto rank = [](const Spot& s) { return std::tuple(s.file < 0, s.file, s.line, s.column); };
-    return rank(a.spot) < rank(b.spot);
-  });
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return comes_before(a.spot, b.spot); });
   if (result.size() > most_shown) {
     const std::size_t others = result.size() - most_shown;
     result.resize(most_shown + 1);
@@ -104,6 +102,11 @@ std::vector<Diagnostic> Mistakes::sorted() const {
                      "and " + std::to_string(others) + " more mistakes, from here on", ""};
   }
   return result;
+}
+
+bool comes_before(const Spot& a, const Spot& b) {
+  const auto rank = [](const Spot& s) { return std::tuple(s.file < 0, s.file, s.line, s.column); };
+  return rank(a) < rank(b);
 }
 
 std::string list_names(const std::vector<std::string>& names, std::string_view last_word) {

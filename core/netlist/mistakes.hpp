@@ -58,6 +58,9 @@ class Mistakes {
   const std::string* path_ = nullptr;
 };
 
+/// Whether `a` comes before `b` as a reader meets them: files in order, the command line last.
+bool comes_before(const Spot& a, const Spot& b);
+
 /// "`a`, `b` or `c`": how messages list names.
 std::string list_names(const std::vector<std::string>& names, std::string_view last_word = "or");
 

@@ -28,6 +28,13 @@ std::string wanted(const Parameter& parameter, Domain domain) {
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
 
+bool prescribes_motion(const Declaration& declaration) {
+  return std::any_of(declaration.parameters.begin(), declaration.parameters.end(), [](const Parameter& p) {
+    return p.kind == Parameter::Kind::signal &&
+           (p.quantity == Quantity::position || p.quantity == Quantity::velocity);
+  });
+}
+
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -76,8 +83,8 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
   for (const char* key : {"type", "series", "parallel"}) {
     const TomlEntry* entry = source.find(key);
     if (entry && kind) {
-      mistakes.error(entry->spot, called + " has both `" + kind->key + "` and `" + entry->key + "`",
-                     "a group in a group is a member of its own: series = [ { parallel = [ ... ] }, ... ]");
+      refuse_both(*kind, *entry, called, mistakes,
+                  "a group in a group is a member of its own: series = [ { parallel = [ ... ] }, ... ]");
       return plan;
     }
     if (entry) kind = entry;
@@ -186,6 +193,10 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
                    article(type.value.text) + " stands at a node: it cannot be a member of `series` or `parallel`",
                    "give it an entry of its own in [elements], with `at`");
   read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
+  // One that would move it is refused with the conflict.
+  if (plan.at && plan.nodes == std::vector<int>{-1} && !prescribes_motion(declaration))
+    mistakes.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
+                     "name another node, or leave it out");
 
   const bool rotation = domain == Domain::rotation;
   std::vector<const TomlEntry*> given;  // of declaration.one_of
@@ -200,6 +211,9 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
     for (const std::string& other : {parameter.name, parameter.rotational_name}) {
       const TomlEntry* entry = other.empty() || other == name ? nullptr : keys.find_quietly(other);
       if (!entry) continue;
+      // An override takes the place of what a model for translation says.
+      const TomlEntry* given_now = keys.find_quietly(name);
+      if (plan.in_model && rotation && other == parameter.name && given_now && given_now->spot.file < 0) continue;
       misnamed = true;
       mistakes.error(
           entry->spot,
@@ -222,14 +236,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
       plan.values[i] = Formula(entry->value, "`" + name + "`", mistakes);
     }
   }
-  if (given.size() > 1) {
-    std::sort(given.begin(), given.end(), [](const TomlEntry* a, const TomlEntry* b) {
-      return std::pair(a->spot.line, a->spot.column) < std::pair(b->spot.line, b->spot.column);
-    });
-    mistakes.error(given[1]->spot,
-                   article(type.value.text) + " has both `" + given[0]->key + "` and `" + given[1]->key + "`",
-                   "only one of them can be given");
-  }
+  if (given.size() > 1) refuse_both(*given[0], *given[1], article(type.value.text), mistakes);
   if (!declaration.one_of.empty() && given.empty()) {
     std::vector<std::string> names;
     for (const std::string& name : declaration.one_of)
@@ -287,7 +294,7 @@ void Planner::read_place(Plan& plan, Scope* scope, std::size_t ports, bool may_b
     return;
   }
   if (at && between) {
-    mistakes.error(between->spot, "`" + plan.name + "` has both `at` and `between`", "only one of them can be given");
+    refuse_both(*at, *between, "`" + plan.name + "`", mistakes);
     return;
   }
   if (!at && !between) {

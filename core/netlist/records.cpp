@@ -131,7 +131,10 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
   for (const TomlValue& path : paths) {
     const std::size_t dot = path.text.rfind('.');
     const bool whole = dot == path.text.npos;
-    if (whole)
+    if (path.text == "time")
+      mistakes.error(path.spot, "`time` is no quantity of an element or a node: it is the first column always",
+                     "leave it out");
+    else if (whole)
       mistakes.error(path.spot, "`" + path.text + "` does not say which quantity is meant",
                      "for instance `" + path.text + ".force` of an element, `" + path.text + ".velocity` of a node");
     parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole ? nullptr : &path});
@@ -161,6 +164,9 @@ void resolve_records(const TomlEntry* record, const std::set<std::string>& doubt
   Mistakes& mistakes = context.mistakes;
   const std::string hint = "record = [\"k1.force\", \"mid.velocity\"]";
   if (!expect_array(record->value, "`record`", mistakes, hint)) return;
+  if (record->value.items.empty())
+    mistakes.warning(record->value.spot, "`record` is empty: only the time is written",
+                     "without `record` everything is, or name some: " + hint);
   std::vector<TomlValue> paths;
   std::unordered_set<std::string> seen;
   for (const TomlValue& item : record->value.items) {

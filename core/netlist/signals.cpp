@@ -108,8 +108,7 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
 
 void SignalPlan::read_points(const TomlValue& source, Context& context) {
   if (source.is_string()) {
-    file_spot_ = source.spot;
-    if (auto table = read_table_file(source, context)) file_ = std::make_shared<const TableFile>(std::move(*table));
+    file_name_ = source;
     return;
   }
   if (!source.is_array()) {
@@ -153,6 +152,38 @@ std::optional<Number> SignalPlan::times_amplitude(Number number, const Environme
   return number;
 }
 
+std::string SignalPlan::hint_for(const Formula& formula, const Environment& environment, Context& context,
+                                 std::string hint) const {
+  if (!keys_[amplitude].given()) return hint;
+  const auto own = formula.evaluate(environment, context.mistakes);
+  const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
+  if (!own || !factor || own->dimension.is_number() || factor->dimension.is_number()) return hint;
+  return "`amplitude` multiplies " + formula.name() + ": one of them has the unit, the other is a number";
+}
+
+/// An expression of the time is none that this format has, and "unknown name" would not say what there is instead.
+bool SignalPlan::is_of_time(const Environment& environment, Context& context) const {
+  const auto& names = main_.identifiers();
+  for (const char* const time : {"t", "time"}) {
+    if (!std::binary_search(names.begin(), names.end(), time) || environment.find(time)) continue;
+    context.mistakes.error(main_.source().spot,
+                           main_.name() + ": there is no parameter `" + time +
+                               "`, and no expression is one of the time",
+                           "a signal that changes is a table, { sine = \"1 " + unit_of(quantity_, context.domain) +
+                               "\", frequency = \"2 Hz\" }; there are " + list_names(shape_names(), "and"));
+    return true;
+  }
+  return false;
+}
+
+const TableFile* SignalPlan::table_file(Context& context) const {
+  if (!file_) {
+    auto table = read_table_file(*file_name_, context);
+    file_ = table ? std::make_shared<const TableFile>(std::move(*table)) : nullptr;
+  }
+  return file_->get();
+}
+
 std::optional<double> SignalPlan::scaled(const Formula& formula, const Environment& environment,
                                          Context& context) const {
   auto number = formula.evaluate(environment, context.mistakes);
@@ -165,13 +196,15 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
     const Dimension expected = dimension_of(quantity_, domain) / dimension_of(Quantity::time, domain);
     if (!number->plain && !number->dimension.same(expected)) {
       context.mistakes.error(spot, formula.name() + ": expected " + describe(expected) + ", the rise of `" + name_ +
-                                       "` per second, found " + describe(number->dimension, number->radian));
+                                       "` per second, found " + describe(number->dimension, number->radian),
+                             hint_for(formula, environment, context, ""));
       return {};
     }
   } else {
     const auto checked = as_quantity(*number, quantity_, domain);
     if (const auto* wrong = std::get_if<TextError>(&checked)) {
-      context.mistakes.error(spot, formula.name() + ": " + wrong->message, wrong->hint);
+      context.mistakes.error(spot, formula.name() + ": " + wrong->message,
+                             hint_for(formula, environment, context, wrong->hint));
       return {};
     }
     value = std::get<double>(checked);
@@ -225,6 +258,7 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
     if (!start || !level) return {};
     return make_table(environment, context, *start, *level);
   }
+  if (is_of_time(environment, context)) return {};
   const auto main = scaled(main_, environment, context);
   if (!main || !start || !level || !angle || !f || !f_end || !length || !high) return {};
   switch (shape_) {
@@ -261,20 +295,22 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
 std::optional<Signal> SignalPlan::make_table(const Environment& environment, Context& context, double start,
                                              double level) const {
   Signal::Table table{{}, {}, start, level};
-  if (file_) {
-    const auto unit = times_amplitude(file_->unit, environment, context);
+  if (file_name_) {
+    const TableFile* const file = table_file(context);
+    if (!file) return {};
+    const auto unit = times_amplitude(file->unit, environment, context);
     if (!unit) return {};
     const auto factor = as_quantity(*unit, quantity_, context.domain);
     if (const auto* wrong = std::get_if<TextError>(&factor)) {
-      context.mistakes.error(file_spot_, "`table`: " + wrong->message,
-                             file_->unit.plain ? wrong->hint : "the unit is that of the header of the file");
+      context.mistakes.error(file_name_->spot, "`table`: " + wrong->message,
+                             file->unit.plain ? wrong->hint : "the unit is that of the header of the file");
       return {};
     }
     if (!std::isfinite(std::get<double>(factor))) {
       context.mistakes.error(keys_[amplitude].source().spot, "`amplitude` must be finite, but is infinite");
       return {};
     }
-    for (const auto& [t, value] : file_->points) {
+    for (const auto& [t, value] : file->points) {
       table.times.push_back(t);
       table.values.push_back(multiplied(value, std::get<double>(factor)));
     }

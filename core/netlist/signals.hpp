@@ -39,6 +39,12 @@ class SignalPlan {
   void read_points(const TomlValue& source, Context& context);
   /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
   std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
+  /// `hint`, or what mends a unit that `formula` and the amplitude have both.
+  std::string hint_for(const Formula& formula, const Environment& environment, Context& context,
+                       std::string hint) const;
+  /// Whether the main value is an expression of the time, which is a mistake.
+  bool is_of_time(const Environment& environment, Context& context) const;
+  const TableFile* table_file(Context& context) const;
   std::optional<Number> times_amplitude(Number number, const Environment& environment, Context& context) const;
   std::optional<double> value_of(Key key, const Environment& environment, Context& context, double otherwise) const;
   std::optional<Signal> make(const Environment& environment, Context& context) const;
@@ -52,8 +58,9 @@ class SignalPlan {
   Formula main_;
   std::array<Formula, key_count> keys_;
   std::vector<Point> points_;
-  std::shared_ptr<const TableFile> file_;
-  Spot file_spot_;  ///< where it is named
+  std::optional<TomlValue> file_name_;  ///< of a CSV file with the points
+  /// What is in it, nullptr if it is mistaken. Read when it is needed: an override may take its place.
+  mutable std::optional<std::shared_ptr<const TableFile>> file_;
   mutable std::optional<Signal> made_;
 };
 

@@ -44,7 +44,7 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
     mistakes.error(events->value.spot, "`events` must be true or false, but is " + describe(events->value));
   scene.output_events = events && events->value.boolean;
   if (every && points) {
-    mistakes.error(points->spot, "`output` has both `every` and `points`", "only one of them can be given");
+    refuse_both(*every, *points, "`output`", mistakes);
     return;
   }
   const TomlEntry* given = every ? every : points;

@@ -54,81 +54,115 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-/// The unit at the end of the field of a header, "velocity [mm/s]" or "velocity (mm/s)"; plain if there is none,
-/// nothing if it is mistaken. What stands in round brackets may be another remark.
-std::optional<Number> unit_of_column(const Field& field, int file, int line, Mistakes& mistakes) {
-  const bool square = field.text.ends_with(']');
-  const auto begin = square || field.text.ends_with(')') ? field.text.rfind(square ? '[' : '(') : field.text.npos;
-  Number one{.value = 1, .dimension = {}};
-  if (begin == field.text.npos) return one;
-  const std::string_view text = trim(field.text.substr(begin + 1, field.text.size() - begin - 2));
-  const auto parsed = parse_unit(text);
-  if (const auto* unit = std::get_if<Unit>(&parsed))
-    return Number{unit->factor, unit->dimension, false, unit->radian, unit->hertz};
-  const Spot spot{file, line, field.column};
-  if (square) {
-    const TextError& wrong = std::get<TextError>(parsed);
-    mistakes.error(spot, "`" + std::string(text) + "` is no unit: " + wrong.message, wrong.hint);
-    return {};
+/// Reads the rows of a file, telling of the first mistakes in them.
+class TableReader {
+ public:
+  TableReader(int file, Context& context) : file_(file), context_(context) {}
+
+  /// Absent if there are mistakes.
+  std::optional<TableFile> read() {
+    std::string_view rest = context_.files.text(file_);
+    bool first = true;
+    for (line_ = 1; !rest.empty(); ++line_) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      const std::string_view line = rest.substr(0, end);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      if (trim(line).empty() || trim(line).front() == '#') continue;
+      row(split(line), first);
+      first = false;
+    }
+    if (mistakes_ > most_told)
+      context_.mistakes.error({file_, first_untold_, 1},
+                              "and " + std::to_string(mistakes_ - most_told) + " more mistakes in this table");
+    if (mistakes_ > 0) return {};
+    return std::move(table_);
   }
-  mistakes.warning(spot, "`" + std::string(text) + "` is no unit: this column is taken in SI");
-  return one;
-}
+
+ private:
+  static constexpr int most_told = 10;  // a file of another kind has as many as it has rows
+
+  void refuse(int column, std::string message, std::string hint = {}) {
+    if (++mistakes_ <= most_told)
+      context_.mistakes.error({file_, line_, column}, std::move(message), std::move(hint));
+    else if (mistakes_ == most_told + 1)
+      first_untold_ = line_;
+  }
+
+  void row(const std::vector<Field>& fields, bool may_be_header) {
+    if (fields.size() != 2) {
+      refuse(1, "a table of a signal has two columns, time and value; this row has " + std::to_string(fields.size()));
+      return;
+    }
+    const auto time = number(fields[0].text);
+    const auto value = number(fields[1].text);
+    if (may_be_header && !time && !value) {
+      header(fields);
+      return;
+    }
+    bool good = true;
+    for (const auto& [parsed, field] : {std::pair(time, fields[0]), std::pair(value, fields[1])}) {
+      if (parsed && std::isfinite(*parsed)) continue;
+      refuse(field.column, "expected a finite number, found `" + std::string(field.text) + "`");
+      good = false;
+    }
+    if (!good) return;
+    auto& points = table_.points;
+    if (!points.empty() && multiplied(*time, second_) < points.back().first)
+      refuse(fields[0].column, "the times of a table must not decrease");
+    else
+      points.emplace_back(multiplied(*time, second_), *value);
+  }
+
+  void header(const std::vector<Field>& fields) {
+    const auto time_unit = unit_of_column(fields[0]);
+    const auto value_unit = unit_of_column(fields[1]);
+    if (!time_unit || !value_unit) return;
+    const auto seconds = as_quantity(*time_unit, Quantity::time, context_.domain);
+    if (const auto* wrong = std::get_if<TextError>(&seconds))
+      refuse(fields[0].column, "the unit of the times: " + wrong->message);
+    else
+      second_ = std::get<double>(seconds);
+    table_.unit = *value_unit;
+  }
+
+  /// The unit at the end of the field of a header, "velocity [mm/s]" or "velocity (mm/s)"; plain if there is none,
+  /// nothing if it is mistaken. What stands in round brackets may be another remark.
+  std::optional<Number> unit_of_column(const Field& field) {
+    const bool square = field.text.ends_with(']');
+    const auto begin = square || field.text.ends_with(')') ? field.text.rfind(square ? '[' : '(') : field.text.npos;
+    Number one{.value = 1, .dimension = {}};
+    if (begin == field.text.npos) return one;
+    const std::string_view text = trim(field.text.substr(begin + 1, field.text.size() - begin - 2));
+    const auto parsed = parse_unit(text);
+    if (const auto* unit = std::get_if<Unit>(&parsed))
+      return Number{unit->factor, unit->dimension, false, unit->radian, unit->hertz};
+    if (square) {
+      const TextError& wrong = std::get<TextError>(parsed);
+      refuse(field.column, "`" + std::string(text) + "` is no unit: " + wrong.message, wrong.hint);
+      return {};
+    }
+    context_.mistakes.warning({file_, line_, field.column}, "`" + std::string(text) + "` is no unit: this column is taken in SI");
+    return one;
+  }
+
+  int file_;
+  Context& context_;
+  TableFile table_{{}, {.value = 1, .dimension = {}}};
+  double second_ = 1;  ///< the unit of the times, in s
+  int line_ = 0;
+  int mistakes_ = 0;
+  int first_untold_ = 0;  ///< line
+};
 
 }  // namespace
 
 std::optional<TableFile> read_table_file(const TomlValue& name, Context& context) {
   const auto found = context.files.find(name, name.spot.file, context.mistakes);
   if (!found) return {};
-  const auto file = context.files.read(*found, name.spot, context.mistakes);
+  const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.mistakes);
   if (!file) return {};
-  TableFile table{{}, {.value = 1, .dimension = {}}};
-  auto& points = table.points;
-  double second = 1;  // the unit of the times, in s
-  std::string_view rest = context.files.text(*file);
-  bool first = true;
-  for (int line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (trim(line).empty() || trim(line).front() == '#') continue;
-    const auto fields = split(line);
-    const bool may_be_header = first;
-    first = false;
-    if (fields.size() != 2) {
-      context.mistakes.error(
-          {*file, line_number, 1},
-          "a table of a signal has two columns, time and value; this row has " + std::to_string(fields.size()));
-      return {};
-    }
-    const auto time = number(fields[0].text);
-    const auto value = number(fields[1].text);
-    if (may_be_header && !time && !value) {
-      const auto time_unit = unit_of_column(fields[0], *file, line_number, context.mistakes);
-      const auto value_unit = unit_of_column(fields[1], *file, line_number, context.mistakes);
-      if (!time_unit || !value_unit) return {};
-      const auto seconds = as_quantity(*time_unit, Quantity::time, context.domain);
-      if (const auto* wrong = std::get_if<TextError>(&seconds)) {
-        context.mistakes.error({*file, line_number, fields[0].column}, "the unit of the times: " + wrong->message);
-        return {};
-      }
-      second = std::get<double>(seconds);
-      table.unit = *value_unit;
-      continue;
-    }
-    for (const auto& [parsed, field] : {std::pair(time, fields[0]), std::pair(value, fields[1])}) {
-      if (parsed && std::isfinite(*parsed)) continue;
-      context.mistakes.error({*file, line_number, field.column},
-                             "expected a finite number, found `" + std::string(field.text) + "`");
-      return {};
-    }
-    if (!points.empty() && multiplied(*time, second) < points.back().first) {
-      context.mistakes.error({*file, line_number, fields[0].column}, "the times of a table must not decrease");
-      return {};
-    }
-    points.emplace_back(multiplied(*time, second), *value);
-  }
-  if (points.empty()) {
+  auto table = TableReader(*file, context).read();
+  if (table && table->points.empty()) {
     context.mistakes.error(name.spot, "the table `" + name.text + "` has no rows");
     return {};
   }

@@ -17,8 +17,8 @@ struct TableFile {
 
 /// Reads the points (time, value) of a signal from a CSV file: two columns of numbers, in quotes or not, split by commas,
 /// semicolons, tabs or spaces; the first row may be a header, whose fields may end with a unit in brackets ("t [ms]");
-/// empty lines and lines that begin with `#` are left out. `name` is the string that names the file. Mistakes are reported
-/// with the line of the CSV file.
+/// empty lines and lines that begin with `#` are left out. `name` is the string that names the file. The first ten
+/// mistakes are reported with their lines in the CSV file, of others how many there are.
 std::optional<TableFile> read_table_file(const TomlValue& name, Context& context);
 
 }  // namespace rheonet

@@ -19,27 +19,20 @@ constexpr std::array<double, 4> weights{1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
 
 using Samples = std::array<double, 4>;
 
-/// The extremes of the cubic through values at the nodes.
-std::pair<double, double> range_of(const Samples& f) {
+/// Where the cubic through values at the nodes turns, in (-1, 1), in order.
+std::vector<double> turning_points(const Samples& f) {
   // In powers of x: odd and even parts apart.
   const double even = (f[0] + f[3]) / 2, odd = (f[3] - f[0]) / 2;
   const double inner_even = (f[1] + f[2]) / 2, inner_odd = (f[2] - f[1]) / (2 * inner);
-  const double c2 = (even - inner_even) / (1 - inner * inner), c0 = even - c2;
+  const double c2 = (even - inner_even) / (1 - inner * inner);
   const double c3 = (odd - inner_odd) / (1 - inner * inner), c1 = odd - c3;
-  auto [low, high] = std::minmax({f[0], f[1], f[2], f[3]});
-  const auto look = [&, &low = low, &high = high](double x) {
-    if (!(std::abs(x) < 1)) return;
-    const double value = c0 + x * (c1 + x * (c2 + x * c3));
-    low = std::min(low, value);
-    high = std::max(high, value);
-  };
   const double half = c2, root = half * half - 3 * c3 * c1;  // of 3 c3 x^2 + 2 c2 x + c1
-  if (root >= 0) {
-    const double q = -(half + std::copysign(std::sqrt(root), half));
-    look(q / (3 * c3));
-    look(c1 / q);
-  }
-  return {low, high};
+  if (root < 0) return {};
+  const double q = -(half + std::copysign(std::sqrt(root), half));
+  std::vector<double> points{q / (3 * c3), c1 / q};
+  std::erase_if(points, [](double x) { return !(std::abs(x) < 1); });
+  std::sort(points.begin(), points.end());
+  return points;
 }
 
 double side_of(double value, double level) { return value > level ? 1 : value < level ? -1 : 0; }
@@ -49,6 +42,7 @@ double side_of(double value, double level) { return value > level ? 1 : value < 
 Claims::Claims(const Scene& scene)
     : largest_(scene.claimed.size(), 0),
       interval_(scene.output_every),
+      slack_(1e-9 * interval_),
       start_(scene.start),
       length_(scene.stop - scene.start),
       accuracy_(scene.accuracy) {
@@ -57,32 +51,25 @@ Claims::Claims(const Scene& scene)
       *time -= scene.start;
       if (!std::isnan(*time)) cuts_.push_back(*time);
     }
-    claims_.push_back({claim, {}, {}, 0, not_given});
+    claims_.push_back({.claim = claim, .of = {}, .per = {}});
   }
   std::sort(cuts_.begin(), cuts_.end());
   cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
 }
 
 void Claims::begin(double t, const std::vector<double>& values) {
-  const double slack = 1e-9 * interval_;  // as of rows: an event this close to a time is at it
   for (std::size_t k = 0; k < values.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(values[k]));
   for (State& state : claims_) {
     const Claim& claim = state.claim;
     const auto note = [&](Course& course, double value) {
       course.last = value;
-      if (std::abs(t - claim.time) <= slack) course.at = value;
-      if (t < claim.from - slack || t > claim.to + slack) return;
-      course.largest = std::fmax(course.largest, value);
-      course.smallest = std::fmin(course.smallest, value);
+      if (std::abs(t - claim.time) <= slack_) course.at = value;
+      if (t < claim.from - slack_ || t > claim.to + slack_) return;
+      state.looked = t;  // a jump takes no time
+      look(state, course, {t, value}, {});
     };
-    const double value = values[at(claim.record)];
-    note(state.of, value);
+    note(state.of, values[at(claim.record)]);
     if (claim.per >= 0) note(state.per, values[at(claim.per)]);
-    if (claim.figure != Figure::crossing || t < claim.from - slack || t > claim.to + slack) continue;
-    // A jump over the level crosses it in no time.
-    const double side = side_of(value, claim.level);
-    if (state.side * side < 0 && std::isnan(state.crossed)) state.crossed = t;
-    if (side != 0) state.side = side;
   }
   values_ = values;
 }
@@ -105,9 +92,10 @@ void Claims::step(double from, double to, const Read& read) {
 
 void Claims::piece(double from, double to, const Read& read) {
   const double middle = (from + to) / 2, half = (to - from) / 2;
+  const std::array<double, 4> times{from, middle + nodes[1] * half, middle + nodes[2] * half, to};
   std::array<std::vector<double>, 4> rows;
   rows[0] = values_;
-  for (std::size_t i = 1; i < nodes.size(); ++i) rows[i] = read(i + 1 < nodes.size() ? middle + nodes[i] * half : to);
+  for (std::size_t i = 1; i < nodes.size(); ++i) rows[i] = read(times[i]);
   values_ = rows.back();
   for (const auto& row : rows)
     for (std::size_t k = 0; k < row.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(row[k]));
@@ -116,50 +104,52 @@ void Claims::piece(double from, double to, const Read& read) {
     const auto follow = [&](Course& course, int record) {
       const Samples f{rows[0][at(record)], rows[1][at(record)], rows[2][at(record)], rows[3][at(record)]};
       course.last = f.back();
-      if (to == claim.time) course.at = f.back();
+      if (to == claim.time || (to < claim.time && claim.time - to <= slack_)) course.at = f.back();
       if (middle < claim.from || middle > claim.to) return;
-      const auto [low, high] = range_of(f);
-      course.largest = std::fmax(course.largest, high);
-      course.smallest = std::fmin(course.smallest, low);
       for (std::size_t i = 0; i < f.size(); ++i) {
         course.integral += weights[i] * f[i] * (to - from);
         course.squares += weights[i] * f[i] * f[i] * (to - from);
       }
       course.length += to - from;
+      if (claim.figure != Figure::max && claim.figure != Figure::min && claim.figure != Figure::crossing) return;
+      std::vector<Point> points;
+      for (std::size_t i = 0; i < f.size(); ++i) points.push_back({times[i], f[i]});
+      for (const double x : turning_points(f)) {
+        const double t = middle + x * half;
+        points.push_back({t, read(t)[at(record)]});
+      }
+      std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.t < b.t; });
+      for (const Point& point : points) look(state, course, point, read);
     };
     follow(state.of, claim.record);
     if (claim.per >= 0) follow(state.per, claim.per);
-    if (claim.figure != Figure::crossing || middle < claim.from || middle > claim.to) continue;
-    double t = from;
-    cross(state, t, t, rows[0][at(claim.record)], read);
-    for (std::size_t i = 1; i < nodes.size(); ++i) {
-      const double next = i + 1 < nodes.size() ? middle + nodes[i] * half : to;
-      cross(state, t, next, rows[i][at(claim.record)], read);
-      t = next;
-    }
   }
 }
 
-void Claims::cross(State& state, double from, double to, double value, const Read& read) {
+void Claims::look(State& state, Course& course, const Point& point, const Read& read) {
   const Claim& claim = state.claim;
-  const double side = side_of(value, claim.level);
-  if (state.side != 0 && side != state.side && std::isnan(state.crossed)) {
+  course.largest = std::fmax(course.largest, point.value);
+  course.smallest = std::fmin(course.smallest, point.value);
+  if (claim.figure != Figure::crossing || !std::isnan(state.crossed)) return;
+  const double side = side_of(point.value, claim.level);
+  if (state.side != 0 && side != state.side) {
     // Bisection: as many halvings as a double has bits.
-    double low = from, high = to;
+    double low = state.looked, high = point.t;
     for (int i = 0; i < 53 && low < high; ++i) {
       const double t = low + (high - low) / 2;
-      const bool beyond = side_of(read(t)[at(claim.record)], claim.level) != state.side;
-      (beyond ? high : low) = t;
+      const bool reached = side_of(read(t)[at(claim.record)], claim.level) != state.side;
+      (reached ? high : low) = t;
     }
     state.crossed = high;
   }
   if (side != 0) state.side = side;
+  state.looked = point.t;
 }
 
 double Claims::figure(const State& state, const Course& course) const {
   switch (state.claim.figure) {
     case Figure::at:
-      return std::isnan(course.at) ? course.last : course.at;  // the end, put beyond itself by rounding
+      return course.at;
     case Figure::final:
       return course.last;
     case Figure::max:

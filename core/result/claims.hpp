@@ -15,7 +15,8 @@ struct Finding {
 };
 
 /// Follows the records that a scene's claims are about through a run. Each step is looked at in pieces no longer than
-/// an output interval: by the 4-point Lobatto rule for means, by the cubic through its points for extrema.
+/// an output interval: at the 4 points of Lobatto's rule, which gives means, and where the cubic through them turns.
+/// These are where extremes are, and between two of them a record goes one way: it reaches no level unseen.
 class Claims {
  public:
   /// The claimed records at a time of the last step, counted from the start of the run.
@@ -40,19 +41,26 @@ class Claims {
   struct State {
     Claim claim;      ///< its times count from the start of the run
     Course of, per;   ///< per: of the record that it is divided by
-    double side = 0;  ///< of the level, that the record was on last: 1, -1; 0 not known yet
+    double side = 0;            ///< of the level, that the record was on last: 1, -1; 0 not known yet
+    double looked = not_given;  ///< when it was on that side
     double crossed = not_given;
   };
 
+  struct Point {
+    double t, value;
+  };
+
   void piece(double from, double to, const Read& read);
-  void cross(State& state, double from, double to, double value, const Read& read);
+  void look(State& state, Course& course, const Point& point, const Read& read);
   double figure(const State& state, const Course& course) const;
 
   std::vector<State> claims_;
   std::vector<double> cuts_;     ///< times at which pieces end: those that claims name
   std::vector<double> largest_;  ///< magnitude in the run of each claimed record
   std::vector<double> values_;   ///< at the end of what has been looked at
-  double interval_, start_, length_, accuracy_;
+  double interval_;
+  double slack_;  ///< an event this close to a time is at it, as of rows
+  double start_, length_, accuracy_;
 };
 
 }  // namespace rheonet

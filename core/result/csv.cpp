@@ -5,8 +5,6 @@
 #include <cstring>
 #include <iterator>
 
-#include "core/network/error.hpp"
-
 namespace rheonet {
 
 namespace {
@@ -59,7 +57,7 @@ void CsvWriter::flush() {
   if (!written) {
     const int reason = errno;
     file_ = nullptr;  // what follows would only fail again
-    throw SimulationError(fmt::format("{} cannot be written: {}", what_, std::strerror(reason)));
+    throw WriteError(fmt::format("{} cannot be written: {}", what_, std::strerror(reason)));
   }
 }
 

@@ -6,10 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "core/network/error.hpp"
+
 namespace rheonet {
 
+/// The file of a CsvWriter cannot be written.
+struct WriteError : SimulationError {
+  using SimulationError::SimulationError;
+};
+
 /// Writes rows, their numbers so that they read back as the same doubles. A row that comes more than a quarter of a second
-/// after the last writing is written at once with those before it; the last ones with `flush`, which the caller owes. Throws SimulationError if the file cannot be written (disk full, pipe closed).
+/// after the last writing is written at once with those before it; the last ones with `flush`, which the caller owes. Throws WriteError if that fails (disk full, pipe closed).
 class CsvWriter {
  public:
   /// `what` is written, for messages: "the results". Without a file nothing is.

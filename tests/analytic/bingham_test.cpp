@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/analytic/slider_checks.hpp"
+#include "tests/support/contract_scene.hpp"
 
 using namespace rheonet::test;
 
@@ -197,23 +198,7 @@ TEST_CASE("Bingham's body as the netlist format prints it, in rotation") {
     return t < yield ? stiffness * v * t : Tc + damping * v * (1 - std::exp((yield - t) / tau));
   };
   const auto flow = [=](double t) { return t < yield ? 0 : (torque(t) - Tc) / damping; };
-  check_at_all_accuracies(R"toml(
-title  = "Bingham element: spring in series with (dashpot parallel to slider)"
-domain = "rotation"
-[parameters]
-B  = "0.5 N*m*s/rad"
-Tc = "2 N*m"
-[elements]
-drive   = { type = "motion", at = "drum", velocity = { step = "10 rad/s", time = "0 s" } }
-k1      = { type = "spring",  between = ["drum", "mid"],    stiffness = "100 N*m/rad" }
-c1      = { type = "dashpot", between = ["mid", "ground"],  damping = "B" }
-s1      = { type = "slider",  between = ["mid", "ground"],  coulomb = "Tc" }
-[simulate]
-stop     = "0.2 s"
-output   = { every = "1 ms" }
-record   = ["k1.force", "mid.velocity"]
-)toml",
-                          {{"k1.force", torque}, {"mid.velocity", flow}});
+  check_at_all_accuracies(contract_scene, {{"k1.force", torque}, {"mid.velocity", flow}});
 }
 
 TEST_CASE("Bingham's body in three forms is the same, to and fro") {

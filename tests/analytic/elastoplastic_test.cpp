@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/analytic/sliding_motion.hpp"
 #include "tests/support/check.hpp"
 #include "tests/support/response.hpp"
 
@@ -17,28 +18,14 @@ namespace {
 constexpr double m = 0.2533, sigma = 10, Fc = 7.5, push = 10, pulse = 0.6, stop = 1.193;
 const double c = 2 * 0.05 * std::sqrt(sigma * m);
 
+constexpr double looks = 2000;  // places in a stretch where its end is looked for
+
 /// One stretch without a change of the law or of the push.
 struct Phase {
   double start;
   Response position;
   Response friction;
 };
-
-/// The first time in (0, longest] at which g changes its sign from minus to plus, to rounding.
-template <class Function>
-double first_crossing(Function g, double longest) {
-  const int samples = 2000;
-  for (int n = 1; n <= samples; ++n) {
-    double low = longest * (n - 1) / samples, high = longest * n / samples;
-    if (!(g(low) < 0 && g(high) >= 0)) continue;
-    for (int bisection = 0; bisection < 80; ++bisection) {
-      const double middle = (low + high) / 2;
-      (g(middle) < 0 ? low : high) = middle;
-    }
-    return high;
-  }
-  return longest;
-}
 
 std::vector<Phase> phases() {
   std::vector<Phase> result;
@@ -57,13 +44,13 @@ std::vector<Phase> phases() {
       position = ((force + Response::constant(sigma * x - f)) / sigma)
                      .second_order(omega0 * (zeta + root), omega0 * (zeta - root), x, v);
       friction = Response::constant(f - sigma * x) + sigma * position;
-      duration = first_crossing([&](double s) { return std::abs(friction(s)) - Fc; }, end - t);
+      duration = first_crossing([&](double s) { return std::abs(friction(s)) - Fc; }, end - t, (end - t) / looks);
     } else {
       // m v' + c v = F - Fc s
       const Response velocity = ((force - Response::constant(Fc * yielding)) / c).lag(m / c, v);
       position = velocity.integral(x);
       friction = Response::constant(Fc * yielding);
-      duration = first_crossing([&](double s) { return -yielding * velocity(s); }, end - t);
+      duration = first_crossing([&](double s) { return -yielding * velocity(s); }, end - t, (end - t) / looks);
     }
     result.push_back({t, position, friction});
     const bool switched = t + duration < end;

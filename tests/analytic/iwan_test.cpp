@@ -11,11 +11,13 @@
 
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/support/iwan_oscillator.hpp"
+#include "tests/support/scene_file.hpp"
 
 using namespace rheonet::test;
 
 namespace {
 
+// Of tools/bench/iwan.toml.
 constexpr double mass = 1, force = 8, frequency = 1, K = 400, FC = 10, stop = 3;
 
 std::vector<IwanOscillator::Pair> pairs(int n) {
@@ -24,34 +26,17 @@ std::vector<IwanOscillator::Pair> pairs(int n) {
   return result;
 }
 
-/// The springs have equal stiffness and the sliders forces in equal steps.
-std::string bundle(int n, const std::string& more = "", int points = 31) {
-  return fmt::format(R"(
-[parameters]
-K = "{:.17g} N/m"
-FC = "{:.17g} N"
-[elements]
-m = {{ type = "mass", at = "x", mass = {:.17g} }}
-f = {{ type = "force", at = "x", force = {{ sine = {:.17g}, frequency = {:.17g} }} }}
-[elements.iwan]
-between = ["x", "ground"]
-repeat = {{ count = {}, as = "i", arrange = "parallel" }}
-series = [
-  {{ name = "k", type = "spring", stiffness = "K/n" }},
-  {{ name = "s", type = "slider", coulomb = "2*FC*(i + 0.5)/n^2" }},
-]
-[simulate]
-stop = {:.17g}
-output = {{ points = {} }}
-{}
-)",
-                     K, FC, mass, force, frequency, n, stop, points, more);
+/// The bundle that the benchmark is about, with another number of pairs.
+SceneFile run_bundle(int n, double accuracy, std::vector<std::string> overrides = {}) {
+  overrides.push_back(fmt::format("iwan.repeat.count={}", n));
+  overrides.push_back(fmt::format("simulate.accuracy={}", accuracy));
+  return run_file("../tools/bench/iwan.toml", overrides);
 }
 
 void check_position(int n, double accuracy) {
   CAPTURE(n);
   CAPTURE(accuracy);
-  const Outcome run = outcome(bundle(n, R"(record = ["x.position", "x.velocity"])"), accuracy);
+  const SceneFile run = run_bundle(n, accuracy, {R"(simulate.record=["x.position", "x.velocity"])"});
   IwanOscillator exact(mass, force, frequency, pairs(n));
   std::vector<double> x, v;
   for (double t : run.rows.time()) {
@@ -115,7 +100,7 @@ TEST_CASE("Iwan bundle: each spring and slider is recorded as if it were alone")
     for (const double accuracy : accuracies) {
       CAPTURE(n);
       CAPTURE(accuracy);
-      const Outcome run = outcome(bundle(n, "", 61), accuracy);
+      const SceneFile run = run_bundle(n, accuracy, {"simulate.output.points=61"});
       IwanOscillator exact(mass, force, frequency, pairs(n));
       const auto k = std::size_t(n / 3);
       const std::string name = fmt::format("iwan.{}", k);
@@ -153,7 +138,7 @@ TEST_CASE("Iwan bundle: every yield is told of at its time, though few are event
   for (const int n : {5, 60}) {
     CAPTURE(n);
     constexpr double accuracy = 1e-9, longest = 0.05;
-    const std::vector<Told> told = events_of(scene_of(bundle(n), accuracy));
+    const std::vector<Told> told = events_of(run_bundle(n, accuracy).scene);
     IwanOscillator exact(mass, force, frequency, pairs(n));
     exact.advance(stop);
     REQUIRE_EQ(told.size(), exact.history().size());
@@ -182,11 +167,8 @@ TEST_CASE("Iwan bundle: every yield is told of at its time, though few are event
 
 TEST_CASE("Iwan bundle: with rows at every event each yield has its own") {
   constexpr int n = 50;
-  const std::string rows = R"(record = ["x.position"])";
-  std::string toml = bundle(n, rows);
-  const std::string points = "output = { points = 31 }";
-  toml.replace(toml.find(points), points.size(), "output = { points = 31, events = true }");
-  const Outcome run = outcome(toml, 1e-6);
+  const SceneFile run =
+      run_bundle(n, 1e-6, {"simulate.output.events=true", R"(simulate.record=["x.position"])"});
   IwanOscillator exact(mass, force, frequency, pairs(n));
   exact.advance(stop);
   std::vector<double> instants;

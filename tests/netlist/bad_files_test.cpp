@@ -225,6 +225,31 @@ DIR/scenes/infinite.csv:1:3: error: expected a finite number, found `inf`
     1 | 0 inf
       |   ^
 )~");
+  std::string words = "t,v\n0,0,0\n1,a\n", told;
+  for (int row = 2; row < 14; ++row) words += std::to_string(row) + ",b" + std::to_string(row) + "\n";
+  folder.write("scenes/words.csv", words + "20,3\n");
+  const std::string all = messages_in(folder, with_table("words.csv"));
+  CHECK(all.starts_with(R"~(
+DIR/scenes/words.csv:2:1: error: a table of a signal has two columns, time and value; this row has 3
+    2 | 0,0,0
+      | ^
+DIR/scenes/words.csv:3:3: error: expected a finite number, found `a`
+    3 | 1,a
+      |   ^
+DIR/scenes/words.csv:4:3: error: expected a finite number, found `b2`
+)~"));
+  CHECK(all.ends_with(R"~(
+DIR/scenes/words.csv:11:3: error: expected a finite number, found `b9`
+   11 | 9,b9
+      |   ^
+DIR/scenes/words.csv:12:1: error: and 4 more mistakes in this table
+   12 | 10,b10
+      | ^
+)~"));
+  const std::string many = "[elements]\nm = { type = \"force\", at = \"a\", force = { table = \"three.csv\" }, "
+                           "repeat = { count = 3 } }\n";
+  CHECK(messages(read(many, {}, folder.path() / "scenes")).find("three.csv:1:1") != std::string::npos);
+  CHECK(read(many, {}, folder.path() / "scenes").diagnostics.size() == 1);
   folder.write("scenes/unit.csv", "t [ms],v [mm/sek]\n0,0\n");
   CHECK(messages_in(folder, with_table("unit.csv")) == R"~(
 DIR/scenes/unit.csv:1:8: error: `mm/sek` is no unit: unknown unit `sek`

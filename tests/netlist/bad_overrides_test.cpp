@@ -217,6 +217,23 @@ command line: error: no element names a node `b`
   nodes exist by being named in an element
 )~",
        {R"~(nodes.b.position=7)~"}},
+      {"one of two keys that exclude each other, the other in the file",
+       R"~(
+[elements]
+drive = { type = "motion", at = "a", position = 1 }
+push = { type = "force", between = ["a", "b"], force = 1 }
+)~",
+       R"~(
+command line: error: a `motion` has both `position` and `velocity`
+      | --set drive.velocity=3
+      |             ^
+  only one of them can be given
+command line: error: `push` has both `between` and `at`
+      | --set push.at=a
+      |            ^
+  only one of them can be given
+)~",
+       {"drive.velocity=3", "push.at=a"}},
   });
 }
 

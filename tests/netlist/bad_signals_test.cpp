@@ -59,6 +59,7 @@ scene.toml:7:54: error: `ramp`: expected an acceleration (m/s^2), the rise of `v
 scene.toml:8:54: error: `sine`: expected a velocity (m/s), found a kinematic viscosity (m^2/s)
     8 | g = { type = "motion", at = "g", velocity = { sine = "1 m", amplitude = "1 m/s", frequency = 1 } }
       |                                                      ^
+  `amplitude` multiplies `sine`: one of them has the unit, the other is a number
 scene.toml:9:69: error: `frequency`: expected a frequency (Hz), found a time (s)
     9 | h = { type = "motion", at = "h", velocity = { sine = 1, frequency = "3 s" } }
       |                                                                     ^
@@ -118,6 +119,47 @@ scene.toml:25:77: error: a `pulse` without `frequency` has no `phase`
    25 | x = { type = "motion", at = "x", velocity = { pulse = 1, width = 2, phase = "90 deg" } }
       |                                                                             ^
   `time` says when it begins
+)~"},
+      {"expressions of the time",
+       R"~(
+[elements]
+a = { type = "motion", at = "a", velocity = "2*sin(3*t)" }
+b = { type = "force", at = "b", force = { step = "time" } }
+)~",
+       R"~(
+scene.toml:2:45: error: `velocity`: there is no parameter `t`, and no expression is one of the time
+    2 | a = { type = "motion", at = "a", velocity = "2*sin(3*t)" }
+      |                                             ^
+  a signal that changes is a table, { sine = "1 m/s", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` and `table`
+scene.toml:3:50: error: `step`: there is no parameter `time`, and no expression is one of the time
+    3 | b = { type = "force", at = "b", force = { step = "time" } }
+      |                                                  ^
+  a signal that changes is a table, { sine = "1 N", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` and `table`
+)~"},
+      {"a unit in the amplitude and in what it multiplies, or in one of them and wrong",
+       R"~(
+[elements]
+a = { type = "motion", at = "a", velocity = { sine = "1 m/s", amplitude = "2 m/s", frequency = 1 } }
+b = { type = "motion", at = "b", velocity = { ramp = "1 m/s^2", amplitude = "2 m/s" } }
+c = { type = "motion", at = "c", velocity = { table = [[0, "1 m/s"]], amplitude = "2 m/s" } }
+d = { type = "motion", at = "d", velocity = { sine = "1 m", amplitude = 2, frequency = 1 } }
+)~",
+       R"~(
+scene.toml:2:54: error: `sine`: expected a velocity (m/s), found a quantity in m^2*s^-2
+    2 | a = { type = "motion", at = "a", velocity = { sine = "1 m/s", amplitude = "2 m/s", frequency = 1 } }
+      |                                                      ^
+  `amplitude` multiplies `sine`: one of them has the unit, the other is a number
+scene.toml:3:54: error: `ramp`: expected an acceleration (m/s^2), the rise of `velocity` per second, found a quantity in m^2*s^-3
+    3 | b = { type = "motion", at = "b", velocity = { ramp = "1 m/s^2", amplitude = "2 m/s" } }
+      |                                                      ^
+  `amplitude` multiplies `ramp`: one of them has the unit, the other is a number
+scene.toml:4:60: error: the value of a point: expected a velocity (m/s), found a quantity in m^2*s^-2
+    4 | c = { type = "motion", at = "c", velocity = { table = [[0, "1 m/s"]], amplitude = "2 m/s" } }
+      |                                                            ^
+  `amplitude` multiplies the value of a point: one of them has the unit, the other is a number
+scene.toml:5:54: error: `sine`: expected a velocity (m/s), found a length (m)
+    5 | d = { type = "motion", at = "d", velocity = { sine = "1 m", amplitude = 2, frequency = 1 } }
+      |                                                      ^
 )~"},
   });
 }

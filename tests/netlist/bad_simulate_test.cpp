@@ -334,6 +334,20 @@ scene.toml:4:8: error: node `drum` must be a table, but is the number 3
       |        ^
   drum = { position = "1 m" }
 )~"},
+      {"the time as a record",
+       R"~(
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+[simulate]
+stop = 1
+record = ["time"]
+)~",
+       R"~(
+scene.toml:5:11: error: `time` is no quantity of an element or a node: it is the first column always
+    5 | record = ["time"]
+      |           ^
+  leave it out
+)~"},
   });
 }
 

@@ -180,6 +180,30 @@ scene.toml:2:8: error: not valid TOML: decimal integer: leading zeroes are prohi
     2 | stop = 01
       |        ^
 )~"},
+      {"a table in braces, and a dotted key that adds to it",
+       R"~(
+[elements]
+"k1" = { type = "spring", between = ["a", "ground"] }
+k1.stiffness = 3
+)~",
+       R"~(
+scene.toml:3:1: error: `k1.stiffness` adds to a table that is given whole elsewhere
+    3 | k1.stiffness = 3
+      | ^
+  put it with the other entries of that table
+)~"},
+      {"a key in quotes after a dotted one of the same name",
+       R"~(
+[elements]
+k1.stiffness = 3
+"k1" = { type = "spring", between = ["a", "ground"] }
+)~",
+       R"~(
+scene.toml:3:1: error: key `k1` is given twice
+    3 | "k1" = { type = "spring", between = ["a", "ground"] }
+      | ^
+  a key may stand only once in a table
+)~"},
   });
 }
 

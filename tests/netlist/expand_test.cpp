@@ -4,30 +4,12 @@
 
 #include "tests/netlist/reading.hpp"
 #include "tests/netlist/summary.hpp"
+#include "tests/support/contract_scene.hpp"
 
 namespace rheonet::test {
 
 TEST_CASE("the scene of the contract") {
-  const Scene scene = scene_of(R"~(
-title  = "Bingham element: spring in series with (dashpot parallel to slider)"
-domain = "rotation"
-
-[parameters]
-B  = "0.5 N*m*s/rad"
-Tc = "2 N*m"
-
-[elements]
-drive   = { type = "motion", at = "drum", velocity = { step = "10 rad/s", time = "0 s" } }
-k1      = { type = "spring",  between = ["drum", "mid"],    stiffness = "100 N*m/rad" }
-c1      = { type = "dashpot", between = ["mid", "ground"],  damping = "B" }
-s1      = { type = "slider",  between = ["mid", "ground"],  coulomb = "Tc" }
-
-[simulate]
-stop     = "0.2 s"
-accuracy = 1e-6
-output   = { every = "1 ms" }
-record   = ["k1.force", "mid.velocity"]
-)~");
+  const Scene scene = scene_of(contract_scene);
   CHECK(scene.title == "Bingham element: spring in series with (dashpot parallel to slider)");
   CHECK(scene.domain == Domain::rotation);
   CHECK(nodes_of(scene) == "drum mid");
@@ -78,6 +60,26 @@ t = { type = "torque", at = "a", torque = "5 N*m" }
 f = { type = "force", at = "a", torque = "2 in*lbf" }
 )~");
   CHECK(elements_of(rotation) == "m: mass a 3e-07\ni: mass a 3\nt: force a ~5\nf: force a ~0.225969658\n");
+}
+
+TEST_CASE("elements: what is at ground has no effect, and is told of") {
+  const ReadResult result = read(R"~(
+[elements]
+m1 = { type = "mass", at = "ground", mass = 1 }
+f1 = { type = "force", at = "ground", force = 1 }
+f2 = { type = "force", between = ["ground", "a"], force = 1 }
+m2 = { type = "mass", at = "a", mass = 1 }
+)~");
+  REQUIRE(result.scene);
+  CHECK(messages(result) == R"~(scene.toml:2:1: warning: `m1` is at `ground`, which never moves: it has no effect there
+    2 | m1 = { type = "mass", at = "ground", mass = 1 }
+      | ^
+  name another node, or leave it out
+scene.toml:3:1: warning: `f1` is at `ground`, which never moves: it has no effect there
+    3 | f1 = { type = "force", at = "ground", force = 1 }
+      | ^
+  name another node, or leave it out
+)~");
 }
 
 TEST_CASE("series and parallel are the same network as by nodes") {

@@ -222,6 +222,30 @@ scene.toml:15:15: error: a ratio has no `crosses`
       |               ^
   leave out `per`
 )~");
+  claims("a fraction of a ratio of nothing", R"~("k1.force" = [
+  { mean = 0, per = "k1.velocity", within = 0.1 },
+  { mean = "0*3", per = "k1.velocity" },
+  { mean = 0, per = "k1.force", within = 0.1 },
+  { mean = 0, per = "k1.velocity", within = "1 N*s/m" },
+  { mean = [0, 0], per = "k1.velocity" },
+  { mean = 1e-300, per = "k1.velocity", within = 0.1 },
+  { mean = 0, within = 0.1 },
+]
+)~",
+         R"~(
+scene.toml:7:45: error: `within` allows a fraction of the claimed ratio, and that is 0
+    7 |   { mean = 0, per = "k1.velocity", within = 0.1 },
+      |                                             ^
+  an absolute `within` has a unit, that of a damping (N*s/m); or two values say where it may lie: mean = [-1e-6, 1e-6]
+scene.toml:8:12: error: `mean` without `within` allows a fraction of the claimed ratio, and that is 0
+    8 |   { mean = "0*3", per = "k1.velocity" },
+      |            ^
+  an absolute `within` has a unit, that of a damping (N*s/m); or two values say where it may lie: mean = [-1e-6, 1e-6]
+scene.toml:9:42: error: `within` allows a fraction of the claimed ratio, and that is 0
+    9 |   { mean = 0, per = "k1.force", within = 0.1 },
+      |                                          ^
+  two values say where it may lie: mean = [-1e-6, 1e-6]
+)~");
 }
 
 }  // namespace rheonet::test

@@ -190,7 +190,9 @@ T = "5 N*m"
   options.overrides = {"p.m.mass=\"7 kg*m^2\""};
   CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
   options.overrides = {"p.m.inertia=\"7 kg*m^2\""};
-  CHECK_FALSE(read("domain = \"rotation\"\n" + models + instance, options).scene);  // it has `mass` already
+  CHECK(elements_of(scene_of("domain = \"rotation\"\n" + models + instance, options)).starts_with("p.m: mass x 7\n"));
+  CHECK(messages(read(models + instance, options)).find("`inertia` is called `mass` in a translational scene") !=
+        std::string::npos);
   options.overrides = {};
   CHECK_FALSE(read(models + instance, options).scene);  // kg*m^2 is no mass
 }

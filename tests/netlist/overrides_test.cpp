@@ -109,6 +109,21 @@ TEST_CASE("--set: tables") {
   }
 }
 
+TEST_CASE("--set: a file that is not read then need not be there") {
+  const std::string scene = R"~(
+[models.hand]
+ports = ["a"]
+elements = { m = { type = "motion", at = "a", velocity = { table = "none.csv" } } }
+[elements]
+drive = { type = "motion", at = "x", velocity = { table = "none.csv" } }
+other = { type = "hand", at = "y" }
+)~";
+  CHECK(elements_of(with(scene, {"drive.velocity=3", "other.m.velocity={ step = 2 }"}))
+            .starts_with("drive: motion x ~3\nother.m: motion y "));
+  const ReadOptions one{.overrides = {"drive.velocity=3"}, .accuracy = {}, .model_folders = {}};
+  CHECK(messages(read(scene, one)).find("scene.toml:3:68: error: there is no file `none.csv`") != std::string::npos);
+}
+
 TEST_CASE("--set: a parameter that the file leaves to the command line") {
   const std::string open = "[elements]\nk = { type = \"spring\", between = [\"a\", \"b\"], stiffness = \"2*K\" }\n";
   CHECK_FALSE(read(open).scene);

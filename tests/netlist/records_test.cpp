@@ -39,7 +39,17 @@ TEST_CASE("records: what is at a node moves as the node") {
   CHECK(scene.records[3].subject == Subject::element);
   CHECK(scene.records[4].subject == Subject::element);
   CHECK(scene.records[4].index == 1);
-  CHECK(simulating("stop = 1\nrecord = []\n").records.empty());
+}
+
+TEST_CASE("records: none at all is told of") {
+  const ReadResult result = read(netlist + "[simulate]\nstop = 1\nrecord = []\n");
+  REQUIRE(result.scene);
+  CHECK(result.scene->records.empty());
+  CHECK(messages(result) == R"~(scene.toml:7:10: warning: `record` is empty: only the time is written
+    7 | record = []
+      |          ^
+  without `record` everything is, or name some: record = ["k1.force", "mid.velocity"]
+)~");
 }
 
 TEST_CASE("records: one that stands twice is kept once, with a warning") {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <regex>
 #include <sstream>
+#include <vector>
 
 #include "tests/support/page.hpp"
 #include "tests/support/program.hpp"
@@ -21,6 +22,27 @@ const std::string enter = "cd netlists/thesis/compare\n";
 struct Project : Folder {
   Project() { fs::copy(source / "netlists", path() / "netlists", fs::copy_options::recursive); }
 };
+
+struct Row {
+  double value, largest, relative;  ///< of what is varied, and how far apart they then are
+};
+
+/// What `rheonet compare` writes with these words after it, where it varies something of the given unit.
+std::vector<Row> compared(const std::string& words, const std::string& unit) {
+  const Project project;
+  project.shell(enter + "rheonet compare " + words + " -o table.csv", 0);
+  std::istringstream lines(project.read("netlists/thesis/compare/table.csv"));
+  std::string line;
+  std::getline(lines, line);
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    Row row{};
+    REQUIRE(std::sscanf(line.c_str(), ("%lf " + unit + ",%lf,%lf,").c_str(), &row.value, &row.largest, &row.relative) ==
+            3);
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 }  // namespace
 
@@ -52,35 +74,24 @@ TEST_CASE("every statement of composed-or-combined.md is backed by its command")
 }
 
 TEST_CASE("CFM and its wiring part after a stop by (sqrt(1 + b) - 1)^2/b of the torque there") {
-  const Project project;
-  project.shell(enter +
-                    "rheonet compare cfm.toml sfm-dashpot-series.toml -o table.csv "
-                    "--vary parameters.B='1e3 dyn*cm*s/rad:1e6 dyn*cm*s/rad:9:log'",
-                0);
-  std::istringstream rows(project.read("netlists/thesis/compare/table.csv"));
-  std::string line;
-  std::getline(rows, line);
-  int count = 0;
-  for (double B, largest, relative; std::getline(rows, line); ++count) {
-    REQUIRE(std::sscanf(line.c_str(), "%lf dyn*cm*s/rad,%lf,%lf,", &B, &largest, &relative) == 3);
+  const auto rows = compared(
+      "cfm.toml sfm-dashpot-series.toml --vary parameters.B='1e3 dyn*cm*s/rad:1e6 dyn*cm*s/rad:9:log'",
+      "dyn*cm*s/rad");
+  CHECK(rows.size() == 9);
+  for (const auto& [B, largest, relative] : rows) {
     const double b = std::min(1.0, B * 1.5 / 1e5);
     // The rows are T1/100 apart: the largest of them is less by up to a few millionths.
     CHECK(relative == doctest::Approx(std::pow(std::sqrt(1 + b) - 1, 2) / b).epsilon(3e-5));
   }
-  CHECK(count == 9);
 }
 
 TEST_CASE("CFM against SFM beside a dashpot: at least half of the torque apart at any steady rate") {
-  const Project project;
-  project.shell(enter +
-                    "rheonet compare cfm.toml sfm-dashpot-parallel.toml -o table.csv --set parameters.after=rate "
-                    "--vary parameters.rate='0.01 rad/s:400 rad/s:12:log'",
-                0);
-  std::istringstream rows(project.read("netlists/thesis/compare/table.csv"));
-  std::string line;
-  std::getline(rows, line);
-  for (double rate, largest, relative; std::getline(rows, line);) {
-    REQUIRE(std::sscanf(line.c_str(), "%lf rad/s,%lf,%lf,", &rate, &largest, &relative) == 3);
+  const auto rows = compared(
+      "cfm.toml sfm-dashpot-parallel.toml --set parameters.after=rate "
+      "--vary parameters.rate='0.01 rad/s:400 rad/s:12:log'",
+      "rad/s");
+  CHECK(rows.size() == 12);
+  for (const auto& [rate, largest, relative] : rows) {
     const double viscous = 5e4 * rate, solid = 1e5;
     CHECK(relative == doctest::Approx(std::max(viscous, solid) / (viscous + solid)).epsilon(1e-6));
     CHECK(relative >= 0.5);

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
+#include "core/result/claims.hpp"
 #include "core/result/run.hpp"
 
 using namespace rheonet;
@@ -115,4 +117,85 @@ stop = 1
     const Finding finding = claim(text);
     CHECK_MESSAGE(finding.holds == holds, finding.found);
   }
+}
+
+namespace {
+
+/// Claims on one record of a run from 0 s to 1 s that is looked at in pieces of 0.5 s, followed as far as `end`.
+Finding of_course(const Claim& claim, const std::function<double(double)>& x, double end = 1) {
+  Scene scene;
+  scene.stop = 1;
+  scene.output_every = 0.5;
+  scene.claimed.push_back({"a.position", Record::Subject::node, 1, Record::Channel::position});
+  scene.claims.push_back(claim);
+  scene.claims.back().to = 1;
+  Claims claims(scene);
+  std::vector<double> row{x(0)};
+  claims.begin(0, row);
+  claims.step(0, end, [&](double t) -> const std::vector<double>& {
+    row[0] = x(t);
+    return row;
+  });
+  return claims.findings().at(0);
+}
+
+Claim claim_of(Claim::Figure figure) {
+  Claim claim;
+  claim.figure = figure;
+  return claim;
+}
+
+Claim crossing(double level) {
+  Claim claim = claim_of(Claim::Figure::crossing);
+  claim.level = level;
+  return claim;
+}
+
+}  // namespace
+
+TEST_CASE("Claims: a level that is reached between the places where a record is looked at, and one just beyond") {
+  // The top, 1 at 0.29 s, lies between two of them, where the record is at most 0.95.
+  const auto hump = [](double t) { return 1 - 9 * (t - 0.29) * (t - 0.29) * (1 + 0.1 * (t - 0.29)); };
+  const Finding under = of_course(crossing(0.9999), hump);
+  CHECK(hump(under.found) == doctest::Approx(0.9999).epsilon(1e-12));
+  CHECK(under.found < 0.29);
+  CHECK(std::isnan(of_course(crossing(1.0001), hump).found));
+  CHECK(of_course(claim_of(Claim::Figure::max), hump).found == doctest::Approx(1).epsilon(1e-5));
+  // Downwards the same, and only from the start of what is looked at.
+  const auto dip = [&](double t) { return -hump(t); };
+  CHECK(of_course(crossing(-0.9999), dip).found == under.found);
+  CHECK(of_course(claim_of(Claim::Figure::min), dip).found == doctest::Approx(-1).epsilon(1e-5));
+  Claim later = crossing(0.9999);
+  later.from = 0.29;
+  CHECK(of_course(later, hump).found > 0.29);
+}
+
+TEST_CASE("Claims: a level is reached by what comes to it as by what jumps to it or over it") {
+  const auto slide = [](double t) { return std::min(0.7, 2 * t); };
+  CHECK(of_course(crossing(0.7), slide).found == doctest::Approx(0.35).epsilon(1e-12));
+  CHECK(std::isnan(of_course(crossing(0.70001), slide).found));
+  for (const auto& [level, reached] : {std::pair(2.0, true), {1.3, true}, {2.0001, false}}) {
+    CAPTURE(level);
+    Scene scene;
+    scene.stop = 1;
+    scene.output_every = 0.5;
+    scene.claimed.push_back({"a.position", Record::Subject::node, 1, Record::Channel::position});
+    scene.claims.push_back(crossing(level));
+    scene.claims.back().to = 1;
+    Claims claims(scene);
+    claims.begin(0, {1});
+    claims.begin(0.25, {2});
+    CHECK_EQ(claims.findings().at(0).found == 0.25, reached);
+  }
+}
+
+TEST_CASE("Claims: a time that a run has not come to has no value, but for rounding of its end") {
+  const auto x = [](double t) { return 3 * t; };
+  Claim at = claim_of(Claim::Figure::at);
+  at.time = 1;
+  CHECK(of_course(at, x).found == 3);
+  CHECK(of_course(at, x, 1 - 1e-13).found == doctest::Approx(3));
+  CHECK(std::isnan(of_course(at, x, 0.999).found));
+  at.time = 0.4;
+  CHECK(of_course(at, x).found == 3 * 0.4);
 }

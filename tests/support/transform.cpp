@@ -18,6 +18,13 @@ const Parameter& parameter_of(const SceneElement& element, std::size_t signal) {
   return declared(element).parameters[at(element.signal_parameters[signal])];
 }
 
+/// Calls `change(quantity, signal)`.
+template <class Change>
+void for_each_signal(Scene& scene, const Change& change) {
+  for (SceneElement& e : scene.elements)
+    for (std::size_t k = 0; k < e.signals.size(); ++k) change(parameter_of(e, k).quantity, e.signals[k]);
+}
+
 struct Transform {
   double value, time, add;
 
@@ -126,23 +133,19 @@ Scene negated(Scene scene) {
 Scene shifted(Scene scene, double dx) {
   require_no_ground(scene);
   for (std::size_t n = 1; n < scene.nodes.size(); ++n) scene.nodes[n].position += dx;
-  for (SceneElement& e : scene.elements) {
-    for (std::size_t k = 0; k < e.signals.size(); ++k) {
-      if (parameter_of(e, k).quantity == Quantity::position) e.signals[k] = transformed(e.signals[k], 1, 1, dx);
-    }
-  }
+  for_each_signal(scene, [dx](Quantity quantity, Signal& signal) {
+    if (quantity == Quantity::position) signal = transformed(signal, 1, 1, dx);
+  });
   return scene;
 }
 
 Scene boosted(Scene scene, double v) {
   require_no_ground(scene);
   for (std::size_t n = 1; n < scene.nodes.size(); ++n) scene.nodes[n].velocity += v;
-  for (SceneElement& e : scene.elements) {
-    for (std::size_t k = 0; k < e.signals.size(); ++k) {
-      REQUIRE(parameter_of(e, k).quantity != Quantity::position);
-      if (parameter_of(e, k).quantity == Quantity::velocity) e.signals[k] = transformed(e.signals[k], 1, 1, v);
-    }
-  }
+  for_each_signal(scene, [v](Quantity quantity, Signal& signal) {
+    REQUIRE(quantity != Quantity::position);
+    if (quantity == Quantity::velocity) signal = transformed(signal, 1, 1, v);
+  });
   return scene;
 }
 

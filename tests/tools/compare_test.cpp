@@ -167,6 +167,8 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
       {"one.toml two.toml --vary parameters.B=-1:1:5:log", "both above 0 or both below"},
       {"one.toml two.toml --vary 'parameters.B=1 N:2 N*s:3'", "both ends of a range have one unit, not `N` and `N*s`"},
       {"one.toml two.toml --vary parameters.B=1,,3", "has an empty value"},
+      {"one.toml two.toml --vary parameters.B=$(seq -s, 10001)",
+       "`--vary parameters.B=...` lists 10001 values; at most 10000 are tried"},
       {"one.toml two.toml --vary parameters.D=1,2", "there is no parameter `D`"},
   };
   for (const auto& [words, message] : cases) {
@@ -179,6 +181,19 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
   folder.write("late.toml", dragged("c", "3 N*s/m", "start = 0.5\n" + short_rows));
   CHECK(contains(folder.shell("rheonet compare one.toml late.toml", 2).err,
                  "the runs start at different times, 0 s and 0.5 s"));
+}
+
+TEST_CASE("compare: values of a narrow range are told apart") {
+  const Three folder;
+  folder.shell("rheonet compare one.toml two.toml --vary parameters.B=1:1.0000002:3 -o table.csv", 0);
+  std::istringstream rows(folder.read("table.csv"));
+  std::string value;
+  std::getline(rows, value);
+  for (const char* expected : {"1", "1.0000001", "1.0000002"}) {
+    std::getline(rows, value, ',');
+    CHECK(value == expected);
+    std::getline(rows, value);
+  }
 }
 
 TEST_CASE("compare: a scene that cannot be simulated has status 1, and its place") {

@@ -169,11 +169,28 @@ TEST_CASE("an output that cannot be opened is found before simulating") {
   }
 }
 
+TEST_CASE("rows do not go into any file that the scene is made of") {
+  const Folder folder(R"(include = ["parts.toml"]
+[elements]
+drive = { type = "motion", at = "a", velocity = { table = "drive.csv" } }
+k = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+[simulate]
+stop = 1
+)");
+  folder.write("parts.toml", "[models.m]\nports = [\"a\"]\nelements = { m = { type = \"mass\", at = \"a\", mass = 1 } }\n");
+  folder.write("drive.csv", "0,0\n1,1\n");
+  const auto run = [&](const std::string& words) { return folder.shell("rheonet run scene.toml " + words, 2).err; };
+  CHECK(run("-o drive.csv") == "error: `--output drive.csv` would overwrite a table that the scene reads\n");
+  CHECK(run("-o parts.toml") == "error: `--output parts.toml` would overwrite a file that the scene includes\n");
+  CHECK(run("-o x.csv --events scene.toml") == "error: `--events scene.toml` would overwrite the scene itself\n");
+}
+
 TEST_CASE("a full disk and a reader that goes away stop the run") {
   const Folder folder(endless);
   const Finished full = folder.shell("timeout 60 rheonet run scene.toml -o /dev/full");
   CHECK(full.status == 1);
   CHECK(contains(full.err, "cannot write to `/dev/full`: No space left on device"));
+  CHECK(full.err.find("No space left") == full.err.rfind("No space left"));
   const Finished piped = folder.shell("timeout 60 rheonet run scene.toml | head -n 3; exit ${PIPESTATUS[0]}");
   CHECK(piped.status == 1);
   CHECK(lines(piped.out) == 3);

@@ -1,6 +1,5 @@
-// What does an Iwan bundle of N pairs cost? A mass of 1 kg driven by 8 N sin(2 pi t/s) for 3 s, held by N springs of
-// K/N = 400/N N/m in series with sliders of 2 FC (i + 1/2)/N^2, FC = 10 N: from its netlist, read and simulated. Prints
-// a table for iwan.md.
+// What does an Iwan bundle of N pairs cost? From its netlist, iwan.toml, which the command line names: read and
+// simulated. Prints a table for iwan.md.
 
 #include <fmt/format.h>
 
@@ -18,44 +17,30 @@ using namespace rheonet;
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-std::string netlist(int pairs, double accuracy) {
-  return fmt::format(R"(
-[parameters]
-K = "400 N/m"
-FC = "10 N"
-[elements]
-m = {{ type = "mass", at = "x", mass = "1 kg" }}
-f = {{ type = "force", at = "x", force = {{ sine = "8 N", frequency = "1 Hz" }} }}
-[elements.iwan]
-between = ["x", "ground"]
-repeat = {{ count = {}, as = "i", arrange = "parallel" }}
-series = [
-  {{ name = "k", type = "spring", stiffness = "K/n" }},
-  {{ name = "s", type = "slider", coulomb = "2*FC*(i + 0.5)/n^2" }},
-]
-[simulate]
-stop = "3 s"
-accuracy = {}
-output = {{ points = 31 }}
-record = ["x.position"]
-)",
-                     pairs, accuracy);
-}
-
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
+  if (count != 2) {
+    fmt::print(stderr, "usage: bench_iwan tools/bench/iwan.toml\n");
+    return 2;
+  }
   constexpr int repetitions = 5;
   fmt::print("| pairs | accuracy | reading, ms | simulation, ms | steps | starts |\n|---|---|---|---|---|---|\n");
   for (const int pairs : {1, 10, 100, 1000, 10000, 100000}) {
     for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
-      const std::string text = netlist(pairs, accuracy);
+      ReadOptions options;
+      options.overrides = {fmt::format("iwan.repeat.count={}", pairs), "simulate.record=[\"x.position\"]"};
+      options.accuracy = accuracy;
       double reading = std::numeric_limits<double>::infinity(), simulation = reading;
       Summary summary;
       for (int k = 0; k < repetitions; ++k) {
         const double begin = cpu_seconds();
-        const ReadResult read = read_scene_text(text, "iwan.toml", ".", declarations(), {});
+        const ReadResult read = read_scene(words[1], declarations(), options);
         reading = std::min(reading, cpu_seconds() - begin);
+        if (!read.scene) {
+          for (const Diagnostic& mistake : read.diagnostics) fmt::print(stderr, "{}\n", format(mistake, read.sources));
+          return 2;
+        }
         summary = run(*read.scene);
         simulation = std::min(simulation, summary.cpu_seconds);
       }

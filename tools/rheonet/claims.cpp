@@ -6,15 +6,14 @@
 #include <cmath>
 
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/table.hpp"
 
 namespace rheonet::tool {
 namespace {
 
 using Figure = Claim::Figure;
 
-std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.10g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
-}
+std::string with_unit(double value, const std::string& unit) { return readable(value, unit, 10); }
 
 const Record& record_of(const Scene& scene, int index) { return scene.claimed[static_cast<std::size_t>(index)]; }
 
@@ -41,11 +40,11 @@ std::string name_of(const Claim& claim, const Scene& scene) {
   std::string path = record.path;
   if (claim.per >= 0) path += " / " + record_of(scene, claim.per).path;
   std::string window;
-  if (claim.from != scene.start) window += fmt::format(" from {:g} s", claim.from);
-  if (claim.to != scene.stop) window += fmt::format(" to {:g} s", claim.to);
+  if (claim.from != scene.start) window += fmt::format(" from {:.10g} s", claim.from);
+  if (claim.to != scene.stop) window += fmt::format(" to {:.10g} s", claim.to);
   switch (claim.figure) {
     case Figure::at:
-      return fmt::format("{} at {:g} s", path, claim.time);
+      return fmt::format("{} at {:.10g} s", path, claim.time);
     case Figure::final:
       return path + " at the end";
     case Figure::max:
@@ -65,9 +64,7 @@ std::string name_of(const Claim& claim, const Scene& scene) {
 std::string claimed_of(const Claim& claim, const Finding& finding, const std::string& unit) {
   if (claim.least != claim.most)
     return fmt::format("between {} and {}", with_unit(claim.least, unit), with_unit(claim.most, unit));
-  return fmt::format(
-      "{} within {}", with_unit(claim.least, unit),
-      unit == "1" ? fmt::format("{:.3g}", finding.tolerance) : fmt::format("{:.3g} {}", finding.tolerance, unit));
+  return fmt::format("{} within {}", with_unit(claim.least, unit), readable(finding.tolerance, unit, 3));
 }
 
 }  // namespace
@@ -89,8 +86,8 @@ bool report_claims(const Scene& scene, const Summary& summary, const Sources& so
       message += fmt::format("{}, claimed {}", claim.per < 0 ? "never comes" : "is no number", claimed);
     } else {
       const double off = std::max(claim.least - finding.found, finding.found - claim.most);
-      message += fmt::format("is {}, claimed {}: it is off by {:.3g}{}{}", with_unit(finding.found, unit), claimed, off,
-                             unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+      message += fmt::format("is {}, claimed {}: it is off by {}", with_unit(finding.found, unit), claimed,
+                             readable(off, unit, 3));
     }
     say("{}\n", format({.severity = Severity::error, .spot = claim.spot, .message = message, .hint = {}}, sources));
   }

@@ -11,6 +11,7 @@
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/rheonet/variation.hpp"
+#include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -24,12 +25,7 @@ struct Ended {
 std::vector<Pairing> named_pairs(const Arguments& arguments) {
   std::vector<Pairing> pairings;
   for (const std::string& text : arguments.pairs) {
-    Pairing paths;
-    for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find('=', begin), text.size());
-      paths.push_back(text.substr(begin, end - begin));
-      begin = end + 1;
-    }
+    Pairing paths = split(text, '=');
     if (paths.size() == 2) paths.resize(arguments.scenes.size(), paths.back());
     if (paths.size() != arguments.scenes.size()) {
       say("error: `--pair {}` names {} records for {} scenes\n  --pair k1.force=m.spring1.force\n", printable(text),
@@ -62,13 +58,14 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     ReadResult read = read_and_report(arguments.scenes[i], options);
     if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
     compared.scenes.push_back(std::move(*read.scene));
+    compared.columns.push_back(columns_of(compared.scenes.back()));
     compared.sources.push_back(std::move(read.sources));
   }
   if (const std::string why = obstacle(compared.scenes); !why.empty()) {
     say("error: {}\n", why);
     throw Ended{wrong_input};
   }
-  if (compared.pairings.empty()) compared.pairings = shared_records(compared.scenes);
+  if (compared.pairings.empty()) compared.pairings = shared_records(compared.scenes.front(), compared.columns);
   if (compared.pairings.empty()) {
     say("error: the scenes record nothing of the same name; pair two records: --pair k1.force=m.spring1.force\n");
     for (std::size_t i = 0; i < compared.scenes.size(); ++i)
@@ -77,7 +74,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
   }
   for (const Pairing& pairing : compared.pairings) {
     const auto what = [&](std::size_t i) {
-      return quantity_of(compared.scenes[i].records[column(compared.scenes[i], pairing[i])].channel);
+      return quantity_of(compared.scenes[i].records[compared.columns[i].at(pairing[i])].channel);
     };
     for (std::size_t i = 1; i < pairing.size(); ++i) {
       if (what(i) == what(0)) continue;
@@ -104,8 +101,8 @@ void run_all(Compared& compared, const std::string& override) {
   for (std::size_t i = 1; i < compared.scenes.size(); ++i) {
     compared.differences.emplace_back();
     for (const Pairing& pairing : compared.pairings)
-      compared.differences.back().push_back(difference(compared.courses[0], column(compared.scenes[0], pairing[0]),
-                                                       compared.courses[i], column(compared.scenes[i], pairing[i])));
+      compared.differences.back().push_back(difference(compared.courses[0], compared.columns[0].at(pairing[0]),
+                                                       compared.courses[i], compared.columns[i].at(pairing[i])));
   }
 }
 

@@ -18,7 +18,7 @@ std::string relative(double value) { return value == 0 ? "0" : fmt::format("{:.2
 
 std::string unit_of(const Compared& compared, const Pairing& pairing) {
   const Scene& first = compared.scenes.front();
-  return unit_of(quantity_of(first.records[column(first, pairing.front())].channel), first.domain);
+  return unit_of(quantity_of(first.records[compared.columns.front().at(pairing.front())].channel), first.domain);
 }
 
 std::string list_of_scenes(const Compared& compared) {
@@ -45,9 +45,7 @@ std::string energy_line(const Compared& compared, std::size_t other) {
 
 }  // namespace
 
-std::string letter(std::size_t scene) {
-  return scene < 26 ? std::string(1, static_cast<char>('A' + scene)) : fmt::format("S{}", scene + 1);
-}
+std::string letter(std::size_t scene) { return std::string(1, static_cast<char>('A' + scene)); }
 
 std::string name_of(const Pairing& pairing, std::size_t other) {
   return pairing[other] == pairing.front() ? pairing.front() : pairing.front() + " / " + pairing[other];
@@ -87,7 +85,7 @@ std::string overlay(const Compared& compared) {
   for (const Pairing& pairing : compared.pairings) {
     columns.emplace_back();
     for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
-      columns.back().push_back(column(compared.scenes[i], pairing[i]));
+      columns.back().push_back(compared.columns[i].at(pairing[i]));
       text += fmt::format(",{}.{}", letter(i), pairing[i]);
     }
   }
@@ -134,7 +132,7 @@ std::string table(const std::string& path, const std::vector<Varied>& rows, cons
   for (std::size_t i = 0; i < compared.scenes.size(); ++i) text += fmt::format(",{} dissipated", letter(i));
   text += '\n';
   for (const Varied& row : rows) {
-    text += row.value.find(',') == row.value.npos ? row.value : "\"" + row.value + "\"";
+    text += row.value;  // which has no comma: lists are split at them
     for (const auto& of_scene : row.differences)
       for (const Difference& d : of_scene)
         text += fmt::format(",{},{},{},{},{}", d.largest, d.relative(), d.time, d.rms, d.relative_rms());

@@ -12,6 +12,7 @@ namespace rheonet::tool {
 struct Compared {
   std::vector<std::string> files;
   std::vector<Scene> scenes;
+  std::vector<Columns> columns;  ///< of each scene
   std::vector<Sources> sources;
   std::vector<Pairing> pairings;
   std::vector<Course> courses;
@@ -21,7 +22,7 @@ struct Compared {
 /// "k1.force", or "k1.force / m.spring1.force" where scene `other` calls it otherwise than the first.
 std::string name_of(const Pairing& pairing, std::size_t other);
 
-/// The letter by which a report calls a scene: A, B, ...
+/// The letter by which a report calls a scene: A, B, ... The command line takes no more scenes than there are letters.
 std::string letter(std::size_t scene);
 
 /// The whole comparison, for a person to read.

@@ -13,8 +13,6 @@ constexpr double rounding = 1e-9;
 
 const char* name_of(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
 
-bool records(const Scene& scene, const std::string& path) { return column(scene, path) < scene.records.size(); }
-
 }  // namespace
 
 std::string obstacle(const std::vector<Scene>& scenes) {
@@ -24,7 +22,7 @@ std::string obstacle(const std::vector<Scene>& scenes) {
       return fmt::format("one scene is of {}, the other of {}: nothing in them can be compared", name_of(first.domain),
                          name_of(scene.domain));
     if (std::abs(scene.start - first.start) > rounding * (first.stop - first.start))
-      return fmt::format("the runs start at different times, {:g} s and {:g} s; `--set simulate.start=...` sets all",
+      return fmt::format("the runs start at different times, {} s and {} s; `--set simulate.start=...` sets all",
                          first.start, scene.start);
   }
   return "";
@@ -44,17 +42,17 @@ void to_one_time_base(std::vector<Scene>& scenes) {
   }
 }
 
-std::size_t column(const Scene& scene, const std::string& path) {
-  const auto found =
-      std::find_if(scene.records.begin(), scene.records.end(), [&](const Record& r) { return r.path == path; });
-  return static_cast<std::size_t>(found - scene.records.begin());
+Columns columns_of(const Scene& scene) {
+  Columns columns;
+  for (std::size_t i = 0; i < scene.records.size(); ++i) columns.emplace(scene.records[i].path, i);
+  return columns;
 }
 
-std::vector<Pairing> shared_records(const std::vector<Scene>& scenes) {
+std::vector<Pairing> shared_records(const Scene& first, const std::vector<Columns>& columns) {
   std::vector<Pairing> pairings;
-  for (const Record& record : scenes.front().records)
-    if (std::all_of(scenes.begin(), scenes.end(), [&](const Scene& scene) { return records(scene, record.path); }))
-      pairings.emplace_back(scenes.size(), record.path);
+  for (const Record& record : first.records)
+    if (std::all_of(columns.begin(), columns.end(), [&](const Columns& known) { return known.contains(record.path); }))
+      pairings.emplace_back(columns.size(), record.path);
   return pairings;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/netlist/scene.hpp"
@@ -36,14 +37,15 @@ std::string obstacle(const std::vector<Scene>& scenes);
 /// Gives all scenes the output times of the first, as far as the shortest run goes.
 void to_one_time_base(std::vector<Scene>& scenes);
 
-/// The paths that all scenes record, in the order of the first.
-std::vector<Pairing> shared_records(const std::vector<Scene>& scenes);
+/// Where among a scene's records each path is.
+using Columns = std::unordered_map<std::string, std::size_t>;
+Columns columns_of(const Scene& scene);
+
+/// The paths that all scenes record, in the order of the first; `columns` are those of each.
+std::vector<Pairing> shared_records(const Scene& first, const std::vector<Columns>& columns);
 
 /// Simulates. Throws SimulationError.
 Course run_to_memory(const Scene& scene);
-
-/// Position of a path among a scene's records.
-std::size_t column(const Scene& scene, const std::string& path);
 
 Difference difference(const Course& first, std::size_t first_column, const Course& second, std::size_t second_column);
 

@@ -31,7 +31,10 @@ bool is_source(const std::string& path, const char* option, const Sources& sourc
   std::error_code error;
   for (const Sources::File& file : sources.files) {
     if (path == "-" || !std::filesystem::equivalent(path, file.path, error)) continue;
-    say("error: `{} {}` would overwrite the scene itself\n", option, printable(path));
+    const char* const what = file.role == Sources::Role::table      ? "a table that the scene reads"
+                             : file.role == Sources::Role::included ? "a file that the scene includes"
+                                                                    : "the scene itself";
+    say("error: `{} {}` would overwrite {}\n", option, printable(path), what);
     return true;
   }
   return false;

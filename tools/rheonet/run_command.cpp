@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
+#include "core/result/csv.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
@@ -103,7 +104,8 @@ ExitStatus run_scene(const Arguments& arguments) {
   } catch (const SimulationError& error) {
     progress.erase();
     const bool closed = outputs.close();
-    report(error, read.sources);
+    // Why a file could not be written has then been said, with its name.
+    if (closed || !dynamic_cast<const WriteError*>(&error)) report(error, read.sources);
     if (closed) say("{}", outputs.kept());
     return not_simulated;
   }

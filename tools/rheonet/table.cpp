@@ -27,8 +27,8 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
   return text;
 }
 
-std::string readable(double value, const std::string& unit) {
-  return fmt::format("{:.6g}{}{}", value + 0.0, unit.empty() || unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+std::string readable(double value, const std::string& unit, int digits) {
+  return fmt::format("{:.{}g}{}{}", value + 0.0, digits, unit.empty() || unit == "1" ? "" : " ", unit == "1" ? "" : unit);
 }
 
 }  // namespace rheonet::tool

@@ -5,23 +5,17 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
+
+#include "tools/rheonet/table.hpp"
+#include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
 namespace {
 
 constexpr long most_values = 10'000;  // each is as many runs as there are scenes
 const char* const forms = "--vary PATH=from:to:count, PATH=from:to:count:log or PATH=value,value,...";
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 /// "10 N/m".
 struct End {
@@ -45,6 +39,12 @@ std::optional<long> read_count(const std::string& text) {
   return count;
 }
 
+std::vector<std::string> in_words(const std::vector<double>& values, const std::string& unit, int digits) {
+  std::vector<std::string> words;
+  for (const double value : values) words.push_back(readable(value, unit, digits));
+  return words;
+}
+
 }  // namespace
 
 std::variant<Variation, NoVariation> read_variation(const std::string& text) {
@@ -58,6 +58,10 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
     variation.values = split(range, ',');
     for (const std::string& value : variation.values)
       if (value.empty()) return NoVariation{fmt::format("`--vary {}` has an empty value", text), forms};
+    if (variation.values.size() > static_cast<std::size_t>(most_values))
+      return NoVariation{fmt::format("`--vary {}=...` lists {} values; at most {} are tried", variation.path,
+                                     variation.values.size(), most_values),
+                         forms};
     return variation;
   }
   const bool logarithmic = parts.size() == 4 && parts[3] == "log";
@@ -74,13 +78,17 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
                        fmt::format("{} to {} {}, say", from->value, to->value, from->unit)};
   if (logarithmic && !(from->value * to->value > 0))
     return NoVariation{"the ends of a logarithmic range are both above 0 or both below", ""};
+  std::vector<double> values;
   for (long i = 0; i < *count; ++i) {
     const double fraction = static_cast<double>(i) / static_cast<double>(*count - 1);
-    const double value = i == *count - 1 ? to->value
-                         : logarithmic   ? from->value * std::pow(to->value / from->value, fraction)
-                                         : from->value + fraction * (to->value - from->value);
-    // Six digits are enough for a table, and what stands there is what has been simulated.
-    variation.values.push_back(fmt::format("{:.6g}{}{}", value, to->unit.empty() ? "" : " ", to->unit));
+    values.push_back(i == *count - 1 ? to->value
+                     : logarithmic   ? from->value * std::pow(to->value / from->value, fraction)
+                                     : from->value + fraction * (to->value - from->value));
+  }
+  // What stands in the table is what has been simulated: with as many digits as tell neighbours apart.
+  for (int digits = 6; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    variation.values = in_words(values, to->unit, digits);
+    if (std::adjacent_find(variation.values.begin(), variation.values.end()) == variation.values.end()) break;
   }
   return variation;
 }

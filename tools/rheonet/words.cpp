@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "tools/rheonet/table.hpp"
+
 namespace rheonet::tool {
 namespace {
 
-std::string number(double x, const std::string& unit) { return fmt::format("{:.10g} {}", x, unit); }
+std::string number(double x, const std::string& unit) { return readable(x, unit, 10); }
 
 // What most signals share, where it is not 0.
 std::string rest(double phase, double time, double offset, const std::string& unit) {
@@ -55,13 +57,21 @@ struct Words {
 
 }  // namespace
 
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
 std::string wrapped(const std::string& text, std::size_t indent) {
   constexpr std::size_t width = 100;
   std::string result;
   std::size_t column = indent;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
+  for (const std::string& word : split(text, ' ')) {
     if (column > indent && column + 1 + word.size() > width) {
       result += "\n" + std::string(indent, ' ');
       column = indent;
@@ -71,7 +81,6 @@ std::string wrapped(const std::string& text, std::size_t indent) {
     }
     result += word;
     column += word.size();
-    begin = end + 1;
   }
   return result;
 }

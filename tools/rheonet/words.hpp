@@ -1,10 +1,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/netlist/signal.hpp"
 
 namespace rheonet::tool {
+
+/// The parts of a text between separators, one more than there are of these.
+std::vector<std::string> split(const std::string& text, char separator);
 
 /// Breaks a text into lines of at most 100 characters, where every line but the first is indented. It begins in the
 /// column `indent`.
