@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -79,20 +80,15 @@ void Tolerances::attach(Dae& dae) {
 /// The parts of the network that known nodes keep from each other: the noise of one does not reach the others.
 void Tolerances::find_parts() {
   const Structure& structure = dae_->structure();
-  std::vector<NodeId> up(structure.kind.size());
-  std::iota(up.begin(), up.end(), 0);
-  const auto find = [&](NodeId node) {
-    while (up[at(node)] != node) node = up[at(node)] = up[at(up[at(node)])];
-    return node;
-  };
+  Sets parts(structure.kind.size());
   const auto join = [&](const Branch& b) {
-    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) up[at(find(b.a))] = find(b.b);
+    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) parts.join(b.a, b.b);
   };
   for (const Branch& b : structure.deflections) join(b);
   for (const Branch& b : structure.rates) join(b);
   for (const Branch& b : structure.sliders) join(b);
   part_.clear();
-  for (std::size_t n = 0; n < up.size(); ++n) part_.push_back(find(static_cast<NodeId>(n)));
+  for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
 /// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
