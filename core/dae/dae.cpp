@@ -248,7 +248,7 @@ void Dae::build_pattern() {
   }
 
   if (idle_) put(0, 0, 0, 1);
-  find_bundles();
+  find_parallels();
   for (Follower& f : followers_) {
     f.own_entry = builder.ticket(f.row, ip_[at(f.branch)]);
     f.leader_entry = builder.ticket(f.row, ip_[at(f.leader)]);

@@ -286,7 +286,7 @@ class Run {
       batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
       if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
       if (held) {
-        const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
+        const std::vector<int> released = dae.release_parallel(branch, view.flow[at(branch)]);
         switched.insert(switched.end(), released.begin(), released.end());
         std::vector<int>& list = batch.direction(i) == 0 ? sudden.rests : sudden.starts;
         list.push_back(branch);
