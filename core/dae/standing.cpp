@@ -33,6 +33,8 @@ void Dae::find_parallels() {
 
 void Dae::stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing) {
   if (standing.empty()) return;
+  // Holding a branch changes neither its deflection nor the force of any other: one look does for all.
+  view(t, y, yp);
   Sets firm(structure_->kind.size());
   const auto heavy = [&](NodeId node) {
     return structure_->kind[at(node)] == Kind::known || structure_->kind[at(node)] == Kind::massive;
@@ -43,7 +45,7 @@ void Dae::stand(double t, const double* y, const double* yp, const std::vector<S
     std::size_t i = 0;
     DeflectionBatch& batch = batch_of(j, i);
     const bool together = a == b || (heavy(a) && heavy(b));
-    if (view(t, y, yp); !together && view_.f[at(j)] != 0) {
+    if (!together && view_.f[at(j)] != 0) {
       hold_parallel(j, one.lean);
       if (heavy(a)) {
         firm.join(b, a);
