@@ -82,6 +82,8 @@ class Dae {
   const View& view(double t, const double* y, const double* yp);
   /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
   double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
+  /// Deflection at t of a branch that is no unknown [m]: both its ends are prescribed.
+  double driven_deflection(int branch, double t) const;
   /// Sum of the forces at the nodes of a tie [N], and of their magnitudes. After `view`.
   struct Balance { double sum, magnitude; };
   Balance balance(const Structure::Tie& tie) const;
@@ -160,8 +162,11 @@ class Dae {
   void add_row(int row, bool position, const Structure::Loop& loop);
   int delayed(int branch) const;
   void build_pattern();
+  // evaluate.cpp
   void gather(double t, const double* y);
   void sum_forces();
+  void evaluate_forces(double t, const double* y);
+  // view.cpp
   void share_among_joined();
   void view_velocities(const double* yp);
   void set_rate_forms();

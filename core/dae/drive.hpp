@@ -33,6 +33,9 @@ class Drive {
   /// Evaluates all at time t (remembered: a second call at the same t costs nothing).
   void evaluate(double t);
 
+  /// Position at t of motion number `m` of the network, on its present stretch [m].
+  double position_at(int m, double t) const { return position_of(motions_[static_cast<std::size_t>(m)], t); }
+
   /// What delayed branches feel. An event at t is a break of it too.
   Past& past() { return past_; }
   const Past& past() const { return past_; }
