@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dae/polynomial.hpp"
+
 namespace rheonet {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Points that one interpolation takes: those of a step of order 5.
-constexpr std::size_t most_points = 6;
 // What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
 constexpr int most_levels = 6;
 
@@ -131,7 +131,7 @@ void Past::forget(double t) {
     if (track.runs.empty()) continue;
     std::vector<Point>& points = track.runs.front().points;
     const auto first = std::lower_bound(points.begin(), points.end(), needed, [](const Point& p, double x) { return p.t < x; });
-    const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(most_points);
+    const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(step_points);
     // Now and then many at once: each costs a move of all that stay.
     if (spare > static_cast<std::ptrdiff_t>(points.size() / 2)) points.erase(points.begin(), points.begin() + spare);
   }
@@ -148,24 +148,20 @@ double Past::next_break() const {
   return next;
 }
 
-/// The polynomial through the points around t, by Newton's divided differences.
+/// The polynomial through the points around t.
 double Past::interpolate(const Run& run, double t) {
   const std::vector<Point>& points = run.points;
   if (points.empty()) return 0;
-  const std::size_t count = std::min(most_points, points.size());
+  const std::size_t count = std::min(step_points, points.size());
   const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t first = std::min(middle > count / 2 ? middle - count / 2 : 0, points.size() - count);
-  double difference[most_points];
-  for (std::size_t k = 0; k < count; ++k) difference[k] = points[first + k].v;
-  for (std::size_t order = 1; order < count; ++order) {
-    for (std::size_t k = count - 1; k >= order; --k) {
-      difference[k] = (difference[k] - difference[k - 1]) / (points[first + k].t - points[first + k - order].t);
-    }
+  double times[step_points] = {}, velocities[step_points] = {};
+  for (std::size_t k = 0; k < count; ++k) {
+    times[k] = points[first + k].t;
+    velocities[k] = points[first + k].v;
   }
-  double v = difference[count - 1];
-  for (std::size_t k = count - 1; k-- > 0;) v = v * (t - points[first + k].t) + difference[k];
-  return v;
+  return rheonet::interpolate(times, velocities, count, t);
 }
 
 // At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what

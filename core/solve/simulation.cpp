@@ -219,7 +219,7 @@ class Run {
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       drive_.past().remember(t, view.velocity);
-      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, settings_.switch_times)) {
+      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
         observer_.event(event);
       }
       soften_laws();
