@@ -160,7 +160,6 @@ class Dae {
   void number_unknowns();
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
-  int delayed(int branch) const;
   void build_pattern();
   // evaluate.cpp
   void gather(double t, const double* y);

@@ -29,14 +29,20 @@ auto* current(Items& items, double t) {
 
 }  // namespace
 
-Past::Past(const Network& network) : track_of_(network.nodes(), -1), shortest_(infinity) {
+Past::Past(const Network& network)
+    : index_of_(network.deflections.size(), -1),
+      track_of_(network.nodes(), -1),
+      track_of_motion_(network.motions.size(), -1),
+      shortest_(infinity) {
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const double delay = laws.batch->delay(i);
       if (delay == 0) continue;
       const int branch = laws.first + static_cast<int>(i);
       const Branch& b = network.deflections[static_cast<std::size_t>(branch)];
+      index_of_[static_cast<std::size_t>(branch)] = static_cast<int>(delayed_.size());
       delayed_.push_back({branch, b.a, b.b, delay});
+      delays_.push_back(delay);
       shortest_ = std::min(shortest_, delay);
       longest_ = std::max(longest_, delay);
       for (NodeId node : {b.a, b.b}) {
@@ -47,9 +53,12 @@ Past::Past(const Network& network) : track_of_(network.nodes(), -1), shortest_(i
       }
     }
   }
+  std::sort(delays_.begin(), delays_.end());
+  delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
   taken_.assign(delayed_.size(), -infinity);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
-    if (Track* t = track(network.motions[m].node)) t->motion = static_cast<int>(m);
+    track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
+    if (track_of_motion_[m] >= 0) tracks_[static_cast<std::size_t>(track_of_motion_[m])].motion = static_cast<int>(m);
   }
 }
 
@@ -65,10 +74,10 @@ void Past::begin(const std::vector<double>& velocity) {
 void Past::mark(double t, bool fresh) {
   if (delayed_.empty()) return;
   int level = fresh ? 0 : most_levels;
-  for (const Break& b : breaks_) {
-    for (const Delayed& d : delayed_) {
-      if (std::abs(b.t + d.delay - t) <= grain(t)) level = std::min(level, b.level + 1);
-    }
+  for (const double delay : delays_) {
+    const auto early = [&](const Break& b) { return b.t + delay - t < -grain(t); };
+    auto b = std::partition_point(breaks_.begin(), breaks_.end(), early);
+    for (; b != breaks_.end() && b->t + delay - t <= grain(t); ++b) level = std::min(level, b->level + 1);
   }
   forget(t);
   since_ = t;
@@ -84,17 +93,18 @@ void Past::mark(double t, bool fresh) {
       track.runs.push_back({t, {}});
     }
   }
+  find_next_break();
 }
 
 void Past::follow(std::size_t m, double t, const Piece& piece, bool position) {
-  for (Track& track : tracks_) {
-    if (track.motion != static_cast<int>(m)) continue;
-    if (!track.stretches.empty() && track.stretches.back().t >= t) track.stretches.pop_back();
-    track.stretches.push_back({t, piece, position});
-  }
+  if (track_of_motion_[m] < 0) return;
+  Track& track = tracks_[static_cast<std::size_t>(track_of_motion_[m])];
+  if (!track.stretches.empty() && track.stretches.back().t >= t) track.stretches.pop_back();
+  track.stretches.push_back({t, piece, position});
 }
 
 void Past::remember(double t, const std::vector<double>& velocity) {
+  bool jumps = false;
   for (Track& track : tracks_) {
     if (track.motion >= 0 || track.runs.empty()) continue;
     std::vector<Point>& points = track.runs.back().points;
@@ -103,10 +113,14 @@ void Past::remember(double t, const std::vector<double>& velocity) {
       // What jumps is as sharp as at first, whatever it has come through.
       const std::vector<Point>& earlier = std::prev(track.runs.end(), 2)->points;
       if (!earlier.empty() && std::abs(v - earlier.back().v) > jump_rounding * (std::abs(v) + std::abs(earlier.back().v))) {
-        breaks_.back().level = 0;
+        jumps = true;
       }
     }
     if (points.empty() || t > points.back().t) points.push_back({t, v});
+  }
+  if (jumps) {
+    breaks_.back().level = 0;
+    find_next_break();
   }
   forget(t);
 }
@@ -118,6 +132,7 @@ void Past::moved(double t, const std::vector<double>& distance) {
     track.moves.push_back({t, d});
     breaks_.back().level = 0;
   }
+  find_next_break();
 }
 
 /// What lies further back than the longest delay, and the points that its interpolation takes, is needed no more.
@@ -137,15 +152,15 @@ void Past::forget(double t) {
   }
 }
 
-double Past::next_break() const {
-  double next = infinity;
-  for (const Break& b : breaks_) {
-    if (b.level + 1 >= most_levels) continue;
-    for (const Delayed& d : delayed_) {
-      if (const double then = b.t + d.delay; then > since_ + grain(since_)) next = std::min(next, then);
-    }
+/// To be called when a break has been added or has become sharper. One that is forgotten has come through all delays.
+void Past::find_next_break() {
+  next_break_ = infinity;
+  for (const double delay : delays_) {
+    const auto over = [&](const Break& b) { return b.t + delay <= since_ + grain(since_); };
+    const auto ahead = std::partition_point(breaks_.begin(), breaks_.end(), over);
+    const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < most_levels; });
+    if (next != breaks_.end()) next_break_ = std::min(next_break_, next->t + delay);
   }
-  return next;
 }
 
 /// The polynomial through the points around t.
