@@ -15,7 +15,7 @@ namespace rheonet {
 /// signal that holds now.
 class Drive {
  public:
-  /// Before the run nodes are at `positions` (one for each node of the scene).
+  /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
   Drive(const Network& network, double start, const std::vector<double>& positions);
 
   /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.

@@ -128,7 +128,8 @@ const std::vector<Event>& Switches::follow(double t, const Modes& modes, const s
 void Switches::follow(double t, Bundle& bundle, double p) {
   const Iwan& law = *bundle.law;
   if (bundle.on != law.branch()) {
-    // It has turned, perhaps more than once: what slipped sticks, unless it has come to a bound again.
+    // It has turned, perhaps more than once: what slipped sticks, unless it has come to a bound again. Or it has only
+    // ranked its pairs anew: then what slipped goes on.
     bundle.on = law.branch();
     std::vector<std::size_t> before;
     before.swap(bundle.slipping);
