@@ -127,6 +127,19 @@ void Consistency::report_unsolved(double t) {
       at_time(*dae_.network().scene, t), dae_.describe(worst)));
 }
 
+/// One rate beyond all numbers makes others so that are solved with it: the equation that it stands in comes first.
+void Consistency::report_rate(double t, int unknown) {
+  for (int i = 0; i < dae_.size(); ++i) {
+    if (std::isfinite(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)])) continue;
+    unknown = i;
+    break;
+  }
+  throw SimulationError(fmt::format(
+      "{} {} changes at a rate beyond the range of double precision: a force or velocity there is too large, or a mass, "
+      "damping or stiffness too small against it; check the values of the elements around it",
+      at_time(*dae_.network().scene, t), dae_.describe(unknown)));
+}
+
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {
   factorise(t, y);
   dae_.time_derivative(r1_.data());
@@ -134,9 +147,8 @@ void Consistency::derivative(double t, const std::vector<double>& y, std::vector
   yp.resize(y.size());
   for (int i = 0; i < dae_.size(); ++i) yp[at(i)] = -(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)]);
   elimination_.solve(yp);
-  for (double x : yp) {
-    if (!std::isfinite(x)) report_unsolved(t);
-  }
+  const auto wild = std::find_if(yp.begin(), yp.end(), [](double x) { return !std::isfinite(x); });
+  if (wild != yp.end()) report_rate(t, static_cast<int>(wild - yp.begin()));
 }
 
 void Consistency::second_derivative(double t, double dt, const std::vector<double>& y, const std::vector<double>& yp,
@@ -190,10 +202,10 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
 void Consistency::project(double t, std::vector<double>& y) {
   const std::vector<double> before = y;
   const std::size_t n = y.size();
-  std::vector<double> change(n), trial(n), next(n), scale(n, 0), defect(n);
+  std::vector<double> change(n), trial(n), next(n), scale(n, 0);
+  std::vector<double>& defect = r0_;
   const auto defects = [&](const std::vector<double>& at_y) {
     dae_.residual(t, at_y.data(), zero_.data(), defect.data());
-    r0_ = defect;
     for (std::size_t i = 0; i < n; ++i) {
       if (dae_.differential(static_cast<int>(i))) defect[i] = 0;
     }

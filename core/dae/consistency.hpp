@@ -37,6 +37,7 @@ class Consistency {
   void eliminate(double t);
   [[noreturn]] void report_singular(double t);
   [[noreturn]] void report_unsolved(double t);
+  [[noreturn]] void report_rate(double t, int unknown);
 
   Dae& dae_;
   Elimination elimination_;
