@@ -150,6 +150,7 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
 /// the forces now at work takes its place: Newton's iteration gets away from rest with it.
 void Dae::stiffen_resting_laws() {
   double scale = -1;
+  Drive::Reach reach;
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
@@ -160,8 +161,9 @@ void Dae::stiffen_resting_laws() {
         for (std::size_t n = 1; n < v_.size(); ++n) {
           scale = std::max({scale, std::abs(view_.nodal[n]), std::abs(view_.applied[n])});
         }
+        reach = coming_reach(*drive_, v_);
       }
-      const double f = scale > 0 ? scale : coming_force(*laws.batch, i, *drive_, v_), w = laws.batch->velocity_at(i, f);
+      const double f = scale > 0 ? scale : coming_force(*laws.batch, i, reach), w = laws.batch->velocity_at(i, f);
       rate_d_[r] = if_[r] >= 0 ? w / f : f / w;
     }
   }

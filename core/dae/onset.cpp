@@ -103,8 +103,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     problem.load(slot(delayed.b), df);
   }
   const double largest = *std::max_element(now.magnitude.begin(), now.magnitude.end());
+  const Drive::Reach reach = coming_reach(drive_, state.velocity);
   const auto scale = [&](const RateBatch& batch, std::size_t i) {
-    return largest > 0 ? largest : coming_force(batch, i, drive_, state.velocity);
+    return largest > 0 ? largest : coming_force(batch, i, reach);
   };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {

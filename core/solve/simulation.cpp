@@ -12,6 +12,7 @@
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
 #include "core/solve/headway.hpp"
+#include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
 
 namespace rheonet {
@@ -54,10 +55,10 @@ class Run {
         tolerances_(network, local_share * settings.accuracy),
         systems_(network, classified_, drive_, needed, modes_, tolerances_),
         switches_(network),
-        headway_(network.scene->elements.size() + 1, settings.accuracy) {
+        headway_(network.scene->elements.size() + 1, settings.accuracy),
+        softening_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    find_least_velocities();
   }
 
   SimulationStatistics go() {
@@ -104,6 +105,7 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
+    softening_.begin(drive_, state_.velocity);
     if (!given) return;
     const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
     const StartWords words = describe_start(begin_, network_, classified_, view.velocity);
@@ -297,25 +299,7 @@ class Run {
   }
 
   void soften_laws() {
-    if (!system_->dae.rough()) return;
-    for (const Laws<RateBatch>& laws : network_.rate_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        laws.batch->soften(i, std::max(tolerances_.unresolved_velocity(), least_velocity_[at(laws.first) + i]));
-      }
-    }
-  }
-
-  /// Dilatant laws that start from rest would let their ends go there: rounding of the velocities that the drive comes to
-  /// gives them some slope.
-  void find_least_velocities() {
-    least_velocity_.assign(network_.rates.size(), 0);
-    for (const Laws<RateBatch>& laws : network_.rate_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        if (!(laws.batch->growth(i).exponent > 1)) continue;
-        const double velocity = laws.batch->velocity_at(i, coming_force(*laws.batch, i, drive_, state_.velocity));
-        least_velocity_[at(laws.first) + i] = std::numeric_limits<double>::epsilon() * velocity;
-      }
-    }
+    if (system_->dae.rough()) softening_.apply(tolerances_.unresolved_velocity());
   }
 
   /// Below a few units in the last place of t there is no time to step over [s].
@@ -402,7 +386,7 @@ class Run {
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
-  std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
+  Softening softening_;
   std::vector<int> fired_;  ///< elements at the last event
 };
 
