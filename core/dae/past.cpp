@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/dae/polynomial.hpp"
+#include "core/dae/time_grain.hpp"
 
 namespace rheonet {
 
@@ -16,9 +17,6 @@ constexpr int most_levels = 6;
 
 // Velocities that differ by this share of their magnitudes are one.
 constexpr double jump_rounding = 1e-12;
-
-// Times that differ by rounding are one.
-double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
 /// The last one that has begun by t; nullptr if none has (before the run).
 template <class Items>
@@ -75,9 +73,9 @@ void Past::mark(double t, bool fresh) {
   if (delayed_.empty()) return;
   int level = fresh ? 0 : most_levels;
   for (const double delay : delays_) {
-    const auto early = [&](const Break& b) { return b.t + delay - t < -grain(t); };
+    const auto early = [&](const Break& b) { return b.t + delay - t < -time_grain(t); };
     auto b = std::partition_point(breaks_.begin(), breaks_.end(), early);
-    for (; b != breaks_.end() && b->t + delay - t <= grain(t); ++b) level = std::min(level, b->level + 1);
+    for (; b != breaks_.end() && b->t + delay - t <= time_grain(t); ++b) level = std::min(level, b->level + 1);
   }
   forget(t);
   since_ = t;
@@ -137,7 +135,7 @@ void Past::moved(double t, const std::vector<double>& distance) {
 
 /// What lies further back than the longest delay, and the points that its interpolation takes, is needed no more.
 void Past::forget(double t) {
-  const double needed = t - longest_ - grain(t);
+  const double needed = t - longest_ - time_grain(t);
   while (!breaks_.empty() && breaks_.front().t < needed) breaks_.pop_front();
   for (Track& track : tracks_) {
     while (track.stretches.size() > 1 && track.stretches[1].t < needed) track.stretches.pop_front();
@@ -156,7 +154,7 @@ void Past::forget(double t) {
 void Past::find_next_break() {
   next_break_ = infinity;
   for (const double delay : delays_) {
-    const auto over = [&](const Break& b) { return b.t + delay <= since_ + grain(since_); };
+    const auto over = [&](const Break& b) { return b.t + delay <= since_ + time_grain(since_); };
     const auto ahead = std::partition_point(breaks_.begin(), breaks_.end(), over);
     const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < most_levels; });
     if (next != breaks_.end()) next_break_ = std::min(next_break_, next->t + delay);
@@ -197,13 +195,13 @@ double Past::velocity(NodeId node, double t, double aside) const {
 double Past::felt(std::size_t k, double t) const {
   const Delayed& d = delayed_[k];
   // t - delay has the rounding of t, also where it is nearly 0.
-  const double aside = t > since_ + grain(t) ? -grain(t) : grain(t);
+  const double aside = t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t);
   return velocity(d.a, t - d.delay, aside) - velocity(d.b, t - d.delay, aside);
 }
 
 double Past::take_steps(std::size_t k, double t) {
   const Delayed& d = delayed_[k];
-  const double until = t + grain(t);
+  const double until = t + time_grain(t);
   double sum = 0;
   for (const auto& [node, sign] : {std::pair{d.a, 1.0}, std::pair{d.b, -1.0}}) {
     if (node == ground) continue;

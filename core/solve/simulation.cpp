@@ -11,9 +11,11 @@
 #include "core/dae/rate_law.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
+#include "core/dae/time_grain.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
+#include "core/solve/ties.hpp"
 
 namespace rheonet {
 
@@ -36,8 +38,6 @@ constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
-// Constant forces balance but for this share of their magnitudes.
-constexpr double tie_rounding = 1e-9;
 
 class Run {
  public:
@@ -113,9 +113,6 @@ class Run {
     statistics_.chosen = words.chosen;
   }
 
-  const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
-  const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
-
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
   void cross(double t, bool stepped, const Instant::Fired& fired) {
     if (stepped) {
@@ -137,33 +134,11 @@ class Run {
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
     drive_.past().remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
-    check_ties(t);
+    for (const std::string& note : check_ties(dae, t)) note_once(note);
     for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
-  }
-
-  /// What only constant forces hold on to must be in balance, and stay so.
-  void check_ties(double t) {
-    for (const Structure::Tie& tie : system_->structure.ties) {
-      const Dae::Balance balance = system_->dae.balance(tie);
-      if (std::abs(balance.sum) > tie_rounding * balance.magnitude || system_->dae.load_changes(tie)) {
-        std::string elements, nodes;
-        for (int e : tie.elements) elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", element_name(e));
-        for (NodeId n : tie.nodes) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network_.node_name(n));
-        throw SimulationError(fmt::format(
-            "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass "
-            "or a dashpot, or apply less force",
-            at_time(*network_.scene, t), tie.nodes.size() > 1 ? "s" : "", nodes, elements,
-            tie.elements.size() > 1 ? "are" : "is", tie.elements.size() > 1 ? "they" : "it"));
-      }
-      std::string names;
-      for (int e : tie.elements) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", element_name(e));
-      note_once(fmt::format("{} slip under equal forces with nothing else between them: how they share the motion is left "
-                            "open, and the velocities of least norm are taken",
-                            names));
-    }
   }
 
   void note_once(const std::string& note) {
@@ -191,7 +166,7 @@ class Run {
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
     const double until = std::min({drive_.next_break(), settings_.stop, given_reversals_.next(t, std::min(drive_.next_break(), settings_.stop))});
-    if (until - t <= grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
+    if (until - t <= time_grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
     headway_.reset();
@@ -232,7 +207,7 @@ class Run {
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
-        if (headway_.standing(t, grain(t))) fail(Integrator::Outcome::stuck);
+        if (headway_.standing(t, time_grain(t))) fail(Integrator::Outcome::stuck);
         shrink = 1;
         continue;
       }
@@ -302,9 +277,6 @@ class Run {
     if (system_->dae.rough()) softening_.apply(tolerances_.unresolved_velocity());
   }
 
-  /// Below a few units in the last place of t there is no time to step over [s].
-  static double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
-
   /// The fastest rate at which the network itself changes [1/s]. A power law at rest has a slope of 0 or infinity: there it
   /// is what the forces are a moment later that counts.
   double fastest_rate(double t, double ahead, const std::vector<double>& ypp) {
@@ -350,7 +322,7 @@ class Run {
     const double omega = drive_.fastest();
     const double turn = omega > 0 && system_->events.sticks() ? longest_angle / omega : std::numeric_limits<double>::infinity();
     system_->integrator.limit_step(std::min(turn, drive_.past().shortest()));
-    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain(t)), until - t), until);
+    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
