@@ -43,7 +43,6 @@ class Run {
  public:
   Run(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings, Observer& observer)
       : network_(network),
-        needed_(needed),
         settings_(settings),
         observer_(observer),
         classified_(classify(network)),
@@ -340,7 +339,6 @@ class Run {
   }
 
   const Network& network_;
-  const std::vector<char>& needed_;
   const SimulationSettings& settings_;
   Observer& observer_;
   const Structure classified_;
