@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,7 +24,6 @@ constexpr int most_secant_steps = 300;
 constexpr int most_idle_secants = 40;
 // Of the velocities that there are: less is nothing.
 constexpr double velocity_rounding = 1e-14;
-constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// As long as it lives slopes are secants.
@@ -41,24 +37,12 @@ struct Secants {
 
 }  // namespace
 
-struct Consistency::Factor {
-  bool dense = true;
-  Eigen::MatrixXd matrix;
-  Eigen::FullPivLU<Eigen::MatrixXd> lu;
-  Eigen::SparseMatrix<double> sparse;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu;
-  bool analysed = false;
-  Eigen::VectorXd row_scale;
-};
-
-Consistency::Consistency(Dae& dae) : dae_(dae), factor_(std::make_unique<Factor>()) {
+Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   const std::size_t n = at(dae.size());
   values_.resize(at(dae.pattern().entries()));
   r0_.resize(n);
   r1_.resize(n);
   zero_.assign(n, 0);
-  factor_->dense = dae.size() <= dense_limit;
-  factor_->row_scale.resize(dae.size());
   kind_.assign(n, 0);
   const auto set = [&](int unknown, std::size_t kind) {
     if (unknown >= 0) kind_[at(unknown)] = kind;
@@ -73,66 +57,13 @@ Consistency::Consistency(Dae& dae) : dae_(dae), factor_(std::make_unique<Factor>
   for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.position_unknown(static_cast<NodeId>(k)), 3);
 }
 
-Consistency::~Consistency() = default;
-
 void Consistency::factorise(double t, const std::vector<double>& y) {
   dae_.consistency_matrix(t, y.data(), values_.data());
-  decompose(t);
+  eliminate(t);
 }
 
-/// Rows hold newtons or metres a second: each is divided by its largest entry, so that pivots can be compared.
-void Consistency::decompose(double t) {
-  const Pattern& pattern = dae_.pattern();
-  const int n = dae_.size();
-  Factor& f = *factor_;
-  f.row_scale.setZero();
-  for (std::size_t e = 0; e < values_.size(); ++e) {
-    double& s = f.row_scale[pattern.row[e]];
-    s = std::max(s, std::abs(values_[e]));
-  }
-  for (int r = 0; r < n; ++r) {
-    if (!(f.row_scale[r] > 0) || !std::isfinite(f.row_scale[r])) report_singular(t);
-    f.row_scale[r] = 1 / f.row_scale[r];
-  }
-  if (f.dense) {
-    f.matrix.setZero(n, n);
-    for (int c = 0; c < n; ++c) {
-      for (int e = pattern.column_start[at(c)]; e < pattern.column_start[at(c) + 1]; ++e) {
-        const int r = pattern.row[at(e)];
-        f.matrix(r, c) = values_[at(e)] * f.row_scale[r];
-      }
-    }
-    f.lu.setThreshold(1e-290);  // only an exact zero is singular: stiffness ratios of 1e12 are not
-    f.lu.compute(f.matrix);
-    if (!f.lu.isInvertible()) report_singular(t);
-    return;
-  }
-  if (!f.analysed) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int c = 0; c < n; ++c) {
-      for (int e = pattern.column_start[at(c)]; e < pattern.column_start[at(c) + 1]; ++e) {
-        entries.emplace_back(pattern.row[at(e)], c, 1.0);
-      }
-    }
-    f.sparse.resize(n, n);
-    f.sparse.setFromTriplets(entries.begin(), entries.end());
-    f.sparse.makeCompressed();
-    f.sparse_lu.analyzePattern(f.sparse);
-    f.analysed = true;
-  }
-  for (std::size_t e = 0; e < values_.size(); ++e) f.sparse.valuePtr()[e] = values_[e] * f.row_scale[pattern.row[e]];
-  f.sparse_lu.factorize(f.sparse);
-  if (f.sparse_lu.info() != Eigen::Success) report_singular(t);
-}
-
-void Consistency::solve(std::vector<double>& b) {
-  Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
-  const Eigen::VectorXd scaled = x.cwiseProduct(factor_->row_scale);
-  if (factor_->dense) {
-    x = factor_->lu.solve(scaled);
-  } else {
-    x = factor_->sparse_lu.solve(scaled);
-  }
+void Consistency::eliminate(double t) {
+  if (!elimination_.factorise(values_)) report_singular(t);
 }
 
 void Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
@@ -142,10 +73,10 @@ void Consistency::collocate(double t, double rate, std::vector<double>& y, std::
   double last = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     dae_.jacobian(t, rate, y.data(), yp.data(), values_.data());
-    decompose(t);
+    eliminate(t);
     dae_.residual(t, y.data(), yp.data(), r0_.data());
     for (std::size_t i = 0; i < n; ++i) change[i] = -r0_[i];
-    solve(change);
+    elimination_.solve(change);
     double size = 0;
     for (std::size_t i = 0; i < n; ++i) {
       scale[i] = std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
@@ -196,16 +127,28 @@ void Consistency::report_unsolved(double t) {
       at_time(*dae_.network().scene, t), dae_.describe(worst)));
 }
 
+/// One rate beyond all numbers makes others so that are solved with it: the equation that it stands in comes first.
+void Consistency::report_rate(double t, int unknown) {
+  for (int i = 0; i < dae_.size(); ++i) {
+    if (std::isfinite(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)])) continue;
+    unknown = i;
+    break;
+  }
+  throw SimulationError(fmt::format(
+      "{} {} changes at a rate beyond the range of double precision: a force or velocity there is too large, or a mass, "
+      "damping or stiffness too small against it; check the values of the elements around it",
+      at_time(*dae_.network().scene, t), dae_.describe(unknown)));
+}
+
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {
   factorise(t, y);
   dae_.time_derivative(r1_.data());
   dae_.residual(t, y.data(), zero_.data(), r0_.data());
   yp.resize(y.size());
   for (int i = 0; i < dae_.size(); ++i) yp[at(i)] = -(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)]);
-  solve(yp);
-  for (double x : yp) {
-    if (!std::isfinite(x)) report_unsolved(t);
-  }
+  elimination_.solve(yp);
+  const auto wild = std::find_if(yp.begin(), yp.end(), [](double x) { return !std::isfinite(x); });
+  if (wild != yp.end()) report_rate(t, static_cast<int>(wild - yp.begin()));
 }
 
 void Consistency::second_derivative(double t, double dt, const std::vector<double>& y, const std::vector<double>& yp,
@@ -259,10 +202,10 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
 void Consistency::project(double t, std::vector<double>& y) {
   const std::vector<double> before = y;
   const std::size_t n = y.size();
-  std::vector<double> change(n), trial(n), next(n), scale(n, 0), defect(n);
+  std::vector<double> change(n), trial(n), next(n), scale(n, 0);
+  std::vector<double>& defect = r0_;
   const auto defects = [&](const std::vector<double>& at_y) {
     dae_.residual(t, at_y.data(), zero_.data(), defect.data());
-    r0_ = defect;
     for (std::size_t i = 0; i < n; ++i) {
       if (dae_.differential(static_cast<int>(i))) defect[i] = 0;
     }
@@ -340,7 +283,7 @@ void Consistency::project(double t, std::vector<double>& y) {
       }
       if (idle == patience || !std::isfinite(error)) break;
       for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
-      solve(change);
+      elimination_.solve(change);
       for (std::size_t i = 0; i < n; ++i) y[i] += change[i];
     }
     y = best;
@@ -358,7 +301,7 @@ void Consistency::project(double t, std::vector<double>& y) {
     factorise(t, y);
     if (within_rounding(y)) return finish();
     for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
-    solve(change);
+    elimination_.solve(change);
     // What is small beside others of its kind is not small by itself: it may be their rounding.
     std::array<double, kinds> largest{};
     for (const double v : dae_.drive().velocity) largest[0] = std::max(largest[0], std::abs(v));
@@ -384,7 +327,7 @@ void Consistency::project(double t, std::vector<double>& y) {
         return finish();
       }
       for (std::size_t i = 0; i < n; ++i) next[i] = -defect[i];
-      solve(next);
+      elimination_.solve(next);
       if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
       if (damping < 1e-6) {
         if (size <= 1e-9 || within_rounding(y)) return finish();

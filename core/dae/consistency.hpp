@@ -1,10 +1,9 @@
 #pragma once
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "core/dae/dae.hpp"
+#include "core/dae/elimination.hpp"
 
 namespace rheonet {
 
@@ -13,7 +12,6 @@ namespace rheonet {
 class Consistency {
  public:
   explicit Consistency(Dae& dae);
-  ~Consistency();
 
   /// Solves the algebraic equations; integrals keep their values. Throws SimulationError.
   void project(double t, std::vector<double>& y);
@@ -35,15 +33,14 @@ class Consistency {
   double fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp);
 
  private:
-  struct Factor;
   void factorise(double t, const std::vector<double>& y);
-  void decompose(double t);
-  void solve(std::vector<double>& b);
+  void eliminate(double t);
   [[noreturn]] void report_singular(double t);
   [[noreturn]] void report_unsolved(double t);
+  [[noreturn]] void report_rate(double t, int unknown);
 
   Dae& dae_;
-  std::unique_ptr<Factor> factor_;
+  Elimination elimination_;
   std::vector<double> values_, r0_, r1_, zero_;
   static constexpr std::size_t kinds = 4;  ///< velocity, deflection, force, position
   std::vector<std::size_t> kind_;          ///< of each unknown

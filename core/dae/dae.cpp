@@ -155,17 +155,10 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   }
 }
 
-/// Its number among the delayed branches, -1 for others.
-int Dae::delayed(int branch) const {
-  const std::vector<Past::Delayed>& all = drive_->past().delayed();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Past::Delayed& d) { return d.branch == branch; });
-  return found == all.end() ? -1 : static_cast<int>(found - all.begin());
-}
-
 void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
   Row r{.row = row, .position = position, .flow_begin = static_cast<int>(flows_.size()), .flow_end = 0,
         .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0,
-        .delayed = position ? -1 : delayed(loop.branch)};
+        .delayed = position ? -1 : drive_->past().index_of(loop.branch)};
   flows_.insert(flows_.end(), loop.flows.begin(), loop.flows.end());
   for (const Structure::Term& term : loop.velocities) {
     // The reference of a group has no velocity of its own.
@@ -248,7 +241,7 @@ void Dae::build_pattern() {
   }
 
   if (idle_) put(0, 0, 0, 1);
-  find_bundles();
+  find_parallels();
   for (Follower& f : followers_) {
     f.own_entry = builder.ticket(f.row, ip_[at(f.branch)]);
     f.leader_entry = builder.ticket(f.row, ip_[at(f.leader)]);

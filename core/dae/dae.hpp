@@ -13,7 +13,7 @@
 namespace rheonet {
 
 /// The equations of a network in one set of modes, F(t, y, y') = 0, of index 1 or less for any wiring. Linear in y', with a
-/// matrix that is constant but for branches that are held still together (Bundle).
+/// matrix that is constant but for branches that are held still together (Parallel).
 ///
 /// Sliders are no part of the equations: those that stick join their ends, those that slip are constant forces.
 ///
@@ -82,6 +82,8 @@ class Dae {
   const View& view(double t, const double* y, const double* yp);
   /// Displacement of a branch that does not creep, to the last digit of its deflection. After `view`.
   double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
+  /// Deflection at t of a branch that is no unknown [m]: both its ends are prescribed.
+  double driven_deflection(int branch, double t) const;
   /// Sum of the forces at the nodes of a tie [N], and of their magnitudes. After `view`.
   struct Balance { double sum, magnitude; };
   Balance balance(const Structure::Tie& tie) const;
@@ -114,7 +116,7 @@ class Dae {
   void stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing);
   /// All that are held still between the ends of this branch are let go as it has been: in the direction of its law.
   /// Returns them.
-  std::vector<int> release_bundle(int branch, double w);
+  std::vector<int> release_parallel(int branch, double w);
 
   /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed. What laws turn into heat that know
   /// it in closed form is left out of the power: their sum since their memories changed last [J].
@@ -141,14 +143,15 @@ class Dae {
   /// and 1 (Filippov: the same mixture of both directions for all of them). The first carries the equation w = 0, the
   /// others share its mixture: with the rates of hold_rates
   ///     (p' - backward)/(forward - backward) = (the same of the first).
-  struct Bundle { std::vector<int> branches; };
+  struct Parallel { std::vector<int> branches; };
   struct Follower { int branch, leader, row, own_entry, leader_entry; std::vector<int> row_entries; bool active; };
-  void find_bundles();
+  // standing.cpp
+  void find_parallels();
   /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends. `lean` as
   /// for DeflectionBatch::hold.
-  void hold_bundle(int branch, int lean);
+  void hold_parallel(int branch, int lean);
   /// Another branch between the same ends has been held, and this one with it.
-  bool bundled_with_held(int branch, const std::vector<Standing>& standing) const;
+  bool beside_held(int branch, const std::vector<Standing>& standing) const;
   /// Rate p' of a follower, and its derivatives by p, by the leader's p and by the leader's p'.
   struct Shared { double rate, by_own, by_leader, by_leader_rate; };
   Shared share(const Follower& follower, double leader_rate) const;
@@ -157,10 +160,12 @@ class Dae {
   void number_unknowns();
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
-  int delayed(int branch) const;
   void build_pattern();
+  // evaluate.cpp
   void gather(double t, const double* y);
   void sum_forces();
+  void evaluate_forces(double t, const double* y);
+  // view.cpp
   void share_among_joined();
   void view_velocities(const double* yp);
   void set_rate_forms();
@@ -181,7 +186,7 @@ class Dae {
   Pattern pattern_;
   std::vector<double> constant_, mass_;  ///< of each entry of the pattern
   struct FlowEntry { int entry, branch; double sign; };
-  std::vector<Bundle> bundles_;            ///< of two or more
+  std::vector<Parallel> parallels_;        ///< of two or more
   std::vector<Follower> followers_;
   std::vector<FlowEntry> flow_entries_;    ///< coefficients of p' that vanish while their branch is held still
   std::vector<double> fixed_mass_;         ///< mass_ without those

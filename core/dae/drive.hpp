@@ -15,7 +15,7 @@ namespace rheonet {
 /// signal that holds now.
 class Drive {
  public:
-  /// Before the run nodes are at `positions` (one for each node of the scene).
+  /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
   Drive(const Network& network, double start, const std::vector<double>& positions);
 
   /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.
@@ -32,6 +32,9 @@ class Drive {
 
   /// Evaluates all at time t (remembered: a second call at the same t costs nothing).
   void evaluate(double t);
+
+  /// Position at t of motion number `m` of the network, on its present stretch [m].
+  double position_at(int m, double t) const { return position_of(motions_[static_cast<std::size_t>(m)], t); }
 
   /// What delayed branches feel. An event at t is a break of it too.
   Past& past() { return past_; }

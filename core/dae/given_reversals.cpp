@@ -9,12 +9,12 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
-GivenReversals::GivenReversals(const Network& network, const Structure& classified, Drive& drive)
-    : structure_(classified), drive_(drive) {
+GivenReversals::GivenReversals(const Network& network, const Structure& classified, Drive& drive) : drive_(drive) {
   const auto known = [&](NodeId node) { return classified.kind[at(node)] == Kind::known; };
   const auto add = [&](const Branch& b) {
-    const auto same = [&](const Branch& o) { return o.a == b.a && o.b == b.b; };
-    if (known(b.a) && known(b.b) && std::none_of(pairs_.begin(), pairs_.end(), same)) pairs_.push_back(b);
+    if (!known(b.a) || !known(b.b)) return;
+    const auto pair = std::minmax(classified.motion[at(b.a)], classified.motion[at(b.b)]);
+    if (pair.first != pair.second) pairs_.insert(pair);  // one motion does not move against itself
   };
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -26,9 +26,7 @@ GivenReversals::GivenReversals(const Network& network, const Structure& classifi
 
 double GivenReversals::next(double t, double limit) const {
   double next = std::numeric_limits<double>::infinity();
-  for (const Branch& b : pairs_) {
-    next = std::min(next, drive_.next_reversal(structure_.motion[at(b.a)], structure_.motion[at(b.b)], t, limit));
-  }
+  for (const auto& [a, b] : pairs_) next = std::min(next, drive_.next_reversal(a, b, t, limit));
   return next;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <vector>
+#include <set>
+#include <utility>
 
 #include "core/dae/drive.hpp"
 #include "core/network/structure.hpp"
@@ -11,16 +12,15 @@ namespace rheonet {
 /// step can miss them.
 class GivenReversals {
  public:
-  /// `classified` is the network's structure with every slider slipping. All must outlive this.
+  /// `classified` is the network's structure with every slider slipping. The drive must outlive this.
   GivenReversals(const Network& network, const Structure& classified, Drive& drive);
 
   /// The first after t [s]; infinite if there is none before `limit`.
   double next(double t, double limit) const;
 
  private:
-  const Structure& structure_;
   Drive& drive_;
-  std::vector<Branch> pairs_;  ///< each pair of ends once
+  std::set<std::pair<int, int>> pairs_;  ///< of motions (-1: ground) that move against each other: each pair once
 };
 
 }  // namespace rheonet

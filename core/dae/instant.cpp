@@ -49,7 +49,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
-    came_to_rest_[k] = event && !stepped ? modes.slider[k] : Modes::stuck;
+    came_to_rest_[k] = Modes::stuck;
+    if (event && !stepped) came_to_rest_[k] = modes.slider[k];
     slipping_[k] = event ? 0 : modes.slider[k];
   }
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.

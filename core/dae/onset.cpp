@@ -66,7 +66,8 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
 
   std::vector<double> f(state.p.size()), c(f), at_rest(f);
   double least_slope = std::numeric_limits<double>::infinity();
-  std::vector<int> deflection_branch(state.p.size()), slider_branch(network_.sliders.size()), bound_side(slider_branch);
+  std::vector<int> deflection_branch(state.p.size(), -1);  // -1: a load, which has no direction to choose
+  std::vector<int> slider_branch(network_.sliders.size()), bound_side(slider_branch);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     const std::size_t k = at(laws.first);
     laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
@@ -102,8 +103,9 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
     problem.load(slot(delayed.b), df);
   }
   const double largest = *std::max_element(now.magnitude.begin(), now.magnitude.end());
+  const Drive::Reach reach = coming_reach(drive_, state.velocity);
   const auto scale = [&](const RateBatch& batch, std::size_t i) {
-    return largest > 0 ? largest : coming_force(batch, i, drive_, state.velocity);
+    return largest > 0 ? largest : coming_force(batch, i, reach);
   };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -193,9 +195,8 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
                               const State& state, Change& change) {
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->events(i) == 0 || contains(fired.starts, laws.first + static_cast<int>(i))) continue;
-      if (reversed(fired, laws.first + static_cast<int>(i))) continue;
       const int j = laws.first + static_cast<int>(i);
+      if (index[at(j)] < 0 || laws.batch->events(i) == 0 || contains(fired.starts, j) || reversed(fired, j)) continue;
       const Branch& b = network_.deflections[at(j)];
       const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = problem.difference(slot(b.a), slot(b.b));
       const int direction =

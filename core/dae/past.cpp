@@ -4,21 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dae/polynomial.hpp"
+#include "core/dae/time_grain.hpp"
+
 namespace rheonet {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Points that one interpolation takes: those of a step of order 5.
-constexpr std::size_t most_points = 6;
 // What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
 constexpr int most_levels = 6;
 
 // Velocities that differ by this share of their magnitudes are one.
 constexpr double jump_rounding = 1e-12;
-
-// Times that differ by rounding are one.
-double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
 /// The last one that has begun by t; nullptr if none has (before the run).
 template <class Items>
@@ -29,14 +27,20 @@ auto* current(Items& items, double t) {
 
 }  // namespace
 
-Past::Past(const Network& network) : track_of_(network.nodes(), -1), shortest_(infinity) {
+Past::Past(const Network& network)
+    : index_of_(network.deflections.size(), -1),
+      track_of_(network.nodes(), -1),
+      track_of_motion_(network.motions.size(), -1),
+      shortest_(infinity) {
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const double delay = laws.batch->delay(i);
       if (delay == 0) continue;
       const int branch = laws.first + static_cast<int>(i);
       const Branch& b = network.deflections[static_cast<std::size_t>(branch)];
+      index_of_[static_cast<std::size_t>(branch)] = static_cast<int>(delayed_.size());
       delayed_.push_back({branch, b.a, b.b, delay});
+      delays_.push_back(delay);
       shortest_ = std::min(shortest_, delay);
       longest_ = std::max(longest_, delay);
       for (NodeId node : {b.a, b.b}) {
@@ -47,9 +51,12 @@ Past::Past(const Network& network) : track_of_(network.nodes(), -1), shortest_(i
       }
     }
   }
+  std::sort(delays_.begin(), delays_.end());
+  delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
   taken_.assign(delayed_.size(), -infinity);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
-    if (Track* t = track(network.motions[m].node)) t->motion = static_cast<int>(m);
+    track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
+    if (track_of_motion_[m] >= 0) tracks_[static_cast<std::size_t>(track_of_motion_[m])].motion = static_cast<int>(m);
   }
 }
 
@@ -65,10 +72,10 @@ void Past::begin(const std::vector<double>& velocity) {
 void Past::mark(double t, bool fresh) {
   if (delayed_.empty()) return;
   int level = fresh ? 0 : most_levels;
-  for (const Break& b : breaks_) {
-    for (const Delayed& d : delayed_) {
-      if (std::abs(b.t + d.delay - t) <= grain(t)) level = std::min(level, b.level + 1);
-    }
+  for (const double delay : delays_) {
+    const auto early = [&](const Break& b) { return b.t + delay - t < -time_grain(t); };
+    auto b = std::partition_point(breaks_.begin(), breaks_.end(), early);
+    for (; b != breaks_.end() && b->t + delay - t <= time_grain(t); ++b) level = std::min(level, b->level + 1);
   }
   forget(t);
   since_ = t;
@@ -84,17 +91,18 @@ void Past::mark(double t, bool fresh) {
       track.runs.push_back({t, {}});
     }
   }
+  find_next_break();
 }
 
 void Past::follow(std::size_t m, double t, const Piece& piece, bool position) {
-  for (Track& track : tracks_) {
-    if (track.motion != static_cast<int>(m)) continue;
-    if (!track.stretches.empty() && track.stretches.back().t >= t) track.stretches.pop_back();
-    track.stretches.push_back({t, piece, position});
-  }
+  if (track_of_motion_[m] < 0) return;
+  Track& track = tracks_[static_cast<std::size_t>(track_of_motion_[m])];
+  if (!track.stretches.empty() && track.stretches.back().t >= t) track.stretches.pop_back();
+  track.stretches.push_back({t, piece, position});
 }
 
 void Past::remember(double t, const std::vector<double>& velocity) {
+  bool jumps = false;
   for (Track& track : tracks_) {
     if (track.motion >= 0 || track.runs.empty()) continue;
     std::vector<Point>& points = track.runs.back().points;
@@ -103,10 +111,14 @@ void Past::remember(double t, const std::vector<double>& velocity) {
       // What jumps is as sharp as at first, whatever it has come through.
       const std::vector<Point>& earlier = std::prev(track.runs.end(), 2)->points;
       if (!earlier.empty() && std::abs(v - earlier.back().v) > jump_rounding * (std::abs(v) + std::abs(earlier.back().v))) {
-        breaks_.back().level = 0;
+        jumps = true;
       }
     }
     if (points.empty() || t > points.back().t) points.push_back({t, v});
+  }
+  if (jumps) {
+    breaks_.back().level = 0;
+    find_next_break();
   }
   forget(t);
 }
@@ -118,11 +130,12 @@ void Past::moved(double t, const std::vector<double>& distance) {
     track.moves.push_back({t, d});
     breaks_.back().level = 0;
   }
+  find_next_break();
 }
 
 /// What lies further back than the longest delay, and the points that its interpolation takes, is needed no more.
 void Past::forget(double t) {
-  const double needed = t - longest_ - grain(t);
+  const double needed = t - longest_ - time_grain(t);
   while (!breaks_.empty() && breaks_.front().t < needed) breaks_.pop_front();
   for (Track& track : tracks_) {
     while (track.stretches.size() > 1 && track.stretches[1].t < needed) track.stretches.pop_front();
@@ -131,41 +144,37 @@ void Past::forget(double t) {
     if (track.runs.empty()) continue;
     std::vector<Point>& points = track.runs.front().points;
     const auto first = std::lower_bound(points.begin(), points.end(), needed, [](const Point& p, double x) { return p.t < x; });
-    const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(most_points);
+    const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(step_points);
     // Now and then many at once: each costs a move of all that stay.
     if (spare > static_cast<std::ptrdiff_t>(points.size() / 2)) points.erase(points.begin(), points.begin() + spare);
   }
 }
 
-double Past::next_break() const {
-  double next = infinity;
-  for (const Break& b : breaks_) {
-    if (b.level + 1 >= most_levels) continue;
-    for (const Delayed& d : delayed_) {
-      if (const double then = b.t + d.delay; then > since_ + grain(since_)) next = std::min(next, then);
-    }
+/// To be called when a break has been added or has become sharper. One that is forgotten has come through all delays.
+void Past::find_next_break() {
+  next_break_ = infinity;
+  for (const double delay : delays_) {
+    const auto over = [&](const Break& b) { return b.t + delay <= since_ + time_grain(since_); };
+    const auto ahead = std::partition_point(breaks_.begin(), breaks_.end(), over);
+    const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < most_levels; });
+    if (next != breaks_.end()) next_break_ = std::min(next_break_, next->t + delay);
   }
-  return next;
 }
 
-/// The polynomial through the points around t, by Newton's divided differences.
+/// The polynomial through the points around t.
 double Past::interpolate(const Run& run, double t) {
   const std::vector<Point>& points = run.points;
   if (points.empty()) return 0;
-  const std::size_t count = std::min(most_points, points.size());
+  const std::size_t count = std::min(step_points, points.size());
   const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t first = std::min(middle > count / 2 ? middle - count / 2 : 0, points.size() - count);
-  double difference[most_points];
-  for (std::size_t k = 0; k < count; ++k) difference[k] = points[first + k].v;
-  for (std::size_t order = 1; order < count; ++order) {
-    for (std::size_t k = count - 1; k >= order; --k) {
-      difference[k] = (difference[k] - difference[k - 1]) / (points[first + k].t - points[first + k - order].t);
-    }
+  double times[step_points] = {}, velocities[step_points] = {};
+  for (std::size_t k = 0; k < count; ++k) {
+    times[k] = points[first + k].t;
+    velocities[k] = points[first + k].v;
   }
-  double v = difference[count - 1];
-  for (std::size_t k = count - 1; k-- > 0;) v = v * (t - points[first + k].t) + difference[k];
-  return v;
+  return rheonet::interpolate(times, velocities, count, t);
 }
 
 // At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
@@ -186,13 +195,13 @@ double Past::velocity(NodeId node, double t, double aside) const {
 double Past::felt(std::size_t k, double t) const {
   const Delayed& d = delayed_[k];
   // t - delay has the rounding of t, also where it is nearly 0.
-  const double aside = t > since_ + grain(t) ? -grain(t) : grain(t);
+  const double aside = t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t);
   return velocity(d.a, t - d.delay, aside) - velocity(d.b, t - d.delay, aside);
 }
 
 double Past::take_steps(std::size_t k, double t) {
   const Delayed& d = delayed_[k];
-  const double until = t + grain(t);
+  const double until = t + time_grain(t);
   double sum = 0;
   for (const auto& [node, sign] : {std::pair{d.a, 1.0}, std::pair{d.b, -1.0}}) {
     if (node == ground) continue;

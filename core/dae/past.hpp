@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <vector>
 
 #include "core/network/network.hpp"
@@ -20,6 +21,8 @@ class Past {
 
   struct Delayed { int branch; NodeId a, b; double delay; };
   const std::vector<Delayed>& delayed() const { return delayed_; }
+  /// The number in `delayed` of a deflection branch of the network, -1 for others.
+  int index_of(int branch) const { return index_of_[static_cast<std::size_t>(branch)]; }
   /// The shortest delay [s]; infinite if there is none.
   double shortest() const { return shortest_; }
 
@@ -35,7 +38,7 @@ class Past {
   void moved(double t, const std::vector<double>& distance);
 
   /// The next instant after the last break at which something comes through [s]; infinite if there is none.
-  double next_break() const;
+  double next_break() const { return next_break_; }
   /// What branch number k of `delayed` feels at t [m/s].
   double felt(std::size_t k, double t) const;
   /// By how much its ends have come apart in no time, as it feels it: what has come through by t since it was last asked [m].
@@ -59,14 +62,19 @@ class Past {
   double velocity(NodeId node, double t, double aside) const;  ///< of the stretch that t + aside lies in
   static double interpolate(const Run& run, double t);
   void forget(double t);
+  void find_next_break();
 
   std::vector<Delayed> delayed_;
+  std::vector<int> index_of_;   ///< of each deflection branch, -1
+  std::vector<double> delays_;  ///< those that there are, each once
   std::vector<Track> tracks_;
-  std::vector<int> track_of_;  ///< of each node, -1
+  std::vector<int> track_of_;   ///< of each node, -1
+  std::vector<int> track_of_motion_;  ///< of each, -1
   std::deque<Break> breaks_;
   std::vector<double> taken_;  ///< of each delayed branch: up to when steps have been taken [s]
   double shortest_, longest_ = 0;
   double since_ = 0;           ///< the last break [s]
+  double next_break_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace rheonet

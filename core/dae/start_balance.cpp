@@ -174,9 +174,9 @@ class StartBalance {
       deflection(m) = p;
       if (!(std::abs(force(m, p) - f) <= tolerance_ * std::abs(f))) report(g);
       chosen_.push_back(
-          fmt::format("element `{}` starts with a force of {:.6g} {}: it has no f0, and has to balance what is "
-                      "given at node `{}`",
-                      network_.name_of(m.ends), f, unit_of(Quantity::force, network_.scene->domain), name(g)));
+          fmt::format("element `{}` starts with a force of {}: it has no f0, and has to balance what is given at node "
+                      "`{}`",
+                      network_.name_of(m.ends), with_unit(*network_.scene, f, Quantity::force), name(g)));
     }
     m.given = m.forced = true;
     return true;
@@ -255,9 +255,9 @@ class StartBalance {
     for (const Side& side : around_[at(g)]) {
       const Member& m = members_[at(side.member)];
       if (m.forced && m.ends.element < first) spot = network_.spot_of(first = m.ends.element);
-      forces += fmt::format("{}`{}` {}with {:.6g} {}", forces.empty() ? "" : ", ", network_.name_of(m.ends),
-                            forces.empty() ? "begins " : "", force(m, deflection(m)),
-                            unit_of(Quantity::force, network_.scene->domain));
+      forces += fmt::format("{}`{}` {}with {}", forces.empty() ? "" : ", ", network_.name_of(m.ends),
+                            forces.empty() ? "begins " : "",
+                            with_unit(*network_.scene, force(m, deflection(m)), Quantity::force));
     }
     throw SimulationError(
         spot, fmt::format("the initial forces at node `{}` do not balance, and it has no mass: {}; leave one "

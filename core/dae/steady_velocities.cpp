@@ -38,7 +38,6 @@ bool Settling::find_velocities() {
   for (const Law& law : laws_) {
     for (double f : {law.steady.rest, law.steady.bound}) scale = std::isfinite(f) ? std::max(scale, f) : scale;
   }
-  if (scale == 0) scale = 1;
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
     const DeflectionBatch::Steady& s = laws_[j].steady;
@@ -105,11 +104,15 @@ ConvexNetwork Settling::velocity_problem() const {
   return problem;
 }
 
+/// Where nothing loads the network and nothing in it slides (`scale` is 0), each element is judged by what it comes to.
 void Settling::add_rates(ConvexNetwork& problem, double scale) const {
+  const Drive::Reach reach = coming_reach(drive_, velocity_);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      if (!together(b)) problem.add(leader(b.a), leader(b.b), rate_law(*laws.batch, i, scale));
+      if (together(b)) continue;
+      const double force = scale > 0 ? scale : coming_force(*laws.batch, i, reach);
+      problem.add(leader(b.a), leader(b.b), rate_law(*laws.batch, i, force));
     }
   }
 }

@@ -26,16 +26,17 @@ Comparisons comparisons_of(std::string_view text) {
   std::vector<bool> compared{false};  // at each depth of parentheses, since the last && || ? : ,
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    const bool equal_sign_follows = i + 1 < text.size() && text[i + 1] == '=';
     if (c == '(') {
       compared.push_back(false);
     } else if (c == ')' && compared.size() > 1) {
       compared.pop_back();
     } else if (std::string_view("&|?:,").find(c) != std::string_view::npos) {
       compared.back() = false;
-    } else if (std::string_view("<>=!").find(c) != std::string_view::npos) {
+    } else if (std::string_view("<>=").find(c) != std::string_view::npos || (c == '!' && equal_sign_follows)) {
       if (compared.back() && found.chained == std::string_view::npos) found.chained = i;
       compared.back() = found.any = true;
-      if (i + 1 < text.size() && text[i + 1] == '=') ++i;
+      if (equal_sign_follows) ++i;
     }
   }
   return found;

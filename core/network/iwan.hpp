@@ -17,10 +17,10 @@ namespace rheonet {
 ///     s F(x) = sum of min(s f_i + k_i x, Fc_i),      pair i yields at x = y_i = (Fc_i - s f_i)/k_i
 ///
 /// whatever the speed. The pairs in the order of y_i, and the sums over those that have yielded and over those that
-/// have not, make F, its slope and its energies a search among the y_i, O(log N). A reversal makes them anew, O(N): the
-/// f_i are all that is remembered of the past, so that inner loops close and are wiped out by themselves, and any
-/// initial forces are as good as those of a virgin bundle. (Once all have yielded the y_i are in the order of 2
-/// Fc_i/k_i for good, Masing's rule: nothing is left to sort.)
+/// have not, make F, its slope and its energies a search among the y_i, O(log N). A reversal makes them anew, O(N) as
+/// long as their order stays, O(N log N) where it changes: the f_i are all that is remembered of the past, so that inner
+/// loops close and are wiped out by themselves, and any initial forces are as good as those of a virgin bundle. (Once all
+/// have yielded the y_i are in the order of 2 Fc_i/k_i for good, Masing's rule: nothing is left to sort.)
 ///
 /// A yield is a kink of F. Kinks of many small pairs are left to the integrator's error control; one that takes more
 /// than `kink_share` of the bundle's stiffness, and the last one, beyond which F is constant, are events. Up to the
@@ -81,7 +81,8 @@ class Iwan {
   std::size_t in_order(std::size_t rank) const { return order_[rank]; }
   /// Deflection at which they do.
   double yield_point(std::size_t rank) const { return p_ref_ + s_ * y_[rank]; }
-  /// Changes with every reversal.
+  /// Changes whenever the ranks are given anew: at every beginning and reversal, and where pass_kink finds that a pair has
+  /// not quite come to its bound. While it stays, `yielded` counts along one order, and grows by yields alone.
   long branch() const { return branch_; }
 
  private:
@@ -109,7 +110,7 @@ class Iwan {
   double kink_share_;
   double total_stiffness_ = 0, total_force_ = 0;
 
-  // Since the last reversal:
+  // Since the last reversal, or whatever else gave the ranks anew (see branch):
   int s_ = 1;
   double p_ref_ = 0;
   std::vector<double> f_;                  ///< of each pair, at the reversal [N]

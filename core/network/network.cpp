@@ -138,6 +138,12 @@ std::string with_unit(const Scene& scene, double value, Quantity quantity) {
   return fmt::format("{:.6g} {}", value, unit_of(quantity, scene.domain));
 }
 
+bool prescribes_position(const SceneElement& motion) {
+  const auto declaration = static_cast<std::size_t>(motion.declaration);
+  const auto parameter = static_cast<std::size_t>(motion.signal_parameters.at(0));
+  return components()[declaration]->declaration.parameters[parameter].quantity == Quantity::position;
+}
+
 Network build_network(const Scene& scene) {
   Network network;
   network.scene = &scene;
@@ -190,12 +196,10 @@ Network build_network(const Scene& scene) {
         place = {role, static_cast<int>(network.masses.size())};
         network.masses.push_back({index, a, law.values[0]});
         break;
-      case Role::motion: {
+      case Role::motion:
         place = {role, static_cast<int>(network.motions.size())};
-        const bool position = element.signal_parameters.at(0) == 0;
-        network.motions.push_back({index, a, element.signals.at(0).seen_from(scene.start), position});
+        network.motions.push_back({index, a, element.signals.at(0).seen_from(scene.start), prescribes_position(element)});
         break;
-      }
       case Role::force:
         place = {role, static_cast<int>(network.forces.size())};
         network.forces.push_back({index, a, element.at ? -1 : b, element.signals.at(0).seen_from(scene.start)});

@@ -81,6 +81,9 @@ std::string at_time(const Scene& scene, double t);
 /// "0.3 m" or "0.3 rad": for messages.
 std::string with_unit(const Scene& scene, double value, Quantity quantity);
 
+/// Whether an element of the role `motion` prescribes a position; else it prescribes a velocity.
+bool prescribes_position(const SceneElement& motion);
+
 /// The scene must outlive the network. Throws SimulationError for elements that no network can have.
 Network build_network(const Scene& scene);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/network.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -51,7 +53,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
       if (is_spring(laws[e])) t.spring = static_cast<int>(e);
       if (is_plain_slider(laws[e])) t.slider = static_cast<int>(e);
       t.firm = t.firm || role == Role::mass || role == Role::motion;
-      if (role == Role::motion && element.signal_parameters.at(0) == 0) {
+      if (role == Role::motion && prescribes_position(element)) {
         t.start = {element.signals.at(0).before(scene.start), element.signals.at(0).value(scene.start)};
       }
       if (starts_displaced(scene, e)) t.start = {not_given};

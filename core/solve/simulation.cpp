@@ -11,8 +11,11 @@
 #include "core/dae/rate_law.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
+#include "core/dae/time_grain.hpp"
 #include "core/solve/headway.hpp"
+#include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
+#include "core/solve/ties.hpp"
 
 namespace rheonet {
 
@@ -35,14 +38,11 @@ constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
-// Constant forces balance but for this share of their magnitudes.
-constexpr double tie_rounding = 1e-9;
 
 class Run {
  public:
   Run(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings, Observer& observer)
       : network_(network),
-        needed_(needed),
         settings_(settings),
         observer_(observer),
         classified_(classify(network)),
@@ -54,10 +54,10 @@ class Run {
         tolerances_(network, local_share * settings.accuracy),
         systems_(network, classified_, drive_, needed, modes_, tolerances_),
         switches_(network),
-        headway_(network.scene->elements.size() + 1, settings.accuracy) {
+        headway_(network.scene->elements.size() + 1, settings.accuracy),
+        softening_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    find_least_velocities();
   }
 
   SimulationStatistics go() {
@@ -104,15 +104,13 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
+    softening_.begin(drive_, state_.velocity);
     if (!given) return;
     const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
     const StartWords words = describe_start(begin_, network_, classified_, view.velocity);
     statistics_.notes.insert(statistics_.notes.end(), words.notes.begin(), words.notes.end());
     statistics_.chosen = words.chosen;
   }
-
-  const std::string& element_name(int element) const { return network_.scene->elements[at(element)].name; }
-  const std::string& branch_name(int branch) const { return network_.name_of(network_.deflections[at(branch)]); }
 
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
   void cross(double t, bool stepped, const Instant::Fired& fired) {
@@ -135,33 +133,11 @@ class Run {
     system_->consistency.project(t, y_);
     system_->consistency.derivative(t, y_, yp_);
     drive_.past().remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
-    check_ties(t);
+    for (const std::string& note : check_ties(dae, t)) note_once(note);
     for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) observer_.event(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
-  }
-
-  /// What only constant forces hold on to must be in balance, and stay so.
-  void check_ties(double t) {
-    for (const Structure::Tie& tie : system_->structure.ties) {
-      const Dae::Balance balance = system_->dae.balance(tie);
-      if (std::abs(balance.sum) > tie_rounding * balance.magnitude || system_->dae.load_changes(tie)) {
-        std::string elements, nodes;
-        for (int e : tie.elements) elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", element_name(e));
-        for (NodeId n : tie.nodes) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network_.node_name(n));
-        throw SimulationError(fmt::format(
-            "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass "
-            "or a dashpot, or apply less force",
-            at_time(*network_.scene, t), tie.nodes.size() > 1 ? "s" : "", nodes, elements,
-            tie.elements.size() > 1 ? "are" : "is", tie.elements.size() > 1 ? "they" : "it"));
-      }
-      std::string names;
-      for (int e : tie.elements) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", element_name(e));
-      note_once(fmt::format("{} slip under equal forces with nothing else between them: how they share the motion is left "
-                            "open, and the velocities of least norm are taken",
-                            names));
-    }
   }
 
   void note_once(const std::string& note) {
@@ -189,7 +165,7 @@ class Run {
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
     const double until = std::min({drive_.next_break(), settings_.stop, given_reversals_.next(t, std::min(drive_.next_break(), settings_.stop))});
-    if (until - t <= grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
+    if (until - t <= time_grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
     headway_.reset();
@@ -219,7 +195,7 @@ class Run {
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       drive_.past().remember(t, view.velocity);
-      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, settings_.switch_times)) {
+      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
         observer_.event(event);
       }
       soften_laws();
@@ -230,7 +206,7 @@ class Run {
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
-        if (headway_.standing(t, grain(t))) fail(Integrator::Outcome::stuck);
+        if (headway_.standing(t, time_grain(t))) fail(Integrator::Outcome::stuck);
         shrink = 1;
         continue;
       }
@@ -286,7 +262,7 @@ class Run {
       batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
       if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
       if (held) {
-        const std::vector<int> released = dae.release_bundle(branch, view.flow[at(branch)]);
+        const std::vector<int> released = dae.release_parallel(branch, view.flow[at(branch)]);
         switched.insert(switched.end(), released.begin(), released.end());
         std::vector<int>& list = batch.direction(i) == 0 ? sudden.rests : sudden.starts;
         list.push_back(branch);
@@ -297,29 +273,8 @@ class Run {
   }
 
   void soften_laws() {
-    if (!system_->dae.rough()) return;
-    for (const Laws<RateBatch>& laws : network_.rate_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        laws.batch->soften(i, std::max(tolerances_.unresolved_velocity(), least_velocity_[at(laws.first) + i]));
-      }
-    }
+    if (system_->dae.rough()) softening_.apply(tolerances_.unresolved_velocity());
   }
-
-  /// Dilatant laws that start from rest would let their ends go there: rounding of the velocities that the drive comes to
-  /// gives them some slope.
-  void find_least_velocities() {
-    least_velocity_.assign(network_.rates.size(), 0);
-    for (const Laws<RateBatch>& laws : network_.rate_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        if (!(laws.batch->growth(i).exponent > 1)) continue;
-        const double velocity = laws.batch->velocity_at(i, coming_force(*laws.batch, i, drive_, state_.velocity));
-        least_velocity_[at(laws.first) + i] = std::numeric_limits<double>::epsilon() * velocity;
-      }
-    }
-  }
-
-  /// Below a few units in the last place of t there is no time to step over [s].
-  static double grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
   /// The fastest rate at which the network itself changes [1/s]. A power law at rest has a slope of 0 or infinity: there it
   /// is what the forces are a moment later that counts.
@@ -366,7 +321,7 @@ class Run {
     const double omega = drive_.fastest();
     const double turn = omega > 0 && system_->events.sticks() ? longest_angle / omega : std::numeric_limits<double>::infinity();
     system_->integrator.limit_step(std::min(turn, drive_.past().shortest()));
-    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, grain(t)), until - t), until);
+    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
@@ -384,7 +339,6 @@ class Run {
   }
 
   const Network& network_;
-  const std::vector<char>& needed_;
   const SimulationSettings& settings_;
   Observer& observer_;
   const Structure classified_;
@@ -402,7 +356,7 @@ class Run {
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
   Headway headway_;
-  std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
+  Softening softening_;
   std::vector<int> fired_;  ///< elements at the last event
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dae/polynomial.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -42,6 +44,37 @@ double first_below_zero(const G& g, double left, double right) {
   }
   return best;
 }
+
+/// Deflections within the integrator's last step, each by itself: of a step of so low an order the solution at a few
+/// times tells that of every single unknown at all others.
+class WithinStep {
+ public:
+  WithinStep(const Integrator& integrator, const Dae& dae) : integrator_(integrator), dae_(dae) {}
+
+  double deflection(int branch, double t) {
+    const int unknown = dae_.deflection_unknown(branch);
+    if (unknown < 0) return dae_.driven_deflection(branch, t);
+    if (samples_[0].empty()) take_samples();
+    double p[step_points];
+    for (std::size_t k = 0; k < step_points; ++k) p[k] = samples_[k][static_cast<std::size_t>(unknown)];
+    return interpolate(times_, p, step_points, t);
+  }
+
+ private:
+  void take_samples() {
+    const double begin = integrator_.previous_time(), end = integrator_.time();
+    for (std::size_t k = 0; k < step_points; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(step_points - 1);
+      times_[k] = begin + share * (end - begin);
+      integrator_.interpolate(times_[k], 0, samples_[k]);
+    }
+  }
+
+  const Integrator& integrator_;
+  const Dae& dae_;
+  double times_[step_points] = {};
+  std::vector<double> samples_[step_points];
+};
 
 }  // namespace
 
@@ -95,7 +128,8 @@ const std::vector<Event>& Switches::follow(double t, const Modes& modes, const s
 void Switches::follow(double t, Bundle& bundle, double p) {
   const Iwan& law = *bundle.law;
   if (bundle.on != law.branch()) {
-    // It has turned, perhaps more than once: what slipped sticks, unless it has come to a bound again.
+    // It has turned, perhaps more than once: what slipped sticks, unless it has come to a bound again. Or it has only
+    // ranked its pairs anew: then what slipped goes on.
     bundle.on = law.branch();
     std::vector<std::size_t> before;
     before.swap(bundle.slipping);
@@ -124,23 +158,19 @@ void Switches::tell(double t, const Bundle& bundle, std::size_t index, int befor
   turn(t, pair.slider, sign * before, sign * after, "stick", "slip");
 }
 
-const std::vector<Event>& Switches::follow_step(const Integrator& integrator, Dae& dae, bool timed) {
+const std::vector<Event>& Switches::follow_step(const Integrator& integrator, const Dae& dae,
+                                                const std::vector<double>& p, bool timed) {
   events_.clear();
-  if (bundles_.empty()) return events_;
-  std::vector<double> y, yp;
-  const auto deflection = [&](const Bundle& bundle, double t) {
-    integrator.interpolate(t, 0, y);
-    integrator.interpolate(t, 1, yp);
-    return dae.view(t, y.data(), yp.data()).p[static_cast<std::size_t>(bundle.branch)];
-  };
+  WithinStep step(integrator, dae);
   const double end = integrator.time();
   for (Bundle& bundle : bundles_) {
     const Iwan& law = *bundle.law;
     double t = integrator.previous_time();
-    const std::size_t yielded = law.yielded(
-        dae.view(end, integrator.y().data(), integrator.yp().data()).p[static_cast<std::size_t>(bundle.branch)]);
+    const std::size_t yielded = law.yielded(p[static_cast<std::size_t>(bundle.branch)]);
     for (std::size_t rank = bundle.slipping.size(); rank < yielded; ++rank) {
-      const auto left = [&](double at) { return law.direction() * (law.yield_point(rank) - deflection(bundle, at)); };
+      const auto left = [&](double at) {
+        return law.direction() * (law.yield_point(rank) - step.deflection(bundle.branch, at));
+      };
       t = timed ? first_below_zero(left, t, end) : end;
       yield(t, bundle, law.in_order(rank));
     }

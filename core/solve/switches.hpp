@@ -34,9 +34,10 @@ class Switches {
 
   /// What has changed since the last call, with the deflections of all branches. Valid until the next one.
   const std::vector<Event>& follow(double t, const Modes& modes, const std::vector<double>& p);
-  /// The same at the end of the last step, of the pairs that have yielded within it: at their times, in their order; not
-  /// `timed`, all at its end.
-  const std::vector<Event>& follow_step(const Integrator& integrator, Dae& dae, bool timed);
+  /// The same at the end of the last step, with the deflections there, of the pairs that have yielded within it: at their
+  /// times, in their order; not `timed`, all at its end.
+  const std::vector<Event>& follow_step(const Integrator& integrator, const Dae& dae, const std::vector<double>& p,
+                                        bool timed);
 
  private:
   struct Condition { int direction; bool bound; };

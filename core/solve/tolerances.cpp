@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <optional>
+
+#include "core/dae/rate_law.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -79,20 +82,15 @@ void Tolerances::attach(Dae& dae) {
 /// The parts of the network that known nodes keep from each other: the noise of one does not reach the others.
 void Tolerances::find_parts() {
   const Structure& structure = dae_->structure();
-  std::vector<NodeId> up(structure.kind.size());
-  std::iota(up.begin(), up.end(), 0);
-  const auto find = [&](NodeId node) {
-    while (up[at(node)] != node) node = up[at(node)] = up[at(up[at(node)])];
-    return node;
-  };
+  Sets parts(structure.kind.size());
   const auto join = [&](const Branch& b) {
-    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) up[at(find(b.a))] = find(b.b);
+    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) parts.join(b.a, b.b);
   };
   for (const Branch& b : structure.deflections) join(b);
   for (const Branch& b : structure.rates) join(b);
   for (const Branch& b : structure.sliders) join(b);
   part_.clear();
-  for (std::size_t n = 0; n < up.size(); ++n) part_.push_back(find(static_cast<NodeId>(n)));
+  for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
 /// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
@@ -281,12 +279,33 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   update(t, yp);
 }
 
+/// Scales of the kinds of which nothing is to be seen yet, even to second order in time: what the drive makes of them in
+/// `time`. They count for the first steps only.
+Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest) const {
+  Scales scales = largest;
+  const auto of = [&](Sort sort) -> double& { return scales[static_cast<std::size_t>(sort)]; };
+  Drive::Reach reach = coming_reach(dae_->drive(), {of(Sort::velocity)});
+  for (const double m : dae_->structure().mass) {
+    if (of(Sort::velocity) == 0 && m > 0) reach.velocity = std::max(reach.velocity, reach.force * time / m);
+  }
+  double force = 0;
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) force = std::max(force, coming_force(*laws.batch, i, reach));
+  }
+  const Scales coming{reach.velocity, reach.velocity * time, force, reach.velocity * time};
+  for (std::size_t k = 0; k < sorts; ++k) {
+    // Where the drive comes to nothing either, nothing ever moves: any scale is right, but a tolerance has to be one.
+    if (scales[k] == 0) scales[k] = coming[k] > 0 ? coming[k] : 1;
+  }
+  return scales;
+}
+
 void Tolerances::update(double t, const std::vector<double>& yp) {
   // Time itself is known to half a unit in the last place; what changes meanwhile cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Structure& structure = dae_->structure();
   const std::vector<double>& slope = dae_->slopes();
-  std::array<double, sorts> largest{};
+  Scales largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
   double force = applied_force_;
   for (double f : force_seen_) force = std::max(force, f);
@@ -298,6 +317,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     if (q.sort == Sort::deflection) force = std::max(force, std::abs(slope[q.index]) * foreseen_of(quantity_[i]));
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
+  std::optional<Scales> to_come;  // mostly not asked for
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
@@ -310,7 +330,11 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       const double by_force = std::max(own, floor_of_kind * force);
       if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
     }
-    tolerance_[i] = std::max({local() * (scale > 0 ? scale : 1), grain * std::abs(yp[i]), rounding_[i]});
+    if (scale == 0) {
+      if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
+      scale = (*to_come)[static_cast<std::size_t>(q.sort)];
+    }
+    tolerance_[i] = std::max({local() * scale, grain * std::abs(yp[i]), rounding_[i]});
     if (q.sort == Sort::deflection) {
       tolerance_[i] = std::max(tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q));
     }

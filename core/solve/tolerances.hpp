@@ -46,6 +46,8 @@ class Tolerances {
   void see(const std::vector<double>& y, const Dae::View& view);
   void watch_kinks(const Dae::View& view);
   double local() const;
+  using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
+  Scales scales_to_come(double time, const Scales& largest) const;
   void update(double t, const std::vector<double>& yp);
   void find_parts();
   void find_rounding(const Dae::View& view);

@@ -6,7 +6,7 @@
 
 namespace rheonet {
 
-void Dae::find_bundles() {
+void Dae::find_parallels() {
   std::map<std::pair<NodeId, NodeId>, std::vector<int>> by_ends;
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     const Branch& b = structure_->deflections[j];
@@ -27,12 +27,14 @@ void Dae::find_bundles() {
     for (std::size_t k = 1; k < branches.size(); ++k) {
       followers_.push_back({branches[k], branches.front(), ip_[at(branches[k])], -1, -1, {}, false});
     }
-    bundles_.push_back({branches});
+    parallels_.push_back({branches});
   }
 }
 
 void Dae::stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing) {
   if (standing.empty()) return;
+  // Holding a branch changes neither its deflection nor the force of any other: one look does for all.
+  view(t, y, yp);
   Sets firm(structure_->kind.size());
   const auto heavy = [&](NodeId node) {
     return structure_->kind[at(node)] == Kind::known || structure_->kind[at(node)] == Kind::massive;
@@ -43,21 +45,21 @@ void Dae::stand(double t, const double* y, const double* yp, const std::vector<S
     std::size_t i = 0;
     DeflectionBatch& batch = batch_of(j, i);
     const bool together = a == b || (heavy(a) && heavy(b));
-    if (view(t, y, yp); !together && view_.f[at(j)] != 0) {
-      hold_bundle(j, one.lean);
+    if (!together && view_.f[at(j)] != 0) {
+      hold_parallel(j, one.lean);
       if (heavy(a)) {
         firm.join(b, a);
       } else {
         firm.join(a, b);
       }
-    } else if (!batch.holds(i) || !bundled_with_held(j, standing)) {
+    } else if (!batch.holds(i) || !beside_held(j, standing)) {
       if (!batch.fits(i, 0)) batch.set_direction(i, view_.p[at(j)], 0, 0);
     }
   }
   update_holds();
 }
 
-bool Dae::bundled_with_held(int branch, const std::vector<Standing>& standing) const {
+bool Dae::beside_held(int branch, const std::vector<Standing>& standing) const {
   const Branch& b = structure_->deflections[at(branch)];
   return std::any_of(standing.begin(), standing.end(), [&](const Standing& one) {
     const Branch& o = structure_->deflections[at(one.branch)];
@@ -66,7 +68,7 @@ bool Dae::bundled_with_held(int branch, const std::vector<Standing>& standing) c
   });
 }
 
-void Dae::hold_bundle(int branch, int lean) {
+void Dae::hold_parallel(int branch, int lean) {
   const NodeId first = structure_->deflections[at(branch)].a;
   const auto hold = [&](int j) {
     std::size_t i = 0;
@@ -74,20 +76,20 @@ void Dae::hold_bundle(int branch, int lean) {
     batch.hold(i, view_.p[at(j)], structure_->deflections[at(j)].a == first ? lean : -lean);
   };
   hold(branch);
-  for (const Bundle& bundle : bundles_) {
-    if (std::find(bundle.branches.begin(), bundle.branches.end(), branch) == bundle.branches.end()) continue;
-    for (int j : bundle.branches) hold(j);
+  for (const Parallel& parallel : parallels_) {
+    if (std::find(parallel.branches.begin(), parallel.branches.end(), branch) == parallel.branches.end()) continue;
+    for (int j : parallel.branches) hold(j);
   }
 }
 
-std::vector<int> Dae::release_bundle(int branch, double w) {
+std::vector<int> Dae::release_parallel(int branch, double w) {
   std::vector<int> released_branches;
   std::size_t i = 0;
   const int direction = batch_of(branch, i).direction(i);
   const Branch& released = structure_->deflections[at(branch)];
-  for (const Bundle& bundle : bundles_) {
-    if (std::find(bundle.branches.begin(), bundle.branches.end(), branch) == bundle.branches.end()) continue;
-    for (int j : bundle.branches) {
+  for (const Parallel& parallel : parallels_) {
+    if (std::find(parallel.branches.begin(), parallel.branches.end(), branch) == parallel.branches.end()) continue;
+    for (int j : parallel.branches) {
       const double side = structure_->deflections[at(j)].a == released.a ? 1 : -1;
       DeflectionBatch& batch = batch_of(j, i);
       if (!batch.holds(i)) continue;

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/dae/matrix.hpp"
+
+namespace rheonet {
+
+/// Gaussian elimination with matrices of one sparsity pattern, dense where that is quicker.
+class Elimination {
+ public:
+  /// The pattern must outlive this.
+  explicit Elimination(const Pattern& pattern);
+  ~Elimination();
+
+  /// Factorises the matrix with these values, in the order of the pattern. False if it is singular.
+  [[nodiscard]] bool factorise(const std::vector<double>& values);
+  /// Solves A x = b with the matrix last factorised; x takes the place of b.
+  void solve(std::vector<double>& b) const;
+
+ private:
+  struct Factor;
+  bool scale_rows(const std::vector<double>& values);
+  bool factorise_dense(const std::vector<double>& values);
+  bool factorise_sparse(const std::vector<double>& values);
+
+  const Pattern& pattern_;
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace rheonet
