@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -150,9 +151,16 @@ struct Integrator::Implementation {
       self.first_change = size;
       return size <= nothing_to_change * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
     }
+    if (size <= self.rounding(weight)) return SUN_NLS_SUCCESS;
     const double rate = std::pow(size / self.first_change, 1.0 / iteration);
     if (rate > slowest_rate) return SUN_NLS_CONV_RECVR;
     return rate / (1 - rate) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+  }
+
+  /// What rounding leaves of the unknowns, as the norm of a change. (IDA holds the iterate in the vector that it returns.)
+  double rounding(N_Vector weight) const {
+    constexpr double grains = 64;
+    return grains * std::numeric_limits<double>::epsilon() * N_VWrmsNorm(ny, weight);
   }
 
   static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
