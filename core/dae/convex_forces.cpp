@@ -14,7 +14,7 @@ constexpr double flat_share = 1e-9;
 // Forces within a bound by this much of it are within.
 constexpr double bound_rounding = 1e-12;
 // It may carry this share of a force: more means that nothing else does.
-constexpr double weak_limit = 1e-2;
+constexpr double weak_limit = 1e-6;
 
 }  // namespace
 
