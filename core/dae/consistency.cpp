@@ -104,7 +104,7 @@ void Consistency::report_singular(double t) {
   }
   if (count == 0) report_unsolved(t);
   if (count > most) nodes += fmt::format(" and {} more", count - most);
-  throw SimulationError(fmt::format(
+  throw UndeterminedError(fmt::format(
       "{} nothing determines the motion of {} {}: every element there has come to a constant force, or values lie too far "
       "apart for double precision; give the node a mass, a dashpot or a spring",
       at_time(*network.scene, t), count > 1 ? "one of the massless nodes" : "massless node", nodes));
@@ -121,7 +121,7 @@ void Consistency::report_unsolved(double t) {
     worst = static_cast<int>(i);
     most = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
   }
-  throw SimulationError(fmt::format(
+  throw UndeterminedError(fmt::format(
       "{} no state was found in which the forces balance, least of all for {}: values there may lie too far apart for "
       "double precision; check them",
       at_time(*dae_.network().scene, t), dae_.describe(worst)));
@@ -134,7 +134,7 @@ void Consistency::report_rate(double t, int unknown) {
     unknown = i;
     break;
   }
-  throw SimulationError(fmt::format(
+  throw UndeterminedError(fmt::format(
       "{} {} changes at a rate beyond the range of double precision: a force or velocity there is too large, or a mass, "
       "damping or stiffness too small against it; check the values of the elements around it",
       at_time(*dae_.network().scene, t), dae_.describe(unknown)));

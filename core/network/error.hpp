@@ -16,4 +16,10 @@ struct SimulationError : std::runtime_error {
   std::optional<Spot> spot;  ///< in the netlist, where the reason lies in what stands there rather than in what happens
 };
 
+/// The equations do not determine the motion, or no state fits them.
+class UndeterminedError : public SimulationError {
+ public:
+  using SimulationError::SimulationError;
+};
+
 }  // namespace rheonet

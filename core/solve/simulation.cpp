@@ -64,16 +64,13 @@ class Run {
     double t = 0;
     begin();
     while (t < settings_.stop) {
-      t = stretch(t);
-      if (t >= drive_.next_break()) {
-        for (const Drive::Break& b : drive_.breaks(t)) {
-          observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
-        }
-      } else if (t >= settings_.stop) {
-        break;
+      try {
+        t = advance(t);
+      } catch (const UndeterminedError&) {
+        // Where more is applied than all elements can take, that is the reason.
+        tell_overload();
+        throw;
       }
-      leave(t);
-      cross(t, true, {});
     }
     observer_.end(settings_.stop);
     statistics_.integrator = systems_.statistics();
@@ -110,6 +107,21 @@ class Run {
     const StartWords words = describe_start(begin_, network_, classified_, view.velocity);
     statistics_.notes.insert(statistics_.notes.end(), words.notes.begin(), words.notes.end());
     statistics_.chosen = words.chosen;
+  }
+
+  /// Over a stretch and the instant at its end; returns that.
+  double advance(double from) {
+    const double t = stretch(from);
+    if (t >= drive_.next_break()) {
+      for (const Drive::Break& b : drive_.breaks(t)) {
+        observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+      }
+    } else if (t >= settings_.stop) {
+      return t;
+    }
+    leave(t);
+    cross(t, true, {});
+    return t;
   }
 
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
@@ -152,6 +164,7 @@ class Run {
     const Dae::View& view = system_->dae.view(t, y_.data(), yp_.data());
     slider_force_ = view.slider_force;
     system_->dae.leave(state_);
+    left_ = t;
   }
 
   /// Time until something is known to happen: the next break of the drive, the end, a cycle.
@@ -324,13 +337,18 @@ class Run {
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }
 
+  void tell_overload() const {
+    const double t = std::max(left_, system_->integrator.time());
+    instant_.check_load(t, t + soon * horizon(t), state_, slider_force_);
+  }
+
   [[noreturn]] void fail(Integrator::Outcome outcome) {
     const double t = system_->integrator.time();
     const int worst = system_->integrator.worst_unknown();
     y_ = system_->integrator.y();
     yp_ = system_->integrator.yp();
     leave(t);
-    instant_.check_load(t, t + soon * horizon(t), state_, slider_force_);
+    tell_overload();
     throw SimulationError(fmt::format(
         "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
         worst < 0 ? "a quantity" : system_->dae.describe(worst),
@@ -352,6 +370,7 @@ class Run {
   Systems systems_;
   Switches switches_;
   std::vector<double> slider_force_;
+  double left_ = 0;  ///< time of `state_` [s]
   System* system_ = nullptr;
   std::vector<double> y_, yp_;
   SimulationStatistics statistics_;
