@@ -20,8 +20,10 @@ constexpr double balance_rounding = 1e-12;
 constexpr double velocity_rounding = 1e-14;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
 constexpr double difference_limit = 1e-6;
-// Slopes further apart than this cannot be told from a rigid link.
+// What is steeper than what is around it by this much cannot be told from a rigid link, as long as its force is no more than
+// this share of the others.
 constexpr double rigid_ratio = 1e12;
+constexpr double rigid_share = 1e-6;
 
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
@@ -65,7 +67,15 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   drive_.evaluate(t);
 
   std::vector<double> f(state.p.size()), c(f), at_rest(f);
-  double least_slope = std::numeric_limits<double>::infinity();
+  std::vector<double> slope_around(nodes, 0);  // of each node that can move, of what is neither a slider nor a power law
+  const auto meet = [&](const Branch& b, double slope) {
+    for (const NodeId n : {b.a, b.b}) {
+      if (structure_.kind[at(n)] != Kind::known) slope_around[at(n)] = std::max(slope_around[at(n)], slope);
+    }
+  };
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (structure_.kind[n] == Kind::massive) slope_around[n] = structure_.mass[n] / h;
+  }
   std::vector<int> deflection_branch(state.p.size(), -1);  // -1: a load, which has no direction to choose
   std::vector<int> slider_branch(network_.sliders.size()), bound_side(slider_branch);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
@@ -82,9 +92,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
       at_rest[k + i] = -h * laws.batch->slope(i, state.p[k + i], 0) * c[k + i];
-      for (const double slope : {forward, backward}) {
-        if (slope > 0) least_slope = std::min(least_slope, slope);
-      }
+      meet(b, std::max(forward, backward));
       double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
       // What has stopped does not go on as before: again the event knows better.
       if (contains(fired.turns, static_cast<int>(k + i)) && may_stand(static_cast<int>(k + i))) {
@@ -109,8 +117,19 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const double impulse = laws.batch->impulse(i);
+      if (impulse > 0 && std::isfinite(impulse)) meet(network_.rates[at(laws.first) + i], impulse);
+    }
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, state.velocity[at(b.a)] - state.velocity[at(b.b)], scale(*laws.batch, i), rigid_ratio * least_slope));
+      const double around = std::max(slope_around[at(b.a)], slope_around[at(b.b)]);
+      const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      const double force_scale = scale(*laws.batch, i), least_force = rigid_share * force_scale;
+      const double steepest = around > 0 ? std::max(rigid_ratio * around, least_force / laws.batch->velocity_at(i, least_force))
+                                         : std::numeric_limits<double>::infinity();
+      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, w, force_scale, steepest));
     }
   }
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {

@@ -1,5 +1,7 @@
 #include "core/solve/events.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +14,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Rounding of a force that is compared with its bound.
 constexpr double force_rounding = 1e-12;
+// A slider slips against its own force by no more than this share of the largest velocity: more is no rounding.
+constexpr double slip_rounding = 1e-2;
 
 }  // namespace
 
@@ -50,6 +54,14 @@ double NetworkEvents::slider_function(int k, const Dae::View& view) const {
   return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
 }
 
+void NetworkEvents::report_against_force(double t, int slider) const {
+  const Network& network = dae_.network();
+  throw SimulationError(fmt::format(
+      "{} no motion was found in which `{}` slips the way it is pushed: values around it may lie too far apart for double "
+      "precision",
+      rheonet::at_time(*network.scene, t), network.name_of(network.sliders[at(slider)].branch)));
+}
+
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
@@ -57,7 +69,12 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   evaluate(t, y, yp, at_begin_.data());
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) : 0; };
   for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = margin(at_begin_[k]);
-  for (std::size_t i = 0; i < sliders_.size(); ++i) margin_[at(sliders_[i])] = margin(at_begin_[law_margin_.size() + i]);
+  for (std::size_t i = 0; i < sliders_.size(); ++i) {
+    const int k = sliders_[i];
+    const double g = at_begin_[law_margin_.size() + i];
+    if (!dae_.structure().stuck[at(k)] && g < -slip_rounding * tolerances_.largest_velocity()) report_against_force(t, k);
+    margin_[at(k)] = margin(g);
+  }
 }
 
 bool NetworkEvents::sticks() const {

@@ -21,7 +21,8 @@ class NetworkEvents final : public EventFunctions {
   /// `modes` are the present ones; all must outlive this.
   NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
 
-  /// At the beginning of a stretch: what is beyond a bound there is so by rounding, and the bound gives way as far.
+  /// At the beginning of a stretch: what is beyond a bound there is so by rounding, and the bound gives way as far. Throws
+  /// SimulationError where it is not.
   void begin(double t, const double* y, const double* yp);
 
   /// Sliders stick here that may break away.
@@ -44,6 +45,7 @@ class NetworkEvents final : public EventFunctions {
   void all_at_time(const Integrator& integrator, double t, std::vector<double>& g);
   double at_time(const Integrator& integrator, double t, int slider);
   double slider_function(int slider, const Dae::View& view) const;
+  [[noreturn]] void report_against_force(double t, int slider) const;
 
   Dae& dae_;
   Consistency& consistency_;

@@ -350,6 +350,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     }
   }
   const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
+  largest_velocity_ = velocity;
   unresolved_velocity_ = std::max(relative_ * velocity, *std::max_element(restless_.begin(), restless_.end()));
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
   const auto noise = [&](bool given, double flow, const Branch& b) {

@@ -28,6 +28,8 @@ class Tolerances {
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
   const std::vector<double>& values() const { return tolerance_; }
+  /// Of what is unknown or given, so far or foreseen [m/s].
+  double largest_velocity() const { return largest_velocity_; }
   /// Velocity below which nothing is resolved, whatever the branch [m/s].
   double unresolved_velocity() const { return unresolved_velocity_; }
   /// Velocity below which the reversal of a branch is noise [m/s].
@@ -83,7 +85,7 @@ class Tolerances {
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;
   double kink_pace_ = 0;  ///< share of the last steps that went over such kinks
-  double unresolved_velocity_ = 0;
+  double largest_velocity_ = 0, unresolved_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, tolerance_;
 };
