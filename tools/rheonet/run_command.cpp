@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
@@ -11,6 +12,7 @@
 #include "core/result/run.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/figure_file.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
@@ -70,6 +72,8 @@ struct Outputs {
 ExitStatus run_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
+  const bool drawn = !arguments.figure.empty();
+  if (drawn && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources))
     return wrong_input;
 
@@ -86,16 +90,23 @@ ExitStatus run_scene(const Arguments& arguments) {
     }
   }
 
+  std::optional<RunFigure> figure;
+  std::function<void(double, const std::vector<double>&)> on_row;
+  if (drawn) {
+    figure.emplace(*read.scene);
+    on_row = [&figure](double time, const std::vector<double>& values) { figure->row(time, values); };
+  }
   // Rows that scroll by on the same terminal say enough.
   Progress progress(!arguments.quiet && !outputs.rows->is_terminal());
   const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
     const Summary summary = run(*read.scene, {.csv = outputs.rows->file(),
                                               .events = outputs.events ? outputs.events->file() : nullptr,
+                                              .row = on_row,
                                               .interrupt = &stop,
                                               .progress = on_progress});
     progress.erase();
-    if (!outputs.close()) return not_simulated;
+    if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
