@@ -19,6 +19,7 @@ namespace {
 
 constexpr double font = 12, title_font = 14;  // px
 constexpr double row = 18;                    // of the legend
+constexpr double label_line = 15;
 constexpr double tick_length = 4, small_tick_length = 2.5;
 constexpr double panel_height = 190, only_panel_height = 340, gap = 14;
 
@@ -71,7 +72,7 @@ std::vector<Tick> ticks_of(const Axis& axis, std::pair<double, double> range, do
                           : linear_ticks(range.first, range.second, wanted);
 }
 
-std::string text(double x, double y, const std::string& content, const char* attributes) {
+std::string text(double x, double y, const std::string& content, const std::string& attributes) {
   return fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", coordinate(x), coordinate(y), attributes, content);
 }
 
@@ -110,6 +111,9 @@ double legend(const Figure& figure, const Panel& panel, double left, double y, d
   return y + row + 2;
 }
 
+/// The label of a vertical axis, which runs up beside it.
+std::vector<std::string> label_lines(const Axis& y, double height) { return lines_of(y.label, font, height + 20); }
+
 /// Where a panel is.
 struct Place {
   double left, top, width, height;
@@ -137,10 +141,14 @@ void axes(const Figure& figure, const Panel& panel, const Place& at, const Scale
   }
   out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\"{}/>\n", coordinate(at.left),
                      coordinate(at.top), coordinate(at.width), coordinate(at.height), dark);
-  const double middle = at.top + at.height / 2;
-  out += text(
-      0, 0, raised(panel.y.label),
-      fmt::format(" text-anchor=\"middle\" transform=\"translate(14 {}) rotate(-90)\"", coordinate(middle)).c_str());
+  double down = 14;
+  for (const std::string& part : label_lines(panel.y, at.height)) {
+    const double middle = at.top + at.height / 2;
+    out += text(
+        0, 0, raised(part),
+        fmt::format(" text-anchor=\"middle\" transform=\"translate({} {}) rotate(-90)\"", down, coordinate(middle)));
+    down += label_line;
+  }
   if (at.numbers) out += text(at.left + at.width / 2, bottom + 34, raised(figure.x.label), " text-anchor=\"middle\"");
 }
 
@@ -176,6 +184,63 @@ std::string description(const Figure& figure) {
   return said;
 }
 
+/// What stands above the panels, and how much room it takes.
+struct Head {
+  std::string text;
+  double height = 0;
+};
+
+Head head_of(const Figure& figure) {
+  Head head{"", 8};
+  for (const std::string& part : lines_of(figure.title, title_font, figure.width - 40)) {
+    head.height += title_font + 4;
+    head.text += text(figure.width / 2, head.height - 3, escaped(part),
+                      fmt::format(" text-anchor=\"middle\" font-size=\"{}\"", title_font));
+  }
+  head.height += 6;
+  return head;
+}
+
+/// The part of a figure between its head and its foot.
+struct Layout {
+  double left = 0, width = 0, panel_height = 0;
+  std::vector<std::pair<double, double>> y_ranges;
+  std::vector<std::vector<Tick>> y_ticks;
+};
+
+constexpr double right_margin = 18, foot = 44;
+
+/// How high panels are is known when the rows of the legends are, how wide when the numbers beside the axes are, and
+/// how many rows a legend has when the width is: two rounds settle it.
+Layout layout_of(const Figure& figure, double head) {
+  const auto panels = static_cast<double>(figure.panels.size());
+  Layout layout{
+      .left = 60, .width = figure.width - 60 - right_margin, .panel_height = 0, .y_ranges = {}, .y_ticks = {}};
+  for (const Panel& panel : figure.panels)
+    layout.y_ranges.push_back(range_of(panel.y, {panel}, 0.05, [](const Point& p) { return p.y; }));
+  for (int round = 0; round < 2; ++round) {
+    double legends = 0;
+    std::string unplaced;
+    for (const Panel& panel : figure.panels) legends += legend(figure, panel, 0, 0, layout.width, unplaced);
+    const double rest = (figure.height - head - legends - gap * (panels - 1) - foot) / panels;
+    layout.panel_height = figure.height > 0           ? std::max(40.0, rest)
+                          : figure.panels.size() == 1 ? only_panel_height
+                                                      : panel_height;
+    double widest = 0;
+    std::size_t lines = 1;
+    layout.y_ticks.clear();
+    for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+      const Axis& y = figure.panels[k].y;
+      layout.y_ticks.push_back(ticks_of(y, layout.y_ranges[k], layout.panel_height, 32));
+      for (const Tick& tick : layout.y_ticks.back()) widest = std::max(widest, width_of(tick.label, font));
+      lines = std::max(lines, label_lines(y, layout.panel_height).size());
+    }
+    layout.left = 15 + label_line * static_cast<double>(lines) + widest;
+    layout.width = figure.width - layout.left - right_margin;
+  }
+  return layout;
+}
+
 }  // namespace
 
 std::vector<Dropped> drop_what_has_no_logarithm(Figure& figure) {
@@ -194,53 +259,22 @@ std::vector<Dropped> drop_what_has_no_logarithm(Figure& figure) {
 }
 
 std::string svg(const Figure& figure) {
-  const auto panels = static_cast<double>(figure.panels.size());
-  const double each = figure.panels.size() == 1 ? only_panel_height : panel_height;
   const bool beside_time = figure.x.label.starts_with("time");
   const auto x_range = range_of(figure.x, figure.panels, beside_time ? 0 : 0.03, [](const Point& p) { return p.x; });
+  const Head head = head_of(figure);
+  const Layout layout = layout_of(figure, head.height);
+  const auto x_ticks = ticks_of(figure.x, x_range, layout.width, 75);
 
-  // The numbers of all panels have room to the left, so that the panels are as wide as each other.
-  std::vector<std::pair<double, double>> y_ranges;
-  std::vector<std::vector<Tick>> y_ticks;
-  double widest = 0;
-  for (const Panel& panel : figure.panels) {
-    y_ranges.push_back(range_of(panel.y, {panel}, 0.05, [](const Point& p) { return p.y; }));
-    y_ticks.push_back(ticks_of(panel.y, y_ranges.back(), each, 32));
-    for (const Tick& tick : y_ticks.back()) widest = std::max(widest, width_of(tick.label, font));
-  }
-  const double left = 20 + widest + 10, right = 18;
-  const double width = figure.width - left - right;
-  const auto x_ticks = ticks_of(figure.x, x_range, width, 75);
-
-  std::string out;
-  double y = 8;
-  for (const std::string& part : lines_of(figure.title, title_font, figure.width - 2 * right)) {
-    y += title_font + 4;
-    out += text(figure.width / 2, y - 3, escaped(part),
-                fmt::format(" text-anchor=\"middle\" font-size=\"{}\"", title_font).c_str());
-  }
-  y += 6;
-  // The legends' heights are known once they are written: what is left of a given height is the panels'.
-  std::vector<std::string> legends;
-  std::vector<double> heads;
-  double all_heads = 0;
-  for (const Panel& panel : figure.panels) {
-    std::string unplaced;
-    heads.push_back(legend(figure, panel, left, 0, width, unplaced));
-    all_heads += heads.back();
-  }
-  constexpr double foot = 44;
-  const double rest = figure.height - y - all_heads - gap * (panels - 1) - foot;
-  const double height = figure.height > 0 ? std::max(40.0, rest / panels) : each;
+  std::string out = head.text;
+  double y = head.height;
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
-    legend(figure, panel, left, y, width, out);
-    y += heads[k];
-    const Place at{left, y, width, height, k + 1 == figure.panels.size()};
-    const Scale sx(figure.x, x_range, width), sy(panel.y, y_ranges[k], height);
-    axes(figure, panel, at, sx, sy, x_ticks, y_ticks[k], out);
+    y = legend(figure, panel, layout.left, y, layout.width, out);
+    const Place at{layout.left, y, layout.width, layout.panel_height, k + 1 == figure.panels.size()};
+    const Scale sx(figure.x, x_range, at.width), sy(panel.y, layout.y_ranges[k], at.height);
+    axes(figure, panel, at, sx, sy, x_ticks, layout.y_ticks[k], out);
     curves(figure, panel, at, sx, sy, out);
-    y += height + gap;
+    y += at.height + gap;
   }
   const double full = figure.height > 0 ? figure.height : y - gap + foot;
   const std::string title = figure.title.empty() ? "" : fmt::format("<title>{}</title>\n", escaped(figure.title));

@@ -35,7 +35,7 @@ std::string label_of(double value, double step, double largest) {
 }
 
 std::string power_label(int power) {
-  return power >= -2 && power <= 3 ? fmt::format("{:g}", std::pow(10.0, power)) : fmt::format("10^{}", power);
+  return power >= -3 && power <= 3 ? fmt::format("{:g}", std::pow(10.0, power)) : fmt::format("10^{}", power);
 }
 
 }  // namespace

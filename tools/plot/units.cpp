@@ -1,5 +1,7 @@
 #include "tools/plot/units.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,10 +21,24 @@ constexpr std::array<Prefix, 7> prefixes{
     {{"n", 1e-9}, {"µ", 1e-6}, {"m", 1e-3}, {"", 1}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}}};
 
 /// The multiples that people use: kN but not krad, ms but not ks.
-bool usual(const std::string& unit, const Prefix& prefix) {
+bool usual(const Measure& measure, const Prefix& prefix) {
+  const std::string& unit = measure.unit;
   if (prefix.factor > 1) return unit == "N" || unit == "N*m" || (unit == "m" && prefix.factor == 1e3);
   return unit == "s" || unit == "m" || unit == "m/s" || unit == "N" || unit == "N*m" || unit == "rad" ||
          unit == "rad/s";
+}
+
+/// A blank that stays where it is, and that SVG does not swallow after a raised number.
+constexpr const char* no_break = "\u00a0";
+
+/// Numbers of more than five digits, and those that begin with more than two zeros, are said in thousands, millions,
+/// ...
+Shown with_power(const Shown& unit, double largest) {
+  const double number = largest / unit.factor;
+  if (number == 0 || (number >= 0.01 && number < 1e4)) return unit;
+  const int power = 3 * static_cast<int>(std::floor(std::log10(number) / 3 + 1e-9));
+  return {fmt::format("10^{}{}{}", power, unit.name.empty() ? "" : no_break, unit.name),
+          unit.factor * std::pow(10.0, power)};
 }
 
 }  // namespace
@@ -37,20 +53,21 @@ bool compatible(const Measure& a, const Measure& b) {
 }
 
 Shown shown(const Measure& measure, const std::vector<std::string>& wished, double largest) {
-  if (!measure.size) return {in_print(measure.unit), 1};
+  Shown plain{measure.unit == "1" ? "" : in_print(measure.unit), measure.size ? measure.size->factor : 1};
   for (const std::string& unit : wished) {
     const auto parsed = parse_unit(unit);
-    if (const Unit* size = std::get_if<Unit>(&parsed); size && same(*size, *measure.size))
-      return {in_print(unit), size->factor};
+    if (const Unit* size = std::get_if<Unit>(&parsed); size && measure.size && same(*size, *measure.size)) {
+      plain = {in_print(unit), size->factor};
+      return with_power(plain, largest);
+    }
   }
-  if (measure.size->factor != 1) return {in_print(measure.unit), measure.size->factor};
   // The largest multiple that leaves a 1 before the point; of what is smaller than all of them, the smallest.
   const Prefix* best = nullptr;
   for (const Prefix& prefix : prefixes)
-    if (usual(measure.unit, prefix) && (!best || largest >= 0.9999 * prefix.factor)) best = &prefix;
-  const bool readable = largest == 0 || (largest >= 0.1 && largest < 1000);
-  if (!best || readable) return {measure.unit == "1" ? "" : in_print(measure.unit), 1};
-  return {best->name + in_print(measure.unit), best->factor};
+    if (usual(measure, prefix) && (!best || largest >= 0.9999 * prefix.factor)) best = &prefix;
+  if (!best) return with_power(plain, largest);
+  if (largest == 0 || (largest >= 0.1 && largest < 1000)) return plain;
+  return with_power({best->name + plain.name, best->factor}, largest);
 }
 
 std::string in_print(const std::string& unit) {

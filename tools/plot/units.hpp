@@ -24,12 +24,13 @@ bool compatible(const Measure& a, const Measure& b);
 
 /// The unit of an axis: its name in print and its size in SI.
 struct Shown {
-  std::string name;  ///< "mN·m"; "" for a number, and if nothing is known
+  std::string name;  ///< "mN·m"; "" for a number, and if nothing is known; `^` raises what follows
   double factor = 1;
 };
 
 /// How a measure is shown, whose values go up to `largest` in magnitude (SI): in the first of the wished units that has
-/// its dimension; else in its own; of an SI unit a decimal multiple (mm, kN), so that the numbers are easy to read.
+/// its dimension; else in its own; of an SI unit in a decimal multiple (mm, kN), so that the numbers are easy to read.
+/// What has no such multiple is said in thousands or thousandths ("10^3 dyn·cm", with a no-break space).
 Shown shown(const Measure& measure, const std::vector<std::string>& wished, double largest);
 
 /// A unit in print: "N·m", "m/s²".

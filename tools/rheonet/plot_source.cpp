@@ -40,8 +40,8 @@ bool has(const Scene& scene, const std::string& path) {
 
 class SceneSource final : public PlotSource {
  public:
-  SceneSource(const std::string& file, const Arguments& arguments, const std::vector<std::string>& wanted, bool lenient)
-      : quiet_(arguments.quiet) {
+  SceneSource(const std::string& file, const Arguments& arguments, const std::vector<std::string>& wanted,
+              bool lenient) {
     ReadOptions options = options_of(arguments);
     options.claims = false;  // a picture is asked for, not a verdict
     if (!lenient) options.records = wanted;
@@ -59,7 +59,7 @@ class SceneSource final : public PlotSource {
 
   std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override {
     std::vector<plot::Trace> traces(pairs.size());
-    Progress progress(!quiet_);
+    Progress progress(true);
     try {
       run(*read_.scene, {.row =
                              [&](double time, const std::vector<double>& values) {
@@ -81,7 +81,6 @@ class SceneSource final : public PlotSource {
 
  private:
   ReadResult read_;
-  bool quiet_;
 };
 
 }  // namespace
