@@ -158,11 +158,13 @@ void curves(const Figure& figure, const Panel& panel, const Place& at, const Sca
   out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke-linejoin=\"round\">\n",
                      coordinate(at.left), coordinate(at.top), coordinate(at.width), coordinate(at.height));
   for (std::size_t k = 0; k < panel.curves.size(); ++k) {
-    const Style style = style_of(k);
+    Style style = style_of(k);
     std::vector<Point> pixels = panel.curves[k].points;
     for (Point& p : pixels) p = {sx(p.x), at.height - sy(p.y)};
     std::string path;
-    for (const Stroke& part : to_draw(pixels, {at.width, at.height}))
+    const Drawing drawing = to_draw(pixels, {at.width, at.height});
+    if (drawing.dense) style.dashes = "";
+    for (const Stroke& part : drawing.strokes)
       for (std::size_t i = 0; i < part.size(); ++i)
         path += fmt::format("{}{} {}", i == 0 ? "M" : i == 1 ? "L" : " ", coordinate(part[i].x), coordinate(part[i].y));
     if (!path.empty()) out += fmt::format("<path d=\"{}\"{}/>\n", path, stroke(style));

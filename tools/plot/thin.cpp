@@ -177,13 +177,14 @@ std::vector<Stroke> inked_once(const std::vector<Stroke>& strokes, Box box) {
   return result;
 }
 
-std::vector<Stroke> to_draw(const std::vector<Point>& curve, Box box) {
+Drawing to_draw(const std::vector<Point>& curve, Box box) {
   constexpr double tolerance = 0.05;    // px
   constexpr std::size_t dense = 5'000;  // points, 60 kB: fewer are not worth the loss
   std::vector<Stroke> strokes = clipped(curve, box);
   std::size_t points = 0;
   for (Stroke& stroke : strokes) points += (stroke = thinned(stroke, tolerance)).size();
-  return points > dense ? inked_once(strokes, box) : strokes;
+  if (points <= dense) return {std::move(strokes), false};
+  return {inked_once(strokes, box), true};
 }
 
 }  // namespace rheonet::plot

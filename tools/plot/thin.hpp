@@ -27,8 +27,13 @@ Stroke thinned(const Stroke& stroke, double tolerance);
 /// extreme of the curve: a band that is crossed a million times is drawn once.
 std::vector<Stroke> inked_once(const std::vector<Stroke>& strokes, Box box);
 
-/// All of these: a curve (in px) as it is to be drawn, to a twentieth of a pixel where it is simple and to a pixel
-/// where it is so dense that ink covers ink.
-std::vector<Stroke> to_draw(const std::vector<Point>& curve, Box box);
+/// A curve as it is to be drawn.
+struct Drawing {
+  std::vector<Stroke> strokes;
+  bool dense = false;  ///< ink covers ink: dashes would be nothing but holes
+};
+
+/// All of these, of a curve in px: to a twentieth of a pixel, or to a pixel where it is dense.
+Drawing to_draw(const std::vector<Point>& curve, Box box);
 
 }  // namespace rheonet::plot

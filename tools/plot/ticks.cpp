@@ -60,6 +60,7 @@ std::vector<Tick> logarithmic_ticks(double low, double high, int wanted) {
       const double value = digit * std::pow(10.0, power), at = std::log10(value);
       if (at < from - slack || at > to + slack || (digit > 1 && every > 1)) continue;
       const bool named = digit == 1 ? power % every == 0 : to - from < 2 && (digit == 2 || digit == 5);
+      if (!named && every > 5) continue;
       ticks.push_back({value, !named       ? ""
                               : digit == 1 ? power_label(power)
                                            : label_of(value, std::pow(10.0, power), value)});

@@ -8,7 +8,6 @@ namespace rheonet::plot {
 void Trace::add(Point point) {
   if (points_.size() == capacity) compact();
   points_.push_back(point);
-  ++added_;
 }
 
 void Trace::compact() {

@@ -13,7 +13,6 @@ class Trace {
  public:
   void add(Point point);
   const std::vector<Point>& points() const { return points_; }
-  std::size_t added() const { return added_; }
 
   static constexpr std::size_t capacity = std::size_t{1} << 19;
 
@@ -21,7 +20,6 @@ class Trace {
   void compact();
 
   std::vector<Point> points_;
-  std::size_t added_ = 0;
 };
 
 }  // namespace rheonet::plot

@@ -28,16 +28,13 @@ bool usual(const Measure& measure, const Prefix& prefix) {
          unit == "rad/s";
 }
 
-/// A blank that stays where it is, and that SVG does not swallow after a raised number.
-constexpr const char* no_break = "\u00a0";
-
 /// Numbers of more than five digits, and those that begin with more than two zeros, are said in thousands, millions,
 /// ...
 Shown with_power(const Shown& unit, double largest) {
   const double number = largest / unit.factor;
   if (number == 0 || (number >= 0.01 && number < 1e4)) return unit;
   const int power = 3 * static_cast<int>(std::floor(std::log10(number) / 3 + 1e-9));
-  return {fmt::format("10^{}{}{}", power, unit.name.empty() ? "" : no_break, unit.name),
+  return {fmt::format("10^{}{}{}", power, unit.name.empty() ? "" : " ", unit.name),
           unit.factor * std::pow(10.0, power)};
 }
 

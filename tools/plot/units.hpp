@@ -30,7 +30,7 @@ struct Shown {
 
 /// How a measure is shown, whose values go up to `largest` in magnitude (SI): in the first of the wished units that has
 /// its dimension; else in its own; of an SI unit in a decimal multiple (mm, kN), so that the numbers are easy to read.
-/// What has no such multiple is said in thousands or thousandths ("10^3 dyn·cm", with a no-break space).
+/// What has no such multiple is said in thousands or thousandths ("10^3 dyn·cm").
 Shown shown(const Measure& measure, const std::vector<std::string>& wished, double largest);
 
 /// A unit in print: "N·m", "m/s²".

@@ -1,0 +1,69 @@
+#include <doctest/doctest.h>
+
+#include <regex>
+#include <sstream>
+#include <vector>
+
+#include "tests/support/program.hpp"
+#include "tests/support/xml.hpp"
+
+using namespace rheonet::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path source(RHEONET_SOURCE_DIR), figures = source / "netlists/thesis/figures";
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) result.push_back(line);
+  return result;
+}
+
+std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
+  std::vector<std::string> result;
+  const std::regex expression(pattern);
+  for (std::sregex_iterator i(text.begin(), text.end(), expression), end; i != end; ++i) result.push_back((*i)[1]);
+  return result;
+}
+
+Finished tool(const Folder& folder, const std::string& words) {
+  return folder.shell("RHEONET='" RHEONET_PROGRAM "' '" + source.string() + "/tools/thesis/figures' " + words, 0);
+}
+
+/// All that can be read in a figure: what its curves are, and the numbers at its axes, which are those of its data.
+std::vector<std::string> words(const std::string& svg) {
+  return matches(svg, "<(?:text|desc|title)[^>]*>(.*)</(?:text|desc|title)>");
+}
+
+}  // namespace
+
+TEST_CASE("netlists/thesis/README.md shows every figure that tools/thesis/figures draws, and no other") {
+  const Folder folder;
+  const std::vector<std::string> drawn = lines(tool(folder, "--list").out);
+  CHECK(drawn.size() == 13);
+  CHECK(matches(text_of(source / "netlists/thesis/README.md"), R"(\]\(figures/(fig-[0-9]+)\.svg\))") == drawn);
+  CHECK(static_cast<std::size_t>(std::distance(fs::directory_iterator(figures), {})) == 2 * drawn.size());
+  for (const std::string& name : drawn) {
+    CAPTURE(name);
+    CHECK(fs::exists(figures / (name + ".svg")));
+    CHECK(fs::exists(figures / (name + ".png")));
+  }
+}
+
+// What is compared is not pixels but what is written in the figures, and the number of curves.
+TEST_CASE("the figures of the thesis are those that its scenes give") {
+  const Folder folder;
+  tool(folder, "'" + folder.path().string() + "/drawn'");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder.path() / "drawn")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".svg") continue;
+    CAPTURE(name);
+    REQUIRE(fs::exists(figures / name));
+    const std::string now = text_of(entry.path()), kept = text_of(figures / name);
+    CHECK(what_is_wrong_with_xml(now) == "");
+    CHECK_MESSAGE(words(now) == words(kept), "the figure is stale: tools/thesis/figures draws it anew");
+    CHECK(matches(now, "(stroke-width=\"1.6\")").size() == matches(kept, "(stroke-width=\"1.6\")").size());
+  }
+}
