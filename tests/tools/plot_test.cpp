@@ -73,6 +73,15 @@ TEST_CASE("run --plot draws the records over time, beside the rows") {
         "error: `--plot a.pdf` is neither an .svg nor a .png\n");
 }
 
+TEST_CASE("the figure of a run has a file of its own") {
+  const Folder folder(scene);
+  CHECK(folder.shell("rheonet run -q scene.toml -o a.svg --plot ./a.svg", 2).err ==
+        "error: `--output` and `--plot` both write to `a.svg`; give one of them another file\n");
+  CHECK(folder.shell("rheonet run -q scene.toml --plot -", 2).err ==
+        "error: `--output` and `--plot` both write to standard output; give one of them another file\n");
+  CHECK_FALSE(folder.has("a.svg"));
+}
+
 TEST_CASE("a .png is made by rsvg-convert; without it plot says so") {
   const Folder folder(scene);
   folder.shell("rheonet plot scene.toml -o a.png", 0);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/support/page.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/xml.hpp"
 
@@ -67,6 +68,16 @@ TEST_CASE("netlists/thesis/README.md shows every figure that tools/thesis/figure
     CHECK(fs::exists(figures / (name + ".svg")));
     CHECK(fs::exists(figures / (name + ".png")));
   }
+}
+
+TEST_CASE("the commands of netlists/thesis/README.md do what they say") {
+  const Folder folder;
+  fs::create_symlink(source / "netlists", folder.path() / "netlists");
+  std::string script = "set -eu\n";
+  for (const Block& block : blocks(text_of(source / "netlists/thesis/README.md")))
+    if (block.language == "sh") script += block.text;
+  folder.shell(script, 0);
+  CHECK(what_is_wrong_with_xml(folder.read("loops.svg")) == "");
 }
 
 // What is compared is not pixels but what is written in the figures, and how far each curve goes.

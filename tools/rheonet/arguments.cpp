@@ -222,7 +222,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       ->type_name("FILE");
   run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
       ->type_name("FILE");
-  run->add_option("--plot", arguments.figure, "draw the records over time; an .svg or a .png")->type_name("FILE");
+  run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")->type_name("FILE");
   add_accuracy(run);
   run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
 

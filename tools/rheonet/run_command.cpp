@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -45,6 +46,21 @@ bool same_file(const std::string& path, const std::string& other) {
   return fs::equivalent(path, other, error) && fs::is_regular_file(path, error);
 }
 
+/// Whether two outputs go to one file, once it exists; says so if they do.
+bool write_to_one_file(const Arguments& arguments) {
+  const std::pair<const char*, const std::string&> outputs[] = {
+      {"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}};
+  for (std::size_t i = 0; i < std::size(outputs); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!same_file(outputs[k].second, outputs[i].second)) continue;
+      const std::string& path = outputs[k].second;
+      say("error: `{}` and `{}` both write to {}; give one of them another file\n", outputs[k].first, outputs[i].first,
+          path == "-" ? "standard output" : "`" + printable(path) + "`");
+      return true;
+    }
+  return false;
+}
+
 std::string kept(const Output& output, const char* row) {
   if (output.rows() == 0) return fmt::format("  no {} was written to {}\n", row, output.name());
   if (output.rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, output.name());
@@ -84,11 +100,8 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (!arguments.events.empty()) {
     outputs.events = open_output(arguments.events);
     if (!outputs.events) return wrong_input;
-    if (same_file(arguments.output, arguments.events)) {
-      say("error: `--output` and `--events` both write to {}; give one of them another file\n", outputs.rows->name());
-      return wrong_input;
-    }
   }
+  if (write_to_one_file(arguments)) return wrong_input;
 
   std::optional<RunFigure> figure;
   std::function<void(double, const std::vector<double>&)> on_row;
