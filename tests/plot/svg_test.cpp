@@ -100,6 +100,15 @@ TEST_CASE("what cannot share an axis, or be drawn at all, is refused") {
   CHECK(mistake({curve("a", seconds, force, {{0, 1}, {1, 2}})}, look) ==
         "the range of the vertical axis begins at 0, but a logarithmic axis begins above 0");
   look = {};
+  look.x_range = {1, 1 + 1e-10};
+  CHECK(mistake({curve("a", seconds, force, {{0, 1}, {1, 2}})}, look) ==
+        "1 to 1.0000000001 is no range for the numbers of the horizontal axis");
+  look.x_range = {1, 1 + 1e-8};
+  CHECK(mistake({curve("a", seconds, force, {{0, 1}, {1, 2}})}, look) == "");
+  look.x_range = {3, 1};
+  CHECK(mistake({curve("a", seconds, force, {{0, 1}, {1, 2}})}, look) ==
+        "3 to 1 is no range for the numbers of the horizontal axis");
+  look = {};
   look.y_label = "both";
   CHECK(mistake({curve("a", seconds, force, {{0, 1}, {1, 2}}), curve("b", seconds, velocity, {{0, 1}, {1, 2}})},
                 look) == "a range or a label of the vertical axis, but there are 2: force [N], velocity [m/s]");
@@ -118,8 +127,8 @@ TEST_CASE("what is left out is noted") {
         "`a`: 1 of 4 points are not above 0 and left out of the logarithmic axis");
   CHECK(contains(drawn({curve("a", seconds, force, falling)}, look), "magnitude of force [N]"));
   const double infinite = std::numeric_limits<double>::infinity();
-  CHECK(notes_of({curve("a", seconds, force, {{0, 1}, {1, infinite}, {2, 3}})}, {}) ==
-        std::vector<std::string>{"`a`: 1 of 3 points are not finite and left out"});
+  CHECK(notes_of({curve("a", seconds, force, {{0, 1}, {1, infinite}, {2, 3}, {3, 1e300}})}, {}) ==
+        std::vector<std::string>{"`a`: 2 of 4 points are not finite and left out"});
 }
 
 TEST_CASE("a decay on a logarithmic axis is a straight line of two points") {
@@ -134,12 +143,21 @@ TEST_CASE("a decay on a logarithmic axis is a straight line of two points") {
 }
 
 TEST_CASE("a constant, a single point and a range far from 0 have axes too") {
-  for (const std::vector<Point>& points :
-       {std::vector<Point>{{0, 4}, {1, 4}}, {{2, 0}}, {{1e9, 1}, {1e9 + 1, 2}}, {{0, 1e-300}, {1, 1e300}}}) {
-    const std::string text = drawn({curve("a", measure("ratio", "1"), measure("level", "1"), points)});
-    CHECK(what_is_wrong_with_xml(text) == "");
-    CHECK_FALSE(contains(text, "nan"));
-    CHECK_FALSE(contains(text, "inf"));
+  for (const std::vector<Point>& points : {std::vector<Point>{{0, 4}, {1, 4}},
+                                           {{2, 0}},
+                                           {{1e9, 1}, {1e9 + 1, 2}},
+                                           {{0, 1e-290}, {1, 1e290}},
+                                           {{0, 5e-324}, {1, 1e-310}},
+                                           {{0, -1e289}, {1e-320, 1e289}}}) {
+    for (const bool logarithmic : {false, true}) {
+      if (logarithmic && points[0].y <= 0) continue;
+      Look look;
+      look.logarithmic_y = logarithmic;
+      const std::string text = drawn({curve("a", measure("ratio", "1"), measure("level", "1"), points)}, look);
+      CHECK(what_is_wrong_with_xml(text) == "");
+      CHECK_FALSE(contains(text, "nan"));
+      CHECK_FALSE(contains(text, "inf"));
+    }
   }
 }
 

@@ -34,12 +34,18 @@ std::string quantities(const std::vector<const Measured*>& curves, Get measure_o
   return text + (seen.size() > few ? ", ..." : "");
 }
 
+/// Finite, and with room for any unit and margin: SI.
+bool drawable(const Point& p) {
+  constexpr double most = 1e290;
+  return std::abs(p.x) <= most && std::abs(p.y) <= most;
+}
+
 template <class Value>
 double largest(const std::vector<const Measured*>& curves, Value value_of) {
   double result = 0;
   for (const Measured* curve : curves)
     for (const Point& p : curve->trace.points())
-      if (std::isfinite(p.x) && std::isfinite(p.y)) result = std::max(result, std::abs(value_of(p)));
+      if (drawable(p)) result = std::max(result, std::abs(value_of(p)));
   return result;
 }
 
@@ -88,9 +94,14 @@ void check_x(const std::vector<const Measured*>& curves) {
 }
 
 void check_range(const std::optional<std::pair<double, double>>& range, bool logarithmic, const char* axis) {
-  if (range && logarithmic && range->first <= 0)
-    throw Mistake(fmt::format("the range of the {} axis begins at {:g}, but a logarithmic axis begins above 0", axis,
-                              range->first));
+  if (!range) return;
+  const auto [low, high] = *range;
+  if (logarithmic && low <= 0)
+    throw Mistake(
+        fmt::format("the range of the {} axis begins at {:g}, but a logarithmic axis begins above 0", axis, low));
+  const double largest = std::max(std::abs(low), std::abs(high));
+  if (!(high - low >= 1e-9 * largest) || !(high - low >= 1e-290) || !(largest <= 1e290))
+    throw Mistake(fmt::format("{:.17g} to {:.17g} is no range for the numbers of the {} axis", low, high, axis));
 }
 
 Curve in_units(const Measured& measured, double x_factor, double y_factor, bool magnitude,
@@ -98,7 +109,10 @@ Curve in_units(const Measured& measured, double x_factor, double y_factor, bool 
   Curve curve{measured.name, measured.trace.points()};
   std::size_t gaps = 0;
   for (Point& p : curve.points) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) ++gaps;
+    if (!drawable(p)) {
+      ++gaps;
+      p.y = std::numeric_limits<double>::quiet_NaN();
+    }
     p = {p.x / x_factor, (magnitude ? std::abs(p.y) : p.y) / y_factor};
   }
   if (gaps == curve.points.size()) throw Mistake(fmt::format("`{}` has no finite value to draw", measured.name));

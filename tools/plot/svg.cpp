@@ -53,15 +53,19 @@ std::pair<double, double> range_of(const Axis& axis, const std::vector<Panel>& p
         high = std::max(high, coordinate_of(p));
       }
   if (low > high) return axis.logarithmic ? std::pair(0.1, 1.0) : std::pair(0.0, 1.0);
+  constexpr double nothing = 1e-290;  // far enough from the least number that a tenth of it is still one
   // A range that rounding could have made is none: the curve is drawn as a straight line in the middle.
-  if (high - low <= 1e-12 * std::max(std::abs(low), std::abs(high))) {
-    if (axis.logarithmic) return {low / 2, high * 2};
-    const double half = low == 0 ? 1 : std::abs(low) / 10;
-    return {low - half, high + half};
-  }
+  constexpr double rounding = 1e-12;
   if (axis.logarithmic) {
-    const double factor = std::pow(high / low, margin);
-    return {low / factor, high * factor};
+    low = std::max(low, nothing);
+    high = std::max(high, nothing);
+    if (high <= low * (1 + rounding)) return {low / 2, high * 2};
+    const double factor = std::pow(10.0, margin * (std::log10(high) - std::log10(low)));
+    return {std::max(low / factor, 1e-300), std::min(high * factor, 1e300)};
+  }
+  if (high - low <= std::max(nothing, rounding * std::max(std::abs(low), std::abs(high)))) {
+    const double half = std::abs(low) <= nothing ? 1 : std::abs(low) / 10;
+    return {low - half, high + half};
   }
   return {low - margin * (high - low), high + margin * (high - low)};
 }

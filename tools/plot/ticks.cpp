@@ -18,7 +18,8 @@ double count(double low, double high, double step) {
 
 /// The smallest of 1, 2, 5 times a power of ten that makes at most `most` ticks.
 double round_step(double low, double high, double most) {
-  double power = std::pow(10.0, std::floor(std::log10((high - low) / most)));
+  constexpr double least = 1e-300;  // from which on powers of ten lose digits, and are 0 in the end
+  double power = std::max(least, std::pow(10.0, std::floor(std::log10((high - low) / most))));
   for (;; power *= 10)
     for (const double digit : {1, 2, 5})
       if (count(low, high, digit * power) <= most) return digit * power;
@@ -28,7 +29,8 @@ double round_step(double low, double high, double most) {
 std::string label_of(double value, double step, double largest) {
   const int step_power = static_cast<int>(std::floor(std::log10(step) + slack));
   if (std::abs(value) < step / 2) return "0";
-  if (largest < 1e5 * (1 - slack) && step_power >= -5) return fmt::format("{:.{}f}", value, std::max(0, -step_power));
+  if (largest < 1e5 * (1 - slack) && (step_power >= -5 || largest >= 0.1))
+    return fmt::format("{:.{}f}", value, std::max(0, -step_power));
   const int power = static_cast<int>(std::floor(std::log10(std::abs(value)) + slack));
   const std::string digits = fmt::format("{:.{}f}", value / std::pow(10.0, power), std::max(0, power - step_power));
   return (digits == "1" ? "" : digits == "-1" ? "-" : digits + "·") + fmt::format("10^{}", power);

@@ -32,7 +32,7 @@ bool usual(const Measure& measure, const Prefix& prefix) {
 /// ...
 Shown with_power(const Shown& unit, double largest) {
   const double number = largest / unit.factor;
-  if (number == 0 || (number >= 0.01 && number < 1e4)) return unit;
+  if (number < 1e-290 || (number >= 0.01 && number < 1e4)) return unit;
   const int power = 3 * static_cast<int>(std::floor(std::log10(number) / 3 + 1e-9));
   return {fmt::format("10^{}{}{}", power, unit.name.empty() ? "" : " ", unit.name),
           unit.factor * std::pow(10.0, power)};
