@@ -45,6 +45,17 @@ constexpr const char* of_compare =
     "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
     "the output not be written; 2 a scene or the command line is wrong.";
 
+constexpr const char* of_plot =
+    "For instance:\n"
+    "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
+    "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
+    "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
+    "A FILE that ends in .toml is a scene, which is simulated; any other is a CSV file whose first row names its\n"
+    "columns: rows of `run`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over the\n"
+    "first. Different quantities have a panel each, over one horizontal axis.\n\n"
+    "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
+    "line is wrong.";
+
 bool is_override(const std::string& word) {
   const std::size_t equals = word.find('=');
   return equals != std::string::npos && equals > 0 && word[0] != '-' && word.find('/') > equals;
@@ -129,6 +140,45 @@ ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
   return wrong_input;
 }
 
+// An option that may be repeated, each time with one value, or several between commas.
+CLI::Option* add_list(CLI::App* command, const char* names, std::vector<std::string>& values, const char* description,
+                      const char* type, bool commas = true) {
+  CLI::Option* option = command->add_option(names, values, description);
+  option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false)->type_name(type);
+  if (commas) option->delimiter(',');
+  return option;
+}
+
+void add_plot(CLI::App* command, Arguments& arguments) {
+  Arguments::Plot& plot = arguments.plot;
+  command->add_option("FILES", arguments.scenes, "scenes (.toml) and CSV files; their curves are overlaid")
+      ->required()
+      ->option_text("FILE [FILE ...]");
+  command->add_option("-o,--output", arguments.output, "the figure: an .svg or a .png; `-` is an SVG on standard output")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("-x", plot.x, "what is drawn against; `time` if not given")->type_name("COLUMN");
+  add_list(command, "-y", plot.y, "what is drawn", "COLUMN,...");
+  add_list(command, "--loop", plot.loops, "force against displacement", "ELEMENT,...");
+  add_list(command, "--flow", plot.flows, "force against velocity", "ELEMENT,...");
+  add_list(command, "--phase", plot.phases, "velocity against position", "NODE,...");
+  add_list(command, "--decay", plot.decays, "force over time, logarithmic", "ELEMENT,...");
+  command->add_option("--log", plot.log, "logarithmic axes")->type_name("x|y|xy");
+  command->add_flag("--abs", plot.magnitudes, "magnitudes, so that a logarithmic axis has a place for all");
+  command->add_flag("--marks", plot.marks, "a mark at each point");
+  add_list(command, "--unit", plot.units, "units for the axes that have their dimension", "UNIT,...");
+  command->add_option("--domain", arguments.domain, "of CSV files: what their SI units are")
+      ->check(CLI::IsMember({"translation", "rotation"}))
+      ->type_name("translation|rotation");
+  command->add_option("--x-range", plot.x_range, "part of the horizontal axis, in its unit")->type_name("LOW:HIGH");
+  command->add_option("--y-range", plot.y_range, "part of the vertical axis, in its unit")->type_name("LOW:HIGH");
+  command->add_option("--title", plot.title, "above the figure")->type_name("TEXT");
+  command->add_option("--x-label", plot.x_label, "of the horizontal axis")->type_name("TEXT");
+  command->add_option("--y-label", plot.y_label, "of the vertical axis")->type_name("TEXT");
+  add_list(command, "--name", plot.names, "of a curve, in their order; may be repeated", "TEXT", false);
+  command->add_option("--size", plot.size, "of the figure, in px (96 to the inch)")->type_name("WxH");
+}
+
 }  // namespace
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
@@ -172,6 +222,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       ->type_name("FILE");
   run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
       ->type_name("FILE");
+  run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")->type_name("FILE");
   add_accuracy(run);
   run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
 
@@ -200,6 +251,11 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       ->add_option("-o,--output", arguments.overlay,
                    "where the rows of all scenes go, side by side; `-` is standard output")
       ->type_name("FILE");
+
+  CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", of_plot);
+  add_plot(plot, arguments);
+  add_overrides(plot);
+  add_accuracy(plot);
 
   CLI::App* components = add_command("components", "describe the element types");
   components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
@@ -234,6 +290,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   const std::map<std::string, Command> commands = {{"run", Command::run},
                                                    {"check", Command::check},
                                                    {"compare", Command::compare},
+                                                   {"plot", Command::plot},
                                                    {"components", Command::components},
                                                    {"schema", Command::schema}};
   arguments.command = commands.at(app.get_subcommands().front()->get_name());

@@ -12,23 +12,39 @@ enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input =
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, components, schema };
+  enum class Command { run, check, compare, plot, components, schema };
 
   Command command = Command::run;
   std::string scene;
-  std::vector<std::string> scenes;     ///< of `compare`
+  std::vector<std::string> scenes;     ///< of `compare`; of `plot` also CSV files
   std::vector<std::string> pairs;      ///< PATH=PATH, of `compare`
   std::string vary;                    ///< PATH=RANGE, of `compare`; "": nothing
   std::optional<double> within;        ///< of `compare`
   std::string overlay;                 ///< where the data of `compare` go; "": nowhere
   std::string output = "-";            ///< "-": standard output
   std::string events;                  ///< where the events go; "": nowhere
+  std::string figure;                  ///< where `run` draws its records; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
   bool quiet = false;
   bool verbose = false;
   std::string type;  ///< of `components`; "": all
   bool markdown = false;
+
+  /// Of `plot`: what is drawn, and how; "" and empty where that is left to the files.
+  struct Plot {
+    std::string x;                                        ///< a column
+    std::vector<std::string> y;                           ///< columns
+    std::vector<std::string> loops, flows, phases, decays;  ///< elements; of `phases` nodes
+    std::string log;                                      ///< "x", "y", "xy"
+    std::string x_range, y_range;                         ///< "LOW:HIGH"
+    std::string size;                                     ///< "WIDTHxHEIGHT"
+    std::string title, x_label, y_label;
+    std::vector<std::string> units, names;
+    bool magnitudes = false, marks = false;
+  };
+  Plot plot;
+  std::string domain;  ///< of CSV files: "translation", "rotation"; "": not said
 };
 
 /// Reads the words after the program's name. The exit status instead if there is nothing more to do: help or the

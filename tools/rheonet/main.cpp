@@ -24,6 +24,8 @@ ExitStatus carry_out(const Arguments& arguments) {
       return check_scene(arguments);
     case Command::compare:
       return compare_scenes(arguments);
+    case Command::plot:
+      return plot_results(arguments);
     case Command::components:
       return print_components(arguments);
     case Command::schema:

@@ -3,7 +3,9 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
@@ -11,6 +13,7 @@
 #include "core/result/run.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/figure_file.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
@@ -43,6 +46,21 @@ bool same_file(const std::string& path, const std::string& other) {
   return fs::equivalent(path, other, error) && fs::is_regular_file(path, error);
 }
 
+/// Whether two outputs go to one file, once it exists; says so if they do.
+bool write_to_one_file(const Arguments& arguments) {
+  const std::pair<const char*, const std::string&> outputs[] = {
+      {"--output", arguments.output}, {"--events", arguments.events}, {"--plot", arguments.figure}};
+  for (std::size_t i = 0; i < std::size(outputs); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      if (!same_file(outputs[k].second, outputs[i].second)) continue;
+      const std::string& path = outputs[k].second;
+      say("error: `{}` and `{}` both write to {}; give one of them another file\n", outputs[k].first, outputs[i].first,
+          path == "-" ? "standard output" : "`" + printable(path) + "`");
+      return true;
+    }
+  return false;
+}
+
 std::string kept(const Output& output, const char* row) {
   if (output.rows() == 0) return fmt::format("  no {} was written to {}\n", row, output.name());
   if (output.rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, output.name());
@@ -70,6 +88,8 @@ struct Outputs {
 ExitStatus run_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
+  const bool drawn = !arguments.figure.empty();
+  if (drawn && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources))
     return wrong_input;
 
@@ -80,22 +100,26 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (!arguments.events.empty()) {
     outputs.events = open_output(arguments.events);
     if (!outputs.events) return wrong_input;
-    if (same_file(arguments.output, arguments.events)) {
-      say("error: `--output` and `--events` both write to {}; give one of them another file\n", outputs.rows->name());
-      return wrong_input;
-    }
   }
+  if (write_to_one_file(arguments)) return wrong_input;
 
+  std::optional<RunFigure> figure;
+  std::function<void(double, const std::vector<double>&)> on_row;
+  if (drawn) {
+    figure.emplace(*read.scene);
+    on_row = [&figure](double time, const std::vector<double>& values) { figure->row(time, values); };
+  }
   // Rows that scroll by on the same terminal say enough.
   Progress progress(!arguments.quiet && !outputs.rows->is_terminal());
   const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
     const Summary summary = run(*read.scene, {.csv = outputs.rows->file(),
                                               .events = outputs.events ? outputs.events->file() : nullptr,
+                                              .row = on_row,
                                               .interrupt = &stop,
                                               .progress = on_progress});
     progress.erase();
-    if (!outputs.close()) return not_simulated;
+    if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));

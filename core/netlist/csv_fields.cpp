@@ -1,0 +1,63 @@
+#include "core/netlist/csv_fields.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/netlist/characters.hpp"
+
+namespace rheonet {
+
+namespace {
+
+constexpr std::string_view blank = " \t\r";
+
+std::string_view trim(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
+  return text.substr(0, text.find_last_not_of(blank) + 1);
+}
+
+std::string_view without_quotes(std::string_view text) {
+  const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
+  return quoted ? trim(text.substr(1, text.size() - 2)) : text;
+}
+
+}  // namespace
+
+std::vector<CsvField> csv_fields(std::string_view line) {
+  const char separator = line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
+  std::vector<CsvField> fields;
+  std::size_t at = 0, counted = 0, column = 1;
+  while (at <= line.size()) {
+    std::size_t end = separator == ' ' ? line.find_first_of(blank, at) : line.find(separator, at);
+    end = std::min(end, line.size());
+    const std::string_view text = trim(line.substr(at, end - at));
+    const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);
+    column += count_characters(line.substr(counted, begin - counted));
+    counted = begin;
+    if (separator != ' ' || !text.empty()) fields.push_back({without_quotes(text), static_cast<int>(column)});
+    at = end + 1;
+  }
+  return fields;
+}
+
+bool is_csv_remark(std::string_view line) {
+  const std::string_view text = trim(line);
+  return text.empty() || text.front() == '#';
+}
+
+std::optional<double> csv_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (failed != std::errc{} || end != text.data() + text.size()) return {};
+  return value;
+}
+
+CsvHeading csv_heading(std::string_view field) {
+  const bool square = field.ends_with(']');
+  const auto begin = square || field.ends_with(')') ? field.rfind(square ? '[' : '(') : field.npos;
+  if (begin == field.npos) return {field, "", false};
+  return {trim(field.substr(0, begin)), trim(field.substr(begin + 1, field.size() - begin - 2)), square};
+}
+
+}  // namespace rheonet

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace rheonet {
+
+/// One cell of a line of a CSV file.
+struct CsvField {
+  std::string_view text;  ///< without the quotes and blanks around it
+  int column = 1;         ///< where it begins, in characters from 1
+};
+
+/// The fields of a line, split at commas if it has any, else at semicolons, else at blanks and tabs. A field may stand
+/// in quotes, as spreadsheets write them.
+std::vector<CsvField> csv_fields(std::string_view line);
+
+/// Whether a line is empty, or begins with `#`.
+bool is_csv_remark(std::string_view line);
+
+/// The number that a field is; nothing if it is none.
+std::optional<double> csv_number(std::string_view text);
+
+/// A field of a header: "velocity [mm/s]" or "velocity (mm/s)".
+struct CsvHeading {
+  std::string_view name;
+  std::string_view unit;  ///< "": none
+  bool square = false;    ///< in square brackets: it can be nothing but a unit
+};
+CsvHeading csv_heading(std::string_view field);
+
+}  // namespace rheonet

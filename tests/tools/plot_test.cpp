@@ -1,0 +1,138 @@
+#include <doctest/doctest.h>
+
+#include "tests/support/program.hpp"
+#include "tests/support/xml.hpp"
+
+using namespace rheonet::test;
+
+namespace {
+
+const std::string scene = R"(title = "Relaxation"
+[elements]
+hand = { type = "motion",  at = "grip", position = { step = "1 cm", time = "0.1 s" } }
+k1   = { type = "spring",  between = ["grip", "mid"],   stiffness = "200 N/m" }
+c1   = { type = "dashpot", between = ["mid", "ground"], damping = "100 N*s/m" }
+[simulate]
+stop   = "3 s"
+record = ["grip.position", "k1.force"]
+)";
+
+}  // namespace
+
+TEST_CASE("plot draws the records of a scene, and whatever else is named; its claims are none of its business") {
+  const Folder folder(scene + "[expect]\n\"k1.force\" = { max = \"3 N\" }\n");  // it is 2 N
+  CHECK(folder.shell("rheonet plot scene.toml -o a.svg", 0).err == "");
+  const std::string all = folder.read("a.svg");
+  CHECK(what_is_wrong_with_xml(all) == "");
+  for (const char* said :
+       {"<title>Relaxation</title>", ">position [mm]<", ">force [N]<", ">time [s]<", ">k1.force<", ">grip.position<"}) {
+    CAPTURE(said);
+    CHECK(contains(all, said));
+  }
+  folder.shell("rheonet plot scene.toml -o b.svg --loop c1 --title Loop --unit cm --set k1.stiffness='20 N/m'", 0);
+  const std::string loop = folder.read("b.svg");
+  CHECK(contains(loop, "<desc>force [N] against displacement [cm]: c1.force</desc>"));
+  CHECK(contains(loop, "<title>Loop</title>"));
+  CHECK(contains(folder.shell("rheonet plot scene.toml -o - --flow k1,c1", 0).out,
+                 "<desc>force [N] against velocity [mm/s]: k1.force, c1.force</desc>"));
+  CHECK(contains(folder.shell("rheonet plot scene.toml -o - --phase mid", 0).out,
+                 "<desc>velocity [mm/s] against position [mm]: mid.velocity</desc>"));
+  const Finished decay =
+      folder.shell("rheonet plot scene.toml -o - --decay k1 --name pull --x-range 0.2:2 --y-range 0.001:10", 0);
+  CHECK(contains(decay.out, "<desc>force [N] against time [s]: pull</desc>"));
+  CHECK(contains(decay.out, ">0.001<"));
+  CHECK(contains(decay.err, "note: `pull`: 17 of 501 points are not above 0 and left out of the logarithmic axis"));
+}
+
+TEST_CASE("plot overlays runs and other files, each called by its name") {
+  const Folder folder(scene);
+  folder.shell(
+      "rheonet run -q scene.toml -o soft.csv && rheonet run -q scene.toml -o stiff.csv --set k1.stiffness='400 N/m'",
+      0);
+  folder.write("measured.csv", "time [ms],k1.force [gf]\n200,150\n500,90\n");
+  const Finished both = folder.shell("rheonet plot soft.csv stiff.csv -y k1.force -o - --domain translation", 0);
+  CHECK(contains(both.out, "<desc>force [N] against time [s]: soft, stiff</desc>"));
+  CHECK(both.err == "");
+  const Finished unknown = folder.shell("rheonet plot soft.csv -y k1.force -o -", 0);
+  CHECK(contains(unknown.out, ">force [SI]<"));
+  CHECK(unknown.err ==
+        "note: a CSV file does not say whether `k1.force` is of translation or rotation; `--domain` puts its unit on "
+        "the axis\n");
+  const Finished mixed = folder.shell("rheonet plot scene.toml measured.csv -y k1.force --marks --unit gf,ms -o -", 0);
+  CHECK(contains(mixed.out, "[gf] against time [ms]: scene, measured</desc>"));
+  CHECK(contains(mixed.out, "<circle "));
+}
+
+TEST_CASE("run --plot draws the records over time, beside the rows") {
+  const Folder folder(scene);
+  folder.shell("rheonet run -q scene.toml -o rows.csv --plot a.svg", 0);
+  CHECK(contains(folder.read("a.svg"),
+                 "<desc>position [mm] against time [s]: grip.position; force [N] against time [s]: k1.force</desc>"));
+  CHECK(contains(folder.read("rows.csv"), "time,grip.position,k1.force\n"));
+  CHECK(folder.shell("rheonet run -q scene.toml -o rows.csv --plot a.pdf", 2).err ==
+        "error: `--plot a.pdf` is neither an .svg nor a .png\n");
+}
+
+TEST_CASE("the figure of a run has a file of its own") {
+  const Folder folder(scene);
+  CHECK(folder.shell("rheonet run -q scene.toml -o a.svg --plot ./a.svg", 2).err ==
+        "error: `--output` and `--plot` both write to `a.svg`; give one of them another file\n");
+  CHECK(folder.shell("rheonet run -q scene.toml --plot -", 2).err ==
+        "error: `--output` and `--plot` both write to standard output; give one of them another file\n");
+  CHECK_FALSE(folder.has("a.svg"));
+}
+
+TEST_CASE("a .png is made by rsvg-convert; without it plot says so") {
+  const Folder folder(scene);
+  folder.shell("rheonet plot scene.toml -o a.png", 0);
+  CHECK(folder.read("a.png").starts_with("\x89PNG\r\n"));
+  CHECK(folder.read("a.png").size() > 5000);
+  CHECK(folder.shell("p=$(command -v rheonet); PATH=/nowhere $p plot scene.toml -o b.png", 1).err ==
+        "error: `b.png`: a .png is made by rsvg-convert, which is not installed (Debian: apt-get install "
+        "librsvg2-bin); an .svg "
+        "needs nothing\n");
+  CHECK(contains(folder.shell("rheonet plot scene.toml -o no/b.png", 1).err,
+                 "error: `no/b.png`: rsvg-convert could not make the .png: "));
+}
+
+TEST_CASE("plot says what is wrong with what it is asked for") {
+  const Folder folder(scene);
+  folder.write("r.csv", "time,k1.force\n0,1\n1,2\n");
+  const auto said = [&](const std::string& words) { return folder.shell("rheonet plot " + words, 2).err; };
+  CHECK(said("r.csv -y k1.forse -o a.svg") == "error: `r.csv` has no column `k1.forse`\n  did you mean `k1.force`?\n");
+  CHECK(said("r.csv -x pressure -o a.svg") == "error: `r.csv` has no column `pressure`\n  it has `time`, `k1.force`\n");
+  CHECK(contains(said("scene.toml -y k1.forse -o a.svg"), "error: `k1` has no `forse`"));
+  CHECK(said("scene.toml r.csv -y c2.force -o a.svg") ==
+        "error: `scene.toml` has no column `c2.force`\n  did you mean `k1.force`?\n");
+  CHECK(said("none.csv -o a.svg") == "error: `none.csv` cannot be read: No such file or directory\n");
+  CHECK(said("r.csv -o a.pdf") == "error: `--output a.pdf` is neither an .svg nor a .png\n");
+  CHECK(said("r.csv -o a.svg --x-range 2:1") ==
+        "error: `--x-range 2:1` is no range; it takes two numbers, the lower one first: --x-range 0:2.5\n");
+  CHECK(said("r.csv -o a.svg --size 640") ==
+        "error: `--size 640` is no size; it takes width and height in px, from 200 to 4000: --size 640x400\n");
+  CHECK(said("r.csv -o a.svg --log z") == "error: `--log z` names no axes; it takes x, y or xy\n");
+  CHECK(said("r.csv -o a.svg --name a --name b") == "error: 2 of --name for 1 curves\n");
+  CHECK(said("r.csv -o a.svg --unit kg --domain rotation") ==
+        "error: no axis shows a mass (kg), as the unit `kg` would need\n");
+  CHECK(contains(said("r.csv"), "--output"));
+  CHECK(contains(said("r.csv -o a.svg --domain sideways"), "sideways"));
+  CHECK_FALSE(folder.has("a.svg"));
+  CHECK(folder.shell("rheonet plot r.csv -o no/a.svg --domain rotation", 2).err ==
+        "error: cannot write to `no/a.svg`: No such file or directory\n");
+  // As with `run`, a scene that cannot be simulated is status 1.
+  CHECK(contains(folder.shell("rheonet plot scene.toml -o a.svg --set c1.damping=0 k1.stiffness=0", 1).err, "error: "));
+}
+
+TEST_CASE("of many records that nobody chose a dozen of each quantity are drawn, and the rest is told") {
+  std::string many =
+      "[elements]\nc = { type = \"dashpot\", between = [\"a\", \"ground\"], damping = 1, repeat = { count = 20, "
+      "arrange = \"parallel\" } }\n"
+      "m = { type = \"motion\", at = \"a\", velocity = 1 }\n[simulate]\nstop = 1\nrecord = [";
+  for (int k = 0; k < 14; ++k) many += "\"c." + std::to_string(k) + ".force\", ";
+  const Folder folder(many + "\"a.velocity\"]\n");
+  const Finished drawn = folder.shell("rheonet plot scene.toml -o -", 0);
+  CHECK(drawn.err == "note: of each quantity the first 12 columns are drawn; 2 others are not\n");
+  CHECK(contains(drawn.out, ">c.11.force<"));
+  CHECK_FALSE(contains(drawn.out, ">c.12.force<"));
+  CHECK(contains(drawn.out, ">a.velocity<"));
+}

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/plot/csv.hpp"
+#include "tools/plot/figure.hpp"
+
+namespace rheonet::plot {
+
+/// A curve before it has axes: what it measures, and its points in SI.
+struct Measured {
+  std::string name;
+  Column x, y;
+  Trace trace;
+};
+
+/// How a figure is wanted; what is not said follows from the curves.
+struct Look {
+  std::string title, x_label, y_label;  ///< "": what the curves say
+  std::vector<std::string> units;       ///< each for the axes that have its dimension
+  bool logarithmic_x = false, logarithmic_y = false;
+  bool magnitudes = false;  ///< of all y
+  bool marks = false;
+  std::optional<std::pair<double, double>> x_range, y_range;  ///< in the units of the axes
+  double width = 640, height = 0;                             ///< px, as in Figure
+};
+
+/// Puts curves on axes: those of one quantity share a panel, in the order in which the quantities first come. Notes say
+/// what had to be left out. Throws Mistake: different quantities along x, a unit that no axis has the dimension of, a
+/// curve with nothing to show, a range or label for y where there are several panels.
+Figure compose(std::vector<Measured> curves, const Look& look, std::vector<std::string>& notes);
+
+}  // namespace rheonet::plot

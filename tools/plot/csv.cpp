@@ -1,0 +1,116 @@
+#include "tools/plot/csv.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/netlist/characters.hpp"
+#include "core/netlist/csv_fields.hpp"
+#include "core/netlist/scene.hpp"
+#include "tools/plot/mistake.hpp"
+
+namespace rheonet::plot {
+namespace {
+
+std::ifstream open(const std::string& path) {
+  std::ifstream in(path);
+  std::string nothing;
+  if (!in || in.peek() == std::ifstream::traits_type::eof())
+    throw Mistake(
+        fmt::format("`{}` {}", path,
+                    in.is_open() && in.eof() ? "is empty" : "cannot be read: " + std::string(std::strerror(errno))));
+  return in;
+}
+
+/// Goes to the next line that is no remark; false at the end.
+bool next(std::ifstream& in, std::string& line, long& number) {
+  while (std::getline(in, line)) {
+    ++number;
+    if (!is_csv_remark(line)) return true;
+  }
+  return false;
+}
+
+Measure measure_of(const std::string& name, std::string_view unit, bool square, const std::string& place,
+                   std::optional<Domain> domain) {
+  if (!unit.empty()) {
+    const std::variant<Unit, TextError> size = parse_unit(unit);
+    if (const Unit* known = std::get_if<Unit>(&size)) return {name, std::string(unit), *known};
+    if (square) {
+      const TextError& wrong = std::get<TextError>(size);
+      throw Mistake(fmt::format("{}: `{}` is no unit: {}", place, unit, wrong.message), wrong.hint);
+    }
+    return {name, "", {}};  // a remark in round brackets
+  }
+  if (name == "time") return measure("time", "s");
+  if (const auto record = measure_of_record(name, domain)) return *record;
+  return {name, "", {}};
+}
+
+}  // namespace
+
+std::optional<Measure> measure_of_record(const std::string& name, std::optional<Domain> domain) {
+  using Channel = Record::Channel;
+  const std::string channel = name.find('.') == name.npos ? "" : name.substr(name.rfind('.') + 1);
+  const std::pair<const char*, Channel> channels[] = {{"position", Channel::position},
+                                                      {"velocity", Channel::velocity},
+                                                      {"displacement", Channel::displacement},
+                                                      {"force", Channel::force}};
+  for (const auto& [word, known] : channels) {
+    if (channel != word) continue;
+    if (!domain) return Measure{word, "SI", {}};
+    const Quantity quantity = quantity_of(known);
+    const bool length = quantity == Quantity::position && *domain == Domain::translation;
+    return measure(length ? word : name_of(quantity, *domain), unit_of(quantity, *domain));
+  }
+  return {};
+}
+
+CsvFile::CsvFile(const std::string& path, std::optional<Domain> domain) : path_(path) {
+  std::ifstream in = open(path);
+  std::string line;
+  if (!next(in, line, header_line_)) throw Mistake(fmt::format("`{}` is empty", path));
+  for (const CsvField& field : csv_fields(line)) {
+    const std::string place = fmt::format("{}:{}:{}", path, header_line_, field.column);
+    if (csv_number(field.text))
+      throw Mistake(fmt::format("{}: expected the name of a column, found the number `{}`", place, field.text),
+                    "the first row of a CSV file names its columns");
+    // A name is shown in full where the unit in it is only a remark.
+    const CsvHeading heading = csv_heading(field.text);
+    const std::string name(heading.name.empty() ? field.text : heading.name);
+    columns_.push_back({name, measure_of(name, heading.unit, heading.square, place, domain)});
+  }
+}
+
+std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs) const {
+  std::ifstream in = open(path_);
+  std::vector<Trace> traces(pairs.size());
+  std::vector<char> wanted(columns_.size(), 0);
+  for (const auto& [x, y] : pairs) wanted[x] = wanted[y] = 1;
+  std::vector<double> values(columns_.size(), 0);
+  std::string line;
+  long number = 0, rows = 0;
+  while (next(in, line, number)) {
+    if (number <= header_line_) continue;
+    const std::vector<CsvField> fields = csv_fields(line);
+    if (fields.size() != columns_.size())
+      throw Mistake(
+          fmt::format("{}:{}: {} fields, but the header has {}", path_, number, fields.size(), columns_.size()));
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      if (!wanted[k]) continue;
+      const std::optional<double> value = csv_number(fields[k].text);
+      if (!value)
+        throw Mistake(fmt::format("{}:{}:{}: expected a number, found `{}`", path_, number, fields[k].column,
+                                  printable(fields[k].text)));
+      values[k] = multiplied(*value, columns_[k].measure.size ? columns_[k].measure.size->factor : 1);
+    }
+    for (std::size_t k = 0; k < pairs.size(); ++k) traces[k].add({values[pairs[k].first], values[pairs[k].second]});
+    ++rows;
+  }
+  if (rows == 0) throw Mistake(fmt::format("`{}` has a header, but no rows", path_));
+  return traces;
+}
+
+}  // namespace rheonet::plot

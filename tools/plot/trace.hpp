@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "tools/plot/figure.hpp"
+
+namespace rheonet::plot {
+
+/// Gathers the points of a curve in bounded memory, whatever the length of the run. When there are too many, of each
+/// group of neighbours only the first, the last and those of the extreme x and y stay: the extremes of the curve are
+/// kept exactly, and what is lost lies between points far closer than a pixel, or in a band that is filled anyway.
+class Trace {
+ public:
+  void add(Point point);
+  const std::vector<Point>& points() const { return points_; }
+
+  static constexpr std::size_t capacity = std::size_t{1} << 19;
+
+ private:
+  void compact();
+
+  std::vector<Point> points_;
+};
+
+}  // namespace rheonet::plot

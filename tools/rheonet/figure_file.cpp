@@ -1,0 +1,91 @@
+#include "tools/rheonet/figure_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/netlist/characters.hpp"
+#include "tools/plot/png.hpp"
+#include "tools/rheonet/output.hpp"
+#include "tools/rheonet/plot_source.hpp"
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+ExitStatus write_svg(const std::string& text, const std::string& path) {
+  const std::unique_ptr<Output> output = open_output(path);
+  if (!output) return wrong_input;
+  std::fwrite(text.data(), 1, text.size(), output->file());
+  if (const int error = output->close(); error != 0) {
+    say("error: cannot write to {}: {}\n", output->name(), std::strerror(error));
+    return not_simulated;
+  }
+  return done;
+}
+
+}  // namespace
+
+bool is_figure_file(const std::string& path, const char* option) {
+  if (path == "-" || path.ends_with(".svg") || path.ends_with(".png")) return true;
+  say("error: `{} {}` is neither an .svg nor a .png\n", option, printable(path));
+  return false;
+}
+
+void report(const plot::Mistake& mistake) {
+  say("error: {}\n", printable(mistake.what()));
+  if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
+}
+
+ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path) {
+  std::vector<std::string> notes;
+  const std::string text = plot::svg(plot::compose(std::move(curves), look, notes));
+  for (const std::string& note : notes) say("note: {}\n", printable(note));
+  if (!path.ends_with(".png")) return write_svg(text, path);
+  const std::optional<std::string> failed = plot::write_png(text, path);
+  if (failed) say("error: `{}`: {}\n", printable(path), printable(*failed));
+  return failed ? not_simulated : done;
+}
+
+std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x) {
+  constexpr std::size_t room = 12;
+  std::vector<std::pair<const plot::Measure*, std::size_t>> counts;
+  std::vector<std::size_t> chosen;
+  std::size_t left_out = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k].name == x || columns[k].name == "time") continue;
+    auto count = std::find_if(counts.begin(), counts.end(),
+                              [&](const auto& c) { return plot::compatible(*c.first, columns[k].measure); });
+    if (count == counts.end()) count = counts.insert(counts.end(), {&columns[k].measure, 0});
+    if (++count->second <= room)
+      chosen.push_back(k);
+    else
+      ++left_out;
+  }
+  if (left_out > 0) say("note: of each quantity the first {} columns are drawn; {} others are not\n", room, left_out);
+  return chosen;
+}
+
+RunFigure::RunFigure(const Scene& scene) : title_(scene.title) {
+  const std::vector<plot::Column> columns = columns_of(scene);
+  chosen_ = chosen_columns(columns, "time");
+  for (const std::size_t k : chosen_) curves_.push_back({columns[k].name, columns[0], columns[k], {}});
+}
+
+void RunFigure::row(double time, const std::vector<double>& values) {
+  for (std::size_t k = 0; k < chosen_.size(); ++k) curves_[k].trace.add({time, values[chosen_[k] - 1]});
+}
+
+ExitStatus RunFigure::write(const std::string& path) const {
+  plot::Look look;
+  look.title = title_;
+  try {
+    return write_figure(curves_, look, path);
+  } catch (const plot::Mistake& mistake) {
+    report(mistake);
+    return not_simulated;
+  }
+}
+
+}  // namespace rheonet::tool

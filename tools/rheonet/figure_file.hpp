@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "core/netlist/scene.hpp"
+#include "tools/plot/compose.hpp"
+#include "tools/plot/mistake.hpp"
+#include "tools/rheonet/arguments.hpp"
+
+namespace rheonet::tool {
+
+/// Whether a file can be a figure, by its ending; says so if not. `option` is what names it: "--output".
+bool is_figure_file(const std::string& path, const char* option);
+
+/// Says why a figure cannot be drawn.
+void report(const plot::Mistake& mistake);
+
+/// Composes and writes a figure, and says what was left out of it. Throws plot::Mistake.
+ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path);
+
+/// Of columns that nobody chose, those that a figure has room for beside its x: the first twelve of each quantity, and
+/// no time. Says how many others there are.
+std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x);
+
+/// Draws the records of a run over time while it goes on: `run --plot`.
+class RunFigure {
+ public:
+  explicit RunFigure(const Scene& scene);
+  void row(double time, const std::vector<double>& values);
+  ExitStatus write(const std::string& path) const;
+
+ private:
+  std::string title_;
+  std::vector<std::size_t> chosen_;  ///< columns; 0 is time
+  std::vector<plot::Measured> curves_;
+};
+
+}  // namespace rheonet::tool

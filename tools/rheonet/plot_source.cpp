@@ -1,0 +1,101 @@
+#include "tools/rheonet/plot_source.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+
+#include "core/result/run.hpp"
+#include "tools/plot/mistake.hpp"
+#include "tools/rheonet/progress.hpp"
+#include "tools/rheonet/reading.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+class CsvSource final : public PlotSource {
+ public:
+  CsvSource(const std::string& file, const Arguments& arguments)
+      : csv_(file, arguments.domain.empty()         ? std::optional<Domain>()
+                   : arguments.domain == "rotation" ? Domain::rotation
+                                                    : Domain::translation) {
+    file_ = file;
+    title_ = std::filesystem::path(file).filename().string();
+    columns_ = csv_.columns();
+  }
+
+  std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override { return csv_.read(pairs); }
+
+ private:
+  plot::CsvFile csv_;
+};
+
+/// Whether a scene has what a path such as `k1.force` is about.
+bool has(const Scene& scene, const std::string& path) {
+  const std::string subject = path.substr(0, path.rfind('.'));
+  const auto named = [&](const auto& all) {
+    return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == subject; });
+  };
+  return named(scene.nodes) || named(scene.elements) || named(scene.assemblies);
+}
+
+class SceneSource final : public PlotSource {
+ public:
+  SceneSource(const std::string& file, const Arguments& arguments, const std::vector<std::string>& wanted,
+              bool lenient) {
+    ReadOptions options = options_of(arguments);
+    options.claims = false;  // a picture is asked for, not a verdict
+    if (!lenient) options.records = wanted;
+    read_ = read_and_report(file, options);
+    if (read_.scene && lenient) {
+      for (const std::string& path : wanted)
+        if (has(*read_.scene, path)) options.records.push_back(path);
+      if (!options.records.empty()) read_ = read_and_report(file, options);
+    }
+    if (!read_.scene) throw PlotEnded{wrong_input};
+    file_ = file;
+    title_ = read_.scene->title;
+    columns_ = columns_of(*read_.scene);
+  }
+
+  std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override {
+    std::vector<plot::Trace> traces(pairs.size());
+    Progress progress(true);
+    try {
+      run(*read_.scene, {.row =
+                             [&](double time, const std::vector<double>& values) {
+                               const auto value = [&](std::size_t column) {
+                                 return column == 0 ? time : values[column - 1];
+                               };
+                               for (std::size_t k = 0; k < pairs.size(); ++k)
+                                 traces[k].add({value(pairs[k].first), value(pairs[k].second)});
+                             },
+                         .progress = [&](double fraction) { progress.update(fraction); }});
+    } catch (const SimulationError& error) {
+      progress.erase();
+      report(error, read_.sources);
+      throw PlotEnded{not_simulated};
+    }
+    progress.erase();
+    return traces;
+  }
+
+ private:
+  ReadResult read_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlotSource> open_plot_source(const std::string& file, const Arguments& arguments,
+                                             const std::vector<std::string>& wanted, bool lenient) {
+  if (file.ends_with(".toml")) return std::make_unique<SceneSource>(file, arguments, wanted, lenient);
+  return std::make_unique<CsvSource>(file, arguments);
+}
+
+std::vector<plot::Column> columns_of(const Scene& scene) {
+  std::vector<plot::Column> columns{{"time", plot::measure("time", "s")}};
+  for (const Record& record : scene.records)
+    columns.push_back({record.path, *plot::measure_of_record(record.path, scene.domain)});
+  return columns;
+}
+
+}  // namespace rheonet::tool

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+#include "tools/plot/csv.hpp"
+#include "tools/rheonet/arguments.hpp"
+
+namespace rheonet::tool {
+
+/// What curves come from: a scene, which is simulated, or a CSV file.
+class PlotSource {
+ public:
+  virtual ~PlotSource() = default;
+
+  const std::string& file() const { return file_; }
+  const std::string& title() const { return title_; }
+  const std::vector<plot::Column>& columns() const { return columns_; }
+
+  /// Goes through the rows: a trace in SI for each pair of columns. Throws plot::Mistake; PlotEnded if a scene cannot
+  /// be simulated.
+  virtual std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) = 0;
+
+ protected:
+  std::string file_, title_;
+  std::vector<plot::Column> columns_;
+};
+
+/// Ends the command: what there is to say has been said.
+struct PlotEnded {
+  ExitStatus status;
+};
+
+/// Opens a file: a scene if it ends in `.toml`. `wanted` are the paths that a scene is to record besides its own; those
+/// that it has no element or node for are passed over if `lenient`. Throws plot::Mistake and PlotEnded.
+std::unique_ptr<PlotSource> open_plot_source(const std::string& file, const Arguments& arguments,
+                                             const std::vector<std::string>& wanted, bool lenient);
+
+/// The columns of a scene's rows: `time`, and its records.
+std::vector<plot::Column> columns_of(const Scene& scene);
+
+}  // namespace rheonet::tool
