@@ -46,6 +46,9 @@ class ConvexNetwork {
   double difference(int a, int b) const;
   /// Of a branch, after `solve`.
   double force(int branch) const;
+  struct Bounds { double low, high; };
+  /// Between which the force of a branch lies as long as it joins its ends.
+  Bounds bounds(int branch) const { return {branches_[at(branch)].law.low, branches_[at(branch)].law.high}; }
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound where others keep its ends together.
   int direction(int branch) const;
   /// Nodes that ran away, if the outcome is `unbounded`.

@@ -16,6 +16,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Forces that balance but for this share of their magnitudes balance.
 constexpr double balance_rounding = 1e-12;
+// A law whose slope is this share of that to the other side has none.
+constexpr double flat = 1e-6;
 // Velocities that differ by this share of their magnitudes are equal.
 constexpr double velocity_rounding = 1e-14;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
@@ -221,7 +223,9 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       const int direction =
           std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
-        if (may_stand(j)) {
+        if (may_stand(j) && relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
+          laws.batch->set_direction(i, state.p[at(j)], 0, laws.batch->direction(i));
+        } else if (may_stand(j)) {
           change.standing.push_back({j, 0});
         } else if (!laws.batch->fits(i, 0)) {
           laws.batch->set_direction(i, state.p[at(j)], 0, 0);
@@ -231,6 +235,15 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       }
     }
   }
+}
+
+/// At its bound friction has no slope to begin with, and is still about to leave it in the direction that it had. It could
+/// as well stay there for good, but the least disturbance would end that.
+bool Instant::relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i, double p) {
+  const int direction = batch.direction(i);
+  if (direction == 0 || !(batch.slope(i, p, direction) <= flat * batch.slope(i, p, -direction))) return false;
+  const auto [low, high] = problem.bounds(branch);
+  return std::abs(problem.force(branch) - (direction > 0 ? high : low)) <= flat * (high - low);
 }
 
 bool Instant::reversed(const Fired& fired, int branch) const {
