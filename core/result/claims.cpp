@@ -42,7 +42,7 @@ double side_of(double value, double level) { return value > level ? 1 : value < 
 Claims::Claims(const Scene& scene)
     : largest_(scene.claimed.size(), 0),
       interval_(scene.output_every),
-      slack_(1e-9 * interval_),
+      slack_(time_rounding * interval_),
       start_(scene.start),
       length_(scene.stop - scene.start),
       accuracy_(scene.accuracy) {
@@ -76,7 +76,7 @@ void Claims::begin(double t, const std::vector<double>& values) {
 
 void Claims::step(double from, double to, const Read& read) {
   const double length = to - from;
-  const auto parts = static_cast<long>(std::ceil(length / interval_ - 1e-9));
+  const auto parts = static_cast<long>(std::ceil(length / interval_ - time_rounding));
   double begin = from;
   auto cut = std::upper_bound(cuts_.begin(), cuts_.end(), from);
   for (long part = 1; part <= std::max(parts, 1L); ++part) {
