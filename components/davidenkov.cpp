@@ -72,19 +72,28 @@ struct Davidenkov {
   bool constant() const { return open.empty(); }
   int direction() const { return s < 0 ? -1 : 1; }
 
+  // z where z secant(z) = wanted, for 0 < wanted < (n-1)/n. As ln over ln z the left side is concave and nowhere steeper
+  // than 1: from z = wanted, which is too small, Newton's method goes up and not beyond the root, and the size of z plays
+  // no part. At worst, next to z = 1 where the slope is 0, each step halves what is missing.
+  double part_under(double wanted) const {
+    constexpr double rounding = 4e-16;  // of z, relative
+    constexpr int most_steps = 100;     // twice the bits of a double, by halves
+    double z = wanted;
+    for (int i = 0; i < most_steps && z < 1; ++i) {
+      const double step = secant(z) / tangent(z) * std::log(wanted / (z * secant(z)));
+      if (!(step > rounding)) break;
+      z = std::min(1.0, z * std::exp(step));
+    }
+    return z;
+  }
+
   // Unloaded, then loaded to f: p is the place where that ends.
   void begin(double p, double f) {
     s = f < 0 ? -1 : 1;
     virgin = std::abs(f) < Fc;
     open.clear();
     if (!virgin) return;
-    // g is concave: from the left, Newton's method does not go beyond the root.
-    const double wanted = std::abs(f) / (sigma * X);
-    double z = 0;
-    for (double step = 1; step > 1e-16 && z < 1;) {
-      step = (wanted - z * secant(z)) / tangent(z);
-      z = std::min(1.0, z + step);
-    }
+    const double z = f == 0 ? 0 : part_under(std::abs(f) / (sigma * X));
     open.push_back({p - s * z * X, 0, 0});
   }
   double start(double) const { return 0; }
@@ -105,8 +114,12 @@ struct Davidenkov {
     const double loop = std::abs(open.back().p - open[open.size() - 2].p);
     return virgin && open.size() == 2 ? 2 * loop : loop;  // the first loading goes on from the mirror of its reversal
   }
-  // Loops narrower than rounding of their ends are none.
-  double narrow(double p) const { return 1e-13 * X + 1e-15 * std::abs(p); }
+  // Loops narrower than this are none: their ends cannot be told apart. In travel some roundings of the place; in force,
+  // even for n near 1 where X is long, z (1 - ln z) = 3e-12 of Fc.
+  double narrow(double p) const {
+    constexpr double narrow_part = 1e-13, place_rounding = 1e-15;
+    return narrow_part * X + place_rounding * std::abs(p);
+  }
 
   void close() {
     if (open.size() == 1) {

@@ -18,6 +18,32 @@ constexpr NodeId no_node = std::numeric_limits<NodeId>::min();
 
 std::string joined(const std::string& path, const std::string& name) { return path.empty() ? name : path + '.' + name; }
 
+/// How many members a repeat has: a whole number of at least 1.
+std::optional<double> member_count(const Repeat& repeat, const Environment& environment, Context& context) {
+  const auto wanted = repeat.count.evaluate(environment, Quantity::number, context.domain, context.mistakes);
+  if (!wanted || (*wanted >= 1 && *wanted == std::floor(*wanted))) return wanted;
+  context.mistakes.error(repeat.count.source().spot,
+                         "`count` must be a whole number of at least 1, but is " + number_text(*wanted));
+  return {};
+}
+
+/// The overrides within a repeat of `count` members, each with the member that it concerns.
+std::vector<std::pair<std::size_t, ActiveOverride>> by_member(const ActiveOverrides& overrides, std::size_t count,
+                                                              const std::string& path, Mistakes& mistakes) {
+  std::vector<std::pair<std::size_t, ActiveOverride>> members;
+  for (const ActiveOverride& active : overrides) {
+    const std::string& name = active.next().name;
+    const double index = name.size() < 10 ? std::stod(name) : std::numeric_limits<double>::infinity();
+    if (index < static_cast<double>(count)) {
+      members.emplace_back(static_cast<std::size_t>(index), active.deeper());
+    } else {
+      mistakes.error(active.next().spot, "`" + path + "` has no member " + name,
+                     "its members are `" + path + ".0` to `" + path + "." + std::to_string(count - 1) + "`");
+    }
+  }
+  return members;
+}
+
 }  // namespace
 
 void Expander::run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides) {
@@ -222,34 +248,19 @@ bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surround
 bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
   Mistakes& mistakes = context_.mistakes;
   const Repeat& repeat = *plan.repeat;
-  const auto wanted = repeat.count.evaluate(around.environment, Quantity::number, context_.domain, mistakes);
+  const auto wanted = member_count(repeat, around.environment, context_);
   if (!wanted) return false;
-  const Spot count_spot = repeat.count.source().spot;
-  if (*wanted < 1 || *wanted != std::floor(*wanted)) {
-    mistakes.error(count_spot, "`count` must be a whole number of at least 1, but is " + number_text(*wanted));
-    return false;
-  }
   const auto refuse = [&](double elements) {
-    mistakes.error(count_spot, "this `repeat` makes " + number_text(elements) + " elements; a scene may have at most " +
-                                   std::to_string(most_elements));
+    mistakes.error(repeat.count.source().spot, "this `repeat` makes " + number_text(elements) +
+                                                   " elements; a scene may have at most " +
+                                                   std::to_string(most_elements));
     stopped_ = true;
     return false;
   };
   if (*wanted > static_cast<double>(most_elements)) return refuse(*wanted);
   const auto count = static_cast<std::size_t>(*wanted);
 
-  std::vector<std::pair<std::size_t, ActiveOverride>> overridden_members;
-  for (const ActiveOverride& active : around.overrides) {
-    const std::string& name = active.next().name;
-    const double index = name.size() < 10 ? std::stod(name) : std::numeric_limits<double>::infinity();
-    if (index < *wanted) {
-      overridden_members.emplace_back(static_cast<std::size_t>(index), active.deeper());
-    } else {
-      mistakes.error(active.next().spot, "`" + path + "` has no member " + name,
-                     "its members are `" + path + ".0` to `" + path + "." + std::to_string(count - 1) + "`");
-    }
-  }
-
+  const auto overridden_members = by_member(around.overrides, count, path, mistakes);
   const bool assembled = ends.size() == 2 && !plan.at;
   const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;
   Terms force;

@@ -39,6 +39,51 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// The one of `type`, `series` and `parallel` that an element or group has; nullptr, with a message, if not one.
+const TomlEntry* find_kind(const TomlValue& source, Spot spot, const std::string& called, Mistakes& mistakes) {
+  const TomlEntry* kind = nullptr;
+  for (const char* key : {"type", "series", "parallel"}) {
+    const TomlEntry* entry = source.find(key);
+    if (entry && kind) {
+      refuse_both(*kind, *entry, called, mistakes,
+                  "a group in a group is a member of its own: series = [ { parallel = [ ... ] }, ... ]");
+      return nullptr;
+    }
+    if (entry) kind = entry;
+  }
+  if (!kind) {
+    std::string hint = "expected `type`, `series` or `parallel`";
+    Spot where = spot;
+    for (const TomlEntry& entry : source.entries)
+      if (const auto meant = nearest(entry.key, {"type", "series", "parallel"}); !meant.empty()) {
+        hint = "is `" + entry.key + "` meant to be `" + meant + "`?";
+        where = entry.spot;
+      }
+    mistakes.error(where, called + " has no `type`", hint);
+  }
+  return kind;
+}
+
+/// Where a parameter has two names, the other one deserves more than "unknown key". Returns whether it is there.
+bool refuse_other_names(const Parameter& parameter, const std::string& name, bool in_model, Domain domain, Keys& keys,
+                        Mistakes& mistakes) {
+  const bool rotation = domain == Domain::rotation;
+  bool misnamed = false;
+  for (const std::string& other : {parameter.name, parameter.rotational_name}) {
+    const TomlEntry* entry = other.empty() || other == name ? nullptr : keys.find_quietly(other);
+    if (!entry) continue;
+    // An override takes the place of what a model for translation says.
+    const TomlEntry* given_now = keys.find_quietly(name);
+    if (in_model && rotation && other == parameter.name && given_now && given_now->spot.file < 0) continue;
+    misnamed = true;
+    mistakes.error(
+        entry->spot,
+        "`" + other + "` is called `" + name + "` in a " + (rotation ? "rotational" : "translational") + " scene",
+        "write `" + name + "`" + (rotation ? "" : ", or set domain = \"rotation\""));
+  }
+  return misnamed;
+}
+
 }  // namespace
 
 int Scope::node(const std::string& name, Spot spot) {
@@ -79,27 +124,8 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
   const std::string called = scope ? "element `" + plan.name + "`" : "a member of a group";
   if (!expect_table(source, called, mistakes, "an element is a table: { type = \"spring\", ... }")) return plan;
 
-  const TomlEntry* kind = nullptr;
-  for (const char* key : {"type", "series", "parallel"}) {
-    const TomlEntry* entry = source.find(key);
-    if (entry && kind) {
-      refuse_both(*kind, *entry, called, mistakes,
-                  "a group in a group is a member of its own: series = [ { parallel = [ ... ] }, ... ]");
-      return plan;
-    }
-    if (entry) kind = entry;
-  }
-  if (!kind) {
-    std::string hint = "expected `type`, `series` or `parallel`";
-    Spot where = spot;
-    for (const TomlEntry& entry : source.entries)
-      if (const auto meant = nearest(entry.key, {"type", "series", "parallel"}); !meant.empty()) {
-        hint = "is `" + entry.key + "` meant to be `" + meant + "`?";
-        where = entry.spot;
-      }
-    mistakes.error(where, called + " has no `type`", hint);
-    return plan;
-  }
+  const TomlEntry* kind = find_kind(source, spot, called, mistakes);
+  if (!kind) return plan;
 
   const auto read_name = [&](Keys& keys) {
     const TomlEntry* entry = scope ? nullptr : keys.find("name");
@@ -206,20 +232,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
     const bool as_in_translation = plan.in_model && rotation && keys.find_quietly(parameter.name) &&
                                    !keys.find_quietly(parameter.rotational_name);
     const std::string& name = as_in_translation ? parameter.name : parameter.name_in(domain);
-    // Where a parameter has two names, the other one deserves more than "unknown key".
-    bool misnamed = false;
-    for (const std::string& other : {parameter.name, parameter.rotational_name}) {
-      const TomlEntry* entry = other.empty() || other == name ? nullptr : keys.find_quietly(other);
-      if (!entry) continue;
-      // An override takes the place of what a model for translation says.
-      const TomlEntry* given_now = keys.find_quietly(name);
-      if (plan.in_model && rotation && other == parameter.name && given_now && given_now->spot.file < 0) continue;
-      misnamed = true;
-      mistakes.error(
-          entry->spot,
-          "`" + other + "` is called `" + name + "` in a " + (rotation ? "rotational" : "translational") + " scene",
-          "write `" + name + "`" + (rotation ? "" : ", or set domain = \"rotation\""));
-    }
+    const bool misnamed = refuse_other_names(parameter, name, plan.in_model, domain, keys, mistakes);
     const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
                                !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
     const TomlEntry* entry = may_be_absent ? keys.find(name)

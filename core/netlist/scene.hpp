@@ -18,6 +18,10 @@ inline constexpr NodeId ground = 0;
 /// Marks an initial value or parameter that the user did not give.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
+/// Times this close together, as a fraction of an output interval, are one: that far rounding may put a row beyond the
+/// stop, or an event beside a row.
+inline constexpr double time_rounding = 1e-9;
+
 struct SceneNode {
   std::string name;             ///< its path: `drum`, `pivot.mid`, `bingham.node1`
   double position = not_given;  ///< m | rad

@@ -38,20 +38,18 @@ SignalPlan::SignalPlan(const TomlValue& source, const std::string& name, Quantit
   sound_ = context.mistakes.errors() == before;
 }
 
-void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
+const TomlEntry* SignalPlan::find_shape(const TomlValue& source, Mistakes& mistakes) const {
   const std::vector<std::string>& names = shape_names();
   const TomlEntry* main = nullptr;
   for (const TomlEntry& entry : source.entries) {
     const auto found = std::find(names.begin(), names.end(), entry.key);
     if (found == names.end()) continue;
     if (main) {
-      context.mistakes.error(entry.spot,
-                             "signal `" + name_ + "` is both a `" + main->key + "` and a `" + entry.key + "`",
-                             "a signal has one shape");
-      return;
+      mistakes.error(entry.spot, "signal `" + name_ + "` is both a `" + main->key + "` and a `" + entry.key + "`",
+                     "a signal has one shape");
+      return nullptr;
     }
     main = &entry;
-    shape_ = static_cast<Shape>(found - names.begin());
   }
   if (!main) {
     std::string hint = "expected one of " + list_names(names);
@@ -63,9 +61,16 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
       hint = did_you_mean(entry.key, names, hint);
       break;
     }
-    context.mistakes.error(spot, "signal `" + name_ + "` has no shape", hint);
-    return;
+    mistakes.error(spot, "signal `" + name_ + "` has no shape", hint);
   }
+  return main;
+}
+
+void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
+  const TomlEntry* main = find_shape(source, context.mistakes);
+  if (!main) return;
+  const std::vector<std::string>& names = shape_names();
+  shape_ = static_cast<Shape>(std::find(names.begin(), names.end(), main->key) - names.begin());
 
   std::vector<Key> required, optional{amplitude, time, offset};
   switch (shape_) {

@@ -35,6 +35,8 @@ class SignalPlan {
   };
 
   static const std::array<std::string, key_count>& key_names();
+  /// The entry that says the shape; nullptr, with a message, if not one does.
+  const TomlEntry* find_shape(const TomlValue& source, Mistakes& mistakes) const;
   void read_table_signal(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
   /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.

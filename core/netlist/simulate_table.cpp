@@ -15,9 +15,6 @@ constexpr double coarsest_accuracy = 0.1;
 constexpr double default_points = 501;  // a smooth curve on a screen
 constexpr double most_rows = 1e8;       // some GB of CSV for each column
 
-/// A last row that rounding has put just beyond the end is still on it, as a fraction of an interval.
-constexpr double rounding = 1e-9;
-
 bool check_accuracy(double accuracy, Spot spot, Mistakes& mistakes) {
   if (accuracy >= finest_accuracy && accuracy <= coarsest_accuracy) return true;
   mistakes.error(spot, "`accuracy` must be from 1e-12 to 0.1, but is " + number_text(accuracy));
@@ -57,12 +54,12 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
   const Spot spot = given->value.spot;
   if (every && *value <= 0) {
     mistakes.error(spot, "`every` must be greater than 0 s, but is " + number_text(*value) + " s");
-  } else if (every && *value > length * (1 + rounding)) {
+  } else if (every && *value > length * (1 + time_rounding)) {
     mistakes.error(spot, "`every` is longer than the run: " + number_text(*value) + " s, the run takes " +
                              number_text(length) + " s");
   } else if (points && (*value < 2 || *value != std::floor(*value))) {
     mistakes.error(spot, "`points` must be a whole number of at least 2, but is " + number_text(*value));
-  } else if (const double rows = every ? std::floor(length / *value + rounding) + 1 : *value; rows > most_rows) {
+  } else if (const double rows = every ? std::floor(length / *value + time_rounding) + 1 : *value; rows > most_rows) {
     mistakes.error(
         spot, "`output` asks for " + number_text(rows) + " rows; at most " + number_text(most_rows) + " are written");
   } else if (points) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -15,12 +16,14 @@ struct Finding {
 };
 
 /// Follows the records that a scene's claims are about through a run. Each step is looked at in pieces no longer than
-/// an output interval: at the 4 points of Lobatto's rule, which gives means, and where the cubic through them turns.
-/// These are where extremes are, and between two of them a record goes one way: it reaches no level unseen.
+/// an output interval, halved until the cubic through 4 points of a record is the record, to the run's accuracy. The
+/// points are those of Lobatto's rule, which gives means. Extremes are at them or where the cubic turns, and between two
+/// of all these a record goes one way: it reaches no level unseen.
 class Claims {
  public:
   /// The claimed records at a time of the last step, counted from the start of the run.
   using Read = std::function<const std::vector<double>&(double t)>;
+  using Rows = std::array<std::vector<double>, 4>;  ///< the claimed records at 4 times
 
   explicit Claims(const Scene& scene);
   bool any() const { return !claims_.empty(); }
@@ -50,7 +53,11 @@ class Claims {
     double t, value;
   };
 
-  void piece(double from, double to, const Read& read);
+  /// One that has come of so many halvings, of one whose cubic was `parent` times too far from the record.
+  void piece(double from, double to, const Read& read, int halvings = 0, double parent = 0);
+  /// How far the cubic through a piece is at x, of [-1, 1], from what the records are there, in parts of what the accuracy
+  /// allows: the most of those that are looked at in this piece.
+  double off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const;
   void look(State& state, Course& course, const Point& point, const Read& read);
   double figure(const State& state, const Course& course) const;
 

@@ -219,6 +219,19 @@ TEST_CASE("davidenkov starts from a force as from a first loading, and goes eith
   }
 }
 
+TEST_CASE("davidenkov has the force at the start that is given, however small, and nearly that at which it flows") {
+  for (const double n : {1.0000001, 1.03, 2.0})
+    for (const double share : {1.3e-30, 1.3e-18, 3.7e-13, 3.7e-9, 0.0013, 0.37, 0.9999, 1 - 1e-9, 1 - 1e-15})
+      for (const int s : {-1, 1}) {
+        CAPTURE(n);
+        CAPTURE(share);
+        const double f0 = s * share * Fc;
+        const std::string held = "type = \"motion\"\nposition = 0";
+        const Trajectory rows = simulate(scene(n, held, 1.3, fmt::format("f0 = {:.17g}\n", f0)));
+        for (const double force : rows["friction.force"]) CHECK(std::abs(force - f0) <= 1e-14 * std::abs(f0));
+      }
+}
+
 TEST_CASE("davidenkov: the heat of a loop, and nothing stored by a whole number of them") {
   const double n = 2.7, X = bound(n), a = 0.73 * X, frequency = 2.13;
   const double eta = std::pow(2 * X, 1 - n);

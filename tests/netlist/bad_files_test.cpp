@@ -225,7 +225,7 @@ DIR/scenes/infinite.csv:1:3: error: expected a finite number, found `inf`
     1 | 0 inf
       |   ^
 )~");
-  std::string words = "t,v\n0,0,0\n1,a\n", told;
+  std::string words = "t,v\n0,0,0\n1,a\n";
   for (int row = 2; row < 14; ++row) words += std::to_string(row) + ",b" + std::to_string(row) + "\n";
   folder.write("scenes/words.csv", words + "20,3\n");
   const std::string all = messages_in(folder, with_table("words.csv"));

@@ -165,6 +165,9 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
       {"one.toml two.toml --vary parameters.B=1:b:3", "`b` is not a number, or one with a unit"},
       {"one.toml two.toml --vary parameters.B=1:2:1", "`1` is not a number of values from 2 to"},
       {"one.toml two.toml --vary parameters.B=-1:1:5:log", "both above 0 or both below"},
+      {"one.toml two.toml --vary parameters.B=0:1:5:log", "both above 0 or both below"},
+      {"one.toml two.toml --vary parameters.B=2:2.0:3", "both ends of the range are 2"},
+      {"one.toml two.toml --vary parameters.B=1:1.0000000000000002:3", "there are no 3 different numbers from 1 to 1.0"},
       {"one.toml two.toml --vary 'parameters.B=1 N:2 N*s:3'", "both ends of a range have one unit, not `N` and `N*s`"},
       {"one.toml two.toml --vary parameters.B=1,,3", "has an empty value"},
       {"one.toml two.toml --vary parameters.B=$(seq -s, 10001)",
@@ -183,17 +186,23 @@ TEST_CASE("compare: what is wrong with the command line or the scenes has status
                  "the runs start at different times, 0 s and 0.5 s"));
 }
 
-TEST_CASE("compare: values of a narrow range are told apart") {
+TEST_CASE("compare: the ends of a range stay as they are written; what is between them has digits that tell it apart") {
   const Three folder;
-  folder.shell("rheonet compare one.toml two.toml --vary parameters.B=1:1.0000002:3 -o table.csv", 0);
-  std::istringstream rows(folder.read("table.csv"));
-  std::string value;
-  std::getline(rows, value);
-  for (const char* expected : {"1", "1.0000001", "1.0000002"}) {
-    std::getline(rows, value, ',');
-    CHECK(value == expected);
-    std::getline(rows, value);
-  }
+  const auto tried = [&](const std::string& range) {
+    folder.shell("rheonet compare one.toml two.toml --vary 'parameters.B=" + range + "' -o table.csv", 0);
+    std::istringstream rows(folder.read("table.csv"));
+    std::vector<std::string> values;
+    std::string line;
+    std::getline(rows, line);
+    while (std::getline(rows, line)) values.push_back(line.substr(0, line.find(',')));
+    return values;
+  };
+  using Values = std::vector<std::string>;
+  CHECK(tried("1:1.0000002:3") == Values{"1", "1.0000001", "1.0000002"});
+  CHECK(tried("1234567:7654321 N*s/m:3") == Values{"1234567 N*s/m", "4.44444e+06 N*s/m", "7654321 N*s/m"});
+  // With 6 digits the value between them would lie beyond them.
+  CHECK(tried("1234569:1234567:3") == Values{"1234569", "1234568", "1234567"});
+  CHECK(tried("1e-200:1e-198:3:log") == Values{"1e-200", "1e-199", "1e-198"});
 }
 
 TEST_CASE("compare: a scene that cannot be simulated has status 1, and its place") {

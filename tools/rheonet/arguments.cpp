@@ -179,89 +179,94 @@ void add_plot(CLI::App* command, Arguments& arguments) {
   command->add_option("--size", plot.size, "of the figure, in px (96 to the inch)")->type_name("WxH");
 }
 
-}  // namespace
-
-std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
+/// The commands and options as CLI11 knows them, and what it reads into.
+struct CommandLine {
   Arguments arguments;
   std::optional<std::string> accuracy, within;
+  CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
+               "rheonet"};
 
-  CLI::App app("Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
-               "rheonet");
-  app.set_help_flag("-h,--help", "print this help");
-  app.set_version_flag("--version", "rheonet " RHEONET_VERSION, "print the version");
-  app.footer(of_rheonet);
-  // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
-  app.allow_extras()->require_subcommand(0, 1);
+  CommandLine() {
+    app.set_help_flag("-h,--help", "print this help");
+    app.set_version_flag("--version", "rheonet " RHEONET_VERSION, "print the version");
+    app.footer(of_rheonet);
+    // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
+    app.allow_extras()->require_subcommand(0, 1);
+    add_run();
+    add_check();
+    add_compare();
+    CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", of_plot);
+    add_plot(plot, arguments);
+    add_overrides(plot);
+    add_accuracy(plot);
+    CLI::App* components = add_command("components", "describe the element types");
+    components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
+    components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
+    add_command("schema", "print the JSON Schema of a scene, for editors");
+  }
+  CommandLine(const CommandLine&) = delete;  // `app` holds the addresses of the others
 
-  const auto add_command = [&app](const char* name, const char* description, const char* footer = "") {
+  CLI::App* add_command(const char* name, const char* description, const char* footer = "") {
     CLI::App* command = app.add_subcommand(name, description)->allow_extras();
     command->footer(footer);
     return command;
-  };
-  const auto add_overrides = [&arguments](CLI::App* command) {
-    command
-        ->add_option("--set", arguments.overrides,
-                     "in place of a value of the scene, named by its path; may be repeated")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(false)
-        ->type_name("PATH=VALUE");
-  };
-  const auto add_scene = [&](CLI::App* command) {
+  }
+  void add_overrides(CLI::App* command) {
+    add_list(command, "--set", arguments.overrides,
+             "in place of a value of the scene, named by its path; may be repeated", "PATH=VALUE", false);
+  }
+  void add_scene(CLI::App* command) {
     command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
     add_overrides(command);
-  };
-  const auto add_accuracy = [&](CLI::App* command) {
+  }
+  void add_accuracy(CLI::App* command) {
     command->add_option("--accuracy", accuracy, "error of each recorded quantity relative to its largest magnitude")
         ->type_name("E");
-  };
+  }
 
-  CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", of_run);
-  add_scene(run);
-  run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
-      ->type_name("FILE");
-  run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
-      ->type_name("FILE");
-  run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")->type_name("FILE");
-  add_accuracy(run);
-  run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
+  void add_run() {
+    CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", of_run);
+    add_scene(run);
+    run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
+        ->type_name("FILE");
+    run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
+        ->type_name("FILE");
+    run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")
+        ->type_name("FILE");
+    add_accuracy(run);
+    run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
+  }
+  void add_check() {
+    CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
+    add_scene(check);
+    check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
+  }
+  void add_compare() {
+    CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
+    compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
+        ->required()
+        ->expected(2, 26)
+        ->option_text("A B [C ...]");
+    add_overrides(compare);
+    add_accuracy(compare);
+    add_list(compare, "--pair", arguments.pairs,
+             "a record of the first scene, and what the others call it; may be repeated", "PATH=PATH", false);
+    compare->add_option("--vary", arguments.vary, "a value of all scenes, that is to go through a range")
+        ->type_name("PATH=RANGE");
+    compare->add_option("--within", within, "relative difference that is allowed: sets the exit status")
+        ->type_name("E");
+    compare
+        ->add_option("-o,--output", arguments.overlay,
+                     "where the rows of all scenes go, side by side; `-` is standard output")
+        ->type_name("FILE");
+  }
+};
 
-  CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
-  add_scene(check);
-  check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
+}  // namespace
 
-  CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
-  compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
-      ->required()
-      ->expected(2, 26)
-      ->option_text("A B [C ...]");
-  add_overrides(compare);
-  add_accuracy(compare);
-  compare
-      ->add_option("--pair", arguments.pairs,
-                   "a record of the first scene, and what the others call it; may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->allow_extra_args(false)
-      ->type_name("PATH=PATH");
-  compare->add_option("--vary", arguments.vary, "a value of all scenes, that is to go through a range")
-      ->type_name("PATH=RANGE");
-  compare->add_option("--within", within, "relative difference that is allowed: sets the exit status")->type_name("E");
-  compare
-      ->add_option("-o,--output", arguments.overlay,
-                   "where the rows of all scenes go, side by side; `-` is standard output")
-      ->type_name("FILE");
-
-  CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", of_plot);
-  add_plot(plot, arguments);
-  add_overrides(plot);
-  add_accuracy(plot);
-
-  CLI::App* components = add_command("components", "describe the element types");
-  components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
-  components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
-
-  add_command("schema", "print the JSON Schema of a scene, for editors");
+std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
+  CommandLine line;
+  auto& [arguments, accuracy, within, app] = line;
 
   words = with_every_set(words);
   std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector

@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "tools/rheonet/table.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
@@ -20,16 +18,21 @@ const char* const forms = "--vary PATH=from:to:count, PATH=from:to:count:log or 
 /// "10 N/m".
 struct End {
   double value = 0;
-  std::string unit;
+  std::string number, unit;  ///< as they were written
 };
 
 std::optional<End> read_end(const std::string& text) {
   End end;
   const auto [after, error] = std::from_chars(text.data(), text.data() + text.size(), end.value);
   if (error != std::errc() || !std::isfinite(end.value)) return {};
+  end.number.assign(text.data(), after);
   end.unit.assign(after, text.data() + text.size());
   end.unit.erase(0, end.unit.find_first_not_of(' '));
   return end;
+}
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
 }
 
 std::optional<long> read_count(const std::string& text) {
@@ -39,10 +42,32 @@ std::optional<long> read_count(const std::string& text) {
   return count;
 }
 
-std::vector<std::string> in_words(const std::vector<double>& values, const std::string& unit, int digits) {
-  std::vector<std::string> words;
-  for (const double value : values) words.push_back(readable(value, unit, digits));
-  return words;
+/// A value between two ends, neither of which is 0 if it is logarithmic; no product that could overflow.
+double between(double from, double to, double fraction, bool logarithmic) {
+  if (!logarithmic) return std::lerp(from, to, fraction);
+  return std::copysign(std::exp(std::lerp(std::log(std::abs(from)), std::log(std::abs(to)), fraction)), from);
+}
+
+/// The ends as they were written, and between them what stands in the table and is simulated: numbers of as many digits
+/// as tell neighbours apart. Absent if no number of digits does.
+std::optional<std::vector<std::string>> spread(const End& from, const End& to, long count, bool logarithmic) {
+  for (int digits = 6; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    std::vector<std::string> values{with_unit(from.number, to.unit)};
+    double last = from.value;
+    const auto goes_on = [&](double value) { return from.value < to.value ? last < value : last > value; };
+    bool apart = true;
+    for (long i = 1; i < count - 1 && apart; ++i) {
+      const double fraction = static_cast<double>(i) / static_cast<double>(count - 1);
+      const std::string number = fmt::format("{:.{}g}", between(from.value, to.value, fraction, logarithmic), digits);
+      const auto read = read_end(number);  // what is simulated; rounded beyond the largest number it is none
+      apart = read && goes_on(read->value);
+      if (read) last = read->value;
+      values.push_back(with_unit(number, to.unit));
+    }
+    values.push_back(with_unit(to.number, to.unit));
+    if (apart && goes_on(to.value)) return values;
+  }
+  return {};
 }
 
 }  // namespace
@@ -76,20 +101,15 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
   if (!from->unit.empty() && from->unit != to->unit)
     return NoVariation{fmt::format("both ends of a range have one unit, not `{}` and `{}`", from->unit, to->unit),
                        fmt::format("{} to {} {}, say", from->value, to->value, from->unit)};
-  if (logarithmic && !(from->value * to->value > 0))
+  if (logarithmic && (from->value == 0 || to->value == 0 || std::signbit(from->value) != std::signbit(to->value)))
     return NoVariation{"the ends of a logarithmic range are both above 0 or both below", ""};
-  std::vector<double> values;
-  for (long i = 0; i < *count; ++i) {
-    const double fraction = static_cast<double>(i) / static_cast<double>(*count - 1);
-    values.push_back(i == *count - 1 ? to->value
-                     : logarithmic   ? from->value * std::pow(to->value / from->value, fraction)
-                                     : from->value + fraction * (to->value - from->value));
-  }
-  // What stands in the table is what has been simulated: with as many digits as tell neighbours apart.
-  for (int digits = 6; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    variation.values = in_words(values, to->unit, digits);
-    if (std::adjacent_find(variation.values.begin(), variation.values.end()) == variation.values.end()) break;
-  }
+  if (from->value == to->value)
+    return NoVariation{fmt::format("both ends of the range are {}", from->value), "give two that differ"};
+  const auto values = spread(*from, *to, *count, logarithmic);
+  if (!values)
+    return NoVariation{fmt::format("there are no {} different numbers from {} to {}", *count, parts[0], parts[1]),
+                       "give fewer, or ends further apart"};
+  variation.values = *values;
   return variation;
 }
 
