@@ -122,8 +122,6 @@ bool is_doubtful(const std::string& path, const std::set<std::string>& doubtful)
 
 }  // namespace
 
-namespace {
-
 Quantity quantity_of(Channel channel) {
   switch (channel) {
     case Channel::position:
@@ -137,8 +135,6 @@ Quantity quantity_of(Channel channel) {
   }
   return Quantity::force;
 }
-
-}  // namespace
 
 BlockUnit unit_of(const Scene& scene, const Record& record) {
   if (record.subject == Subject::block) return scene.blocks[static_cast<std::size_t>(record.index)].unit;
