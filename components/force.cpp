@@ -10,11 +10,11 @@ const RegisterComponent registered({
             .rotational_type = "torque",
             .ports = Declaration::Ports::at_or_between,
             .parameters = {{.name = "force", .quantity = Quantity::force, .kind = Parameter::Kind::signal,
-                            .rotational_name = "torque", .symbol = "F",
+                            .from_block = true, .rotational_name = "torque", .symbol = "F",
                             .description = "force over time, applied at the node in the positive direction; between two "
                                            "nodes: + at the first, - at the second"}},
             .summary = "applies a force",
-            .law = "F(t) given",
+            .law = "F(t) given, or the output of a block",
             .source = "definition",
             .notes = "Its force is the one applied, F(t).",
         },

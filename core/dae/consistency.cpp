@@ -55,6 +55,7 @@ Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   }
   for (std::size_t r = 0; r < dae.network().rates.size(); ++r) set(dae.force_unknown(static_cast<int>(r)), 2);
   for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.position_unknown(static_cast<NodeId>(k)), 3);
+  for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) set(dae.block_unknown(k), 4);
 }
 
 void Consistency::factorise(double t, const std::vector<double>& y) {
@@ -244,7 +245,7 @@ void Consistency::project(double t, std::vector<double>& y) {
     std::swap(trial, y);
     y = trial;
     for (std::size_t i = 0; i < n; ++i) {
-      if (kind_[i] == 1 || kind_[i] == 3) y[i] = before[i];
+      if (kind_[i] == 1 || kind_[i] >= 3) y[i] = before[i];
     }
     if (!within_rounding(y)) y = trial;
   };
@@ -310,7 +311,7 @@ void Consistency::project(double t, std::vector<double>& y) {
     for (double r : r1_) force = std::max(force, r);
     const std::vector<double>& slope = dae_.slopes();
     const auto size_of = [&](std::size_t i) {
-      if (kind_[i] == 3) return std::max(std::abs(before[i]), std::abs(y[i]));
+      if (kind_[i] >= 3) return std::max(std::abs(before[i]), std::abs(y[i]));
       if (kind_[i] != 1) return std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
       const double stiffness = std::abs(slope[at(branch_[i])]);
       return std::max(std::abs(before[i]), stiffness > 0 ? share_of_kind * force / stiffness : 0);

@@ -42,7 +42,7 @@ class Consistency {
   Dae& dae_;
   Elimination elimination_;
   std::vector<double> values_, r0_, r1_, zero_;
-  static constexpr std::size_t kinds = 4;  ///< velocity, deflection, force, position
+  static constexpr std::size_t kinds = 5;  ///< velocity, deflection, force, position, state of a block
   std::vector<std::size_t> kind_;          ///< of each unknown
   std::vector<int> branch_;                ///< of each unknown that is a deflection
 };

@@ -15,6 +15,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
   derive_positions(needed);
+  for (std::size_t k = 0; k < drive.blocks().states(); ++k) iz_.push_back(size_++);
 
   // All motions given: IDA still wants an equation. y' = 0 costs nothing.
   idle_ = size_ == 0;
@@ -136,6 +137,11 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   for (NodeId node : network.node_order) {
     if (structure_->kind[at(node)] == Kind::known) root(node);
   }
+  for (const Blocks::Sensor& sensor : network.blocks.sensors) {
+    if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0) continue;
+    ix_[at(sensor.index)] = size_++;
+    root(sensor.index);
+  }
   spread();
   for (NodeId node : network.node_order) {
     if (!needed[at(node)] || reached[at(node)]) continue;
@@ -241,6 +247,8 @@ void Dae::build_pattern() {
   }
 
   if (idle_) put(0, 0, 0, 1);
+  for (const int z : iz_) put(z, z, 0, 1);
+  build_couplings(builder);
   find_parallels();
   for (Follower& f : followers_) {
     f.own_entry = builder.ticket(f.row, ip_[at(f.branch)]);
@@ -263,6 +271,7 @@ void Dae::build_pattern() {
       if (pattern_.row[at(e)] == f.row) f.row_entries.push_back(e);
     }
   }
+  for (Coupling& c : couplings_) c.entry = entry[at(c.entry)];
   for (Scatter& s : scatter) s.entry = entry[at(s.entry)];
   scatter_ = std::move(scatter);
   moving_.assign(ip_.size(), 1);
@@ -295,12 +304,14 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     const double base = group < 0 ? 0 : state.velocity[at(structure_->groups[at(group)].nodes.front())];
     y[at(iv_[n])] = state.velocity[n] - base;
   }
+  for (std::size_t k = 0; k < iz_.size(); ++k) y[at(iz_[k])] = state.blocks[k];
   guess_forces(t, y.data());
 }
 
 void Dae::leave(State& state) const {
   state.velocity = view_.velocity;
   state.p = view_.p;
+  for (std::size_t k = 0; k < iz_.size(); ++k) state.blocks[k] = drive_->blocks().state[k].value;
   for (NodeId node : position_order_) state.position[at(node)] = view_.position[at(node)];
 }
 
@@ -346,6 +357,11 @@ std::string Dae::describe(int unknown) const {
   }
   for (std::size_t r = 0; r < if_.size(); ++r) {
     if (if_[r] == unknown) return fmt::format("the force of `{}`", network_->name_of(network_->rates[r]));
+  }
+  for (std::size_t k = 0; k < iz_.size(); ++k) {
+    if (iz_[k] != unknown) continue;
+    const int element = network_->blocks.blocks[at(drive_->blocks().block_of_state(k))].element;
+    return fmt::format("the output of `{}`", network_->scene->elements[at(element)].name);
   }
   return "an unknown";
 }

@@ -21,13 +21,15 @@ namespace rheonet {
 ///   v  velocity of a massive or viscous node; of a floating node relative to its group's reference     [m/s]
 ///   p  deflection of a branch, unless it is a function of time alone                                    [m]
 ///   f  force of a dashpot that is solved for its force                                                  [N]
-///   x  position of a node that is asked for and does not follow from deflections                        [m]
+///   x  position of a node that is asked for and does not follow from deflections, or that a block takes in [m]
+///   z  state of a block                                                                                 [its output]
 /// Equations, each in the row of the unknown that it stands for:
 ///   v  balance of forces at the node:  sum f + m v' - applied = 0
 ///   p  of a tree branch: balance of its group as a whole;  else the loop that the branch closes:
 ///      sum +-(p' + creep) + sum +-v = 0
 ///   f  v_a - v_b - rate(f) = 0
 ///   x  x' - velocity = 0
+///   z  z' - rate of the block's state = 0
 class Dae {
  public:
   /// `needed` marks the nodes whose positions are asked for (one flag a node). Network, structure and drive must outlive
@@ -101,6 +103,7 @@ class Dae {
   int deflection_unknown(int branch) const { return ip_[at(branch)]; }
   int force_unknown(int rate) const { return if_[at(rate)]; }
   int position_unknown(NodeId node) const { return ix_[at(node)]; }
+  int block_unknown(std::size_t state) const { return iz_[state]; }
   /// Gives the unknown forces of dashpots the values that belong to the velocities of y.
   void guess_forces(double t, double* y);
   /// For messages: "the velocity of node `m`", "the deflection of `k1`".
@@ -128,6 +131,10 @@ class Dae {
   DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }
   /// What a motion applies to its node [N] in the state last viewed.
   double reaction(NodeId node) const;
+  /// What a block puts out in the state last viewed.
+  double output(int block) const { return drive_->blocks().out(block).value; }
+  /// Limiters go to the side that this state is on: see BlockSignals::choose.
+  void choose_limits(double t, const double* y, const double* yp);
   /// What force number `index` of the network applies [N] in the state last viewed.
   double applied_force(int index) const { return drive_->force[at(index)]; }
 
@@ -157,6 +164,23 @@ class Dae {
   Shared share(const Follower& follower, double leader_rate) const;
   void share_jacobian(double cj, const double* yp, double* values, bool consistency) const;
 
+  /// An entry of the Jacobian that comes of a block: d(output, or rate of a state)/d(atom) d(atom)/dy times `factor`.
+  struct Coupling {
+    enum class By { itself, slope, damping };  ///< d(atom)/dy: 1, the slope of a deflection law, that of a rate law
+    int entry;
+    bool of_rate;  ///< of the state `source`, else of the output of the block `source`
+    std::size_t source, atom;
+    double factor;
+    By by;
+    std::size_t branch;
+  };
+  struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
+  std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
+  void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor);
+  void build_couplings(PatternBuilder& builder);
+  void feel_blocks(const double* y);
+  void block_jacobian(double* values) const;
+
   void number_unknowns();
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
@@ -178,7 +202,8 @@ class Dae {
   Bonds bonds_;
   int size_ = 0;
   bool idle_ = false, rough_ = false, secants_ = false;
-  std::vector<int> iv_, ip_, if_, ix_;
+  std::vector<int> iv_, ip_, if_, ix_, iz_;
+  std::vector<Coupling> couplings_;
   std::vector<Row> rows_;
   std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes
   std::vector<int> group_row_;   ///< of each group

@@ -6,7 +6,13 @@
 
 namespace rheonet {
 
-Drive::Drive(const Network& network, double start, const std::vector<double>& positions) : stop_(network.scene->stop - network.scene->start), past_(network) {
+Drive::Drive(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
+    : network_(&network),
+      stop_(network.scene->stop - network.scene->start),
+      blocks_(network, classified),
+      past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels()) {
+  base_.assign(blocks_.atoms(), {});
+
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
     motion.anchor_time = start;
@@ -44,7 +50,9 @@ void Drive::enter(double t) {
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
     next_break_ = std::min(next_break_, m.piece.end);
     past_.follow(i, t, m.piece, m.by_position);
+    blocks_.follow(static_cast<int>(i), t, m.piece, m.by_position, m.anchor);
   }
+  next_break_ = std::min(next_break_, blocks_.enter(t));
   for (Force& f : forces_) {
     f.piece = f.signal.piece(t);
     next_break_ = std::min(next_break_, f.piece.end);
@@ -53,25 +61,25 @@ void Drive::enter(double t) {
 }
 
 void Drive::mark(double t, bool fresh) {
-  past_.mark(t, fresh);
+  past_.mark(t, fresh || (!blocks_.delays().empty() && t > 0 && blocks_.breaks(t, past_)));
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<Drive::Break> Drive::breaks(double t) const {
   constexpr double slope_rounding = 1e-12;
   std::vector<Break> result;
-  const auto look = [&](const auto& drive) {
-    const Piece& before = drive.piece;
+  const auto look = [&](int element, const Signal& signal, const Piece& before) {
     if (before.end > t) return;
-    const Piece after = drive.signal.piece(t);
+    const Piece after = signal.piece(t);
     const double step = after.value(t) - before.value(t), bend = after.rate(t) - before.rate(t);
     const bool jumps = std::abs(step) > before.rounding(t) + after.rounding(t);
     const bool bends = std::abs(bend) > slope_rounding * (std::abs(after.rate(t)) + std::abs(before.rate(t)));
     const double change = jumps ? step : bends ? bend : 0;
-    result.push_back({drive.element, jumps, change < 0 ? -1 : change > 0 ? 1 : 0});
+    result.push_back({element, jumps, change < 0 ? -1 : change > 0 ? 1 : 0});
   };
-  for (const Motion& m : motions_) look(m);
-  for (const Force& f : forces_) look(f);
+  for (const Motion& m : motions_) look(m.element, m.signal, m.piece);
+  for (const Force& f : forces_) look(f.element, f.signal, f.piece);
+  for (const BlockSignals::Generator& g : blocks_.generators()) look(g.element, *g.signal, *g.piece);
   return result;
 }
 
@@ -89,6 +97,82 @@ void Drive::evaluate(double t) {
     force_rate[i] = forces_[i].piece.rate(t);
   }
   for (std::size_t k = 0; k < felt.size(); ++k) felt[k] = past_.felt(k, t);
+  if (blocks_.any()) look_ahead(t);
+}
+
+void Drive::look_ahead(double t) {
+  const std::size_t states = blocks_.states();
+  for (std::size_t k = 0; k < base_.size(); ++k) {
+    const Dual there(base_[k].value + base_[k].derivative * (t - sensed_at_), base_[k].derivative);
+    (k < states ? blocks_.state[k] : blocks_.sensed[k - states]) = there;
+  }
+  blocks_.evaluate_time(t, past_);
+  for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
+    if (sensor.what != Blocks::Sensor::What::force) continue;
+    const Network::Place& place = network_->places[static_cast<std::size_t>(sensor.index)];
+    const auto index = static_cast<std::size_t>(place.index);
+    if (place.role == Role::force) blocks_.sensed[k] = Dual(force[index], force_rate[index]);
+  }
+  blocks_.run(false);
+  apply_blocks();
+}
+
+void Drive::apply_blocks() {
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    if (f.block < 0) continue;
+    const Dual out = blocks_.out(f.block);
+    force[k] = f.sign * out.value;
+    force_rate[k] = f.sign * out.derivative;
+  }
+}
+
+/// What sensors tell of a state, with the rates of positions.
+void Drive::sense_network(const State& state) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k] = state.blocks[k];
+  for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
+    Dual& told = base_[blocks_.states() + k];
+    if (sensor.what == Blocks::Sensor::What::velocity) told = state.velocity[at(sensor.index)];
+    if (sensor.what == Blocks::Sensor::What::position) told = Dual(state.position[at(sensor.index)], state.velocity[at(sensor.index)]);
+    if (sensor.what != Blocks::Sensor::What::force) continue;
+    const Network::Place& place = network_->places[at(sensor.index)];
+    if (place.role == Role::deflection) {
+      std::size_t i = 0;
+      double slope = 0;
+      told = network_->batch_of(place.index, i).force_along(i, state.p[at(place.index)], 0, slope);
+    }
+    for (const Laws<RateBatch>& laws : network_->rate_laws) {
+      const int i = place.index - laws.first;
+      if (place.role != Role::rate || i < 0 || at(i) >= laws.batch->size()) continue;
+      const Branch& b = network_->rates[at(place.index)];
+      told = laws.batch->force_at(at(i), state.velocity[at(b.a)] - state.velocity[at(b.b)]);
+    }
+  }
+}
+
+void Drive::sense(double t, const State& state) {
+  if (!blocks_.any()) return evaluate(t);
+  const auto anew = [&] {
+    time_ = std::numeric_limits<double>::quiet_NaN();
+    evaluate(t);
+  };
+  sensed_at_ = t;
+  sense_network(state);
+  anew();
+  for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k].derivative = blocks_.rate(k);
+  blocks_.choose();
+  anew();
+}
+
+void Drive::settle_blocks(double t, State& state) {
+  if (!blocks_.any()) return;
+  blocks_.evaluate_time(t, past_);
+  blocks_.settle();
+  for (std::size_t k = 0; k < blocks_.states(); ++k) state.blocks[k] = blocks_.state[k].value;
+  sense(t, state);
 }
 
 Drive::Flow Drive::flow(int a, int b, double t, double limit) const {
@@ -163,6 +247,7 @@ double Drive::fastest() const {
   };
   for (const Motion& m : motions_) look(m.piece);
   for (const Force& f : forces_) look(f.piece);
+  for (const BlockSignals::Generator& g : blocks_.generators()) look(*g.piece);
   return omega;
 }
 

@@ -5,18 +5,20 @@
 #include <utility>
 #include <vector>
 
+#include "core/dae/block_signals.hpp"
 #include "core/dae/past.hpp"
+#include "core/dae/state.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
 
 /// Everything that is a given function of time: prescribed motions and applied forces, each on the smooth stretch of its
-/// signal that holds now.
+/// signal that holds now. A force that a block gives follows from more than that: see `sense`.
 class Drive {
  public:
   /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
-  Drive(const Network& network, double start, const std::vector<double>& positions);
+  Drive(const Network& network, const Structure& classified, double start, const std::vector<double>& positions);
 
   /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.
   void enter(double t);
@@ -36,6 +38,18 @@ class Drive {
   /// Position at t of motion number `m` of the network, on its present stretch [m].
   double position_at(int m, double t) const { return position_of(motions_[static_cast<std::size_t>(m)], t); }
 
+  /// Gives blocks the state of the network at t; limiters go to where that puts them. From there on `evaluate` looks ahead:
+  /// what is no function of time alone goes on at its present rate (velocities stay). Without blocks just `evaluate`.
+  void sense(double t, const State& state);
+  BlockSignals& blocks() { return blocks_; }
+  const BlockSignals& blocks() const { return blocks_; }
+  /// Forces and their rates from what the blocks put out now.
+  void apply_blocks();
+  /// The state of blocks that do not change, for a start at t from rest or in steady motion.
+  void settle_blocks(double t, State& state);
+  /// What has been at t, for what comes later: after a break, and after each step, with blocks evaluated there.
+  void remember(double t, const std::vector<double>& velocity) { past_.remember(t, velocity, blocks_.remembered()); }
+
   /// What delayed branches feel. An event at t is a break of it too.
   Past& past() { return past_; }
   const Past& past() const { return past_; }
@@ -44,7 +58,7 @@ class Drive {
   // For each motion:
   std::vector<double> position, velocity, acceleration;
   // For each force:
-  std::vector<double> force, force_rate;
+  std::vector<double> force, force_rate;  ///< of one that a block gives the rate is partial, at constant unknowns
   // For each delayed branch of `past`:
   std::vector<double> felt;
 
@@ -71,6 +85,11 @@ class Drive {
   struct Force { int element; Signal signal; Piece piece; };
   double position_of(const Motion& m, double t) const;
   void mark(double t, bool fresh);
+  void look_ahead(double t);
+  void sense_network(const State& state);
+  const Network* network_;
+  double sensed_at_ = 0;                 ///< s
+  std::vector<Dual> base_;               ///< states and what sensors told then, with their rates
   struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
   Flow flow(int a, int b, double t, double limit) const;
   double search_reversal(int a, int b, double t, double limit, double grain) const;
@@ -82,7 +101,8 @@ class Drive {
   std::vector<double> steps_;
   double next_break_ = 0;  ///< of the signals
   double stop_;            ///< of the run [s]
-  Past past_;
+  BlockSignals blocks_;
+  Past past_;  ///< after blocks_, which says what it remembers
   double time_;
 };
 

@@ -30,6 +30,7 @@ void Dae::gather(double t, const double* y) {
     const Branch& b = structure_->rates[r];
     rate_in_[r] = if_[r] >= 0 ? y[if_[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
+  if (drive_->blocks().any()) feel_blocks(y);
 }
 
 /// Sums, at the nodes that stand for others, of the forces of the branches and of the applied forces.
@@ -93,6 +94,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     }
     r[row.row] = sum;
   }
+  for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - drive_->blocks().rate(k);
   for (const Follower& f : followers_) {
     if (f.active) r[f.row] = yp[f.row] - share(f, yp[ip_[at(f.leader)]]).rate;
   }
@@ -143,6 +145,7 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
     const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
     values[s.entry] += weight * d[at(s.index)];
   }
+  block_jacobian(values);
   share_jacobian(cj, yp, values, false);
 }
 

@@ -40,7 +40,7 @@ double Instant::bound(std::size_t k, int side) const {
 Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
                                Modes& modes, std::vector<double>& force) {
   Change change;
-  drive_.evaluate(t);
+  drive_.sense(t, state);
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
@@ -56,8 +56,10 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
   for (bool again = true; again;) {
     // A long way leaves a rounding of its own: a second jump takes the rest.
+    drive_.sense(t, state);
     for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
       std::fill(dx.begin(), dx.end(), 0.0);
+      drive_.sense(t, state);
     }
     const std::vector<int> broken =
         onset(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
@@ -82,6 +84,7 @@ void Instant::take_delayed_steps(double t, State& state, Change& change) {
 }
 
 void Instant::check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const {
+  drive_.sense(t, state);
   drive_.evaluate(then);
   const std::optional<Jump> jump = find_jump(std::vector<double>(structure_.kind.size(), 0), state, slider_force);
   if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways());

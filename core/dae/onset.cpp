@@ -42,7 +42,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
                                 std::vector<double>& force, Change& change) {
   const std::size_t nodes = structure_.kind.size();
   ConvexNetwork problem(static_cast<int>(nodes));
-  drive_.evaluate(t);
+  drive_.sense(t, state);
   const std::vector<double> velocity = drive_.velocity, load = drive_.force, load_rate = drive_.force_rate;
   for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = velocity[m];
   const Nodal now = nodal(state, force, true);

@@ -27,11 +27,16 @@ auto* current(Items& items, double t) {
 
 }  // namespace
 
-Past::Past(const Network& network)
+Past::Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels)
     : index_of_(network.deflections.size(), -1),
+      delays_(delays),
+      channels_(channels),
       track_of_(network.nodes(), -1),
       track_of_motion_(network.motions.size(), -1),
-      shortest_(infinity) {
+      shortest_(infinity),
+      longest_(reach) {
+  // What is a function of time alone is known beyond the end of a step.
+  if (channels > 0) shortest_ = *std::min_element(delays.begin(), delays.end());
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const double delay = laws.batch->delay(i);
@@ -70,7 +75,7 @@ void Past::begin(const std::vector<double>& velocity) {
 }
 
 void Past::mark(double t, bool fresh) {
-  if (delayed_.empty()) return;
+  if (delays_.empty()) return;
   int level = fresh ? 0 : most_levels;
   for (const double delay : delays_) {
     const auto early = [&](const Break& b) { return b.t + delay - t < -time_grain(t); };
@@ -84,13 +89,15 @@ void Past::mark(double t, bool fresh) {
   } else {
     breaks_.push_back({t, level});
   }
-  for (Track& track : tracks_) {
-    if (!track.runs.empty() && track.runs.back().t >= t) {
-      track.runs.back().points.clear();
+  const auto begin_run = [t](std::deque<Run>& runs) {
+    if (!runs.empty() && runs.back().t >= t) {
+      runs.back().points.clear();
     } else {
-      track.runs.push_back({t, {}});
+      runs.push_back({t, {}});
     }
-  }
+  };
+  for (Track& track : tracks_) begin_run(track.runs);
+  for (std::deque<Run>& runs : channels_) begin_run(runs);
   find_next_break();
 }
 
@@ -101,21 +108,25 @@ void Past::follow(std::size_t m, double t, const Piece& piece, bool position) {
   track.stretches.push_back({t, piece, position});
 }
 
-void Past::remember(double t, const std::vector<double>& velocity) {
+bool Past::append(std::deque<Run>& runs, double t, double v) {
+  if (runs.empty()) return false;
+  std::vector<Point>& points = runs.back().points;
+  bool jumps = false;
+  if (points.empty() && runs.size() > 1) {
+    const std::vector<Point>& earlier = std::prev(runs.end(), 2)->points;
+    jumps = !earlier.empty() && std::abs(v - earlier.back().v) > jump_rounding * (std::abs(v) + std::abs(earlier.back().v));
+  }
+  if (points.empty() || t > points.back().t) points.push_back({t, v});
+  return jumps;
+}
+
+void Past::remember(double t, const std::vector<double>& velocity, const std::vector<double>& channels) {
   bool jumps = false;
   for (Track& track : tracks_) {
-    if (track.motion >= 0 || track.runs.empty()) continue;
-    std::vector<Point>& points = track.runs.back().points;
-    const double v = velocity[static_cast<std::size_t>(track.node)];
-    if (points.empty() && track.runs.size() > 1) {
-      // What jumps is as sharp as at first, whatever it has come through.
-      const std::vector<Point>& earlier = std::prev(track.runs.end(), 2)->points;
-      if (!earlier.empty() && std::abs(v - earlier.back().v) > jump_rounding * (std::abs(v) + std::abs(earlier.back().v))) {
-        jumps = true;
-      }
-    }
-    if (points.empty() || t > points.back().t) points.push_back({t, v});
+    if (track.motion < 0) jumps = append(track.runs, t, velocity[static_cast<std::size_t>(track.node)]) || jumps;
   }
+  for (std::size_t k = 0; k < channels_.size(); ++k) jumps = append(channels_[k], t, channels[k]) || jumps;
+  // What jumps is as sharp as at first, whatever it has come through.
   if (jumps) {
     breaks_.back().level = 0;
     find_next_break();
@@ -137,17 +148,21 @@ void Past::moved(double t, const std::vector<double>& distance) {
 void Past::forget(double t) {
   const double needed = t - longest_ - time_grain(t);
   while (!breaks_.empty() && breaks_.front().t < needed) breaks_.pop_front();
-  for (Track& track : tracks_) {
-    while (track.stretches.size() > 1 && track.stretches[1].t < needed) track.stretches.pop_front();
-    while (track.runs.size() > 1 && track.runs[1].t < needed) track.runs.pop_front();
-    while (!track.moves.empty() && track.moves.front().t < needed) track.moves.pop_front();
-    if (track.runs.empty()) continue;
-    std::vector<Point>& points = track.runs.front().points;
+  const auto forget_runs = [needed](std::deque<Run>& runs) {
+    while (runs.size() > 1 && runs[1].t < needed) runs.pop_front();
+    if (runs.empty()) return;
+    std::vector<Point>& points = runs.front().points;
     const auto first = std::lower_bound(points.begin(), points.end(), needed, [](const Point& p, double x) { return p.t < x; });
     const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(step_points);
     // Now and then many at once: each costs a move of all that stay.
     if (spare > static_cast<std::ptrdiff_t>(points.size() / 2)) points.erase(points.begin(), points.begin() + spare);
+  };
+  for (Track& track : tracks_) {
+    while (track.stretches.size() > 1 && track.stretches[1].t < needed) track.stretches.pop_front();
+    while (!track.moves.empty() && track.moves.front().t < needed) track.moves.pop_front();
+    forget_runs(track.runs);
   }
+  for (std::deque<Run>& runs : channels_) forget_runs(runs);
 }
 
 /// To be called when a break has been added or has become sharper. One that is forgotten has come through all delays.
@@ -162,7 +177,7 @@ void Past::find_next_break() {
 }
 
 /// The polynomial through the points around t.
-double Past::interpolate(const Run& run, double t) {
+Dual Past::interpolate(const Run& run, double t) {
   const std::vector<Point>& points = run.points;
   if (points.empty()) return 0;
   const std::size_t count = std::min(step_points, points.size());
@@ -174,7 +189,7 @@ double Past::interpolate(const Run& run, double t) {
     times[k] = points[first + k].t;
     velocities[k] = points[first + k].v;
   }
-  return rheonet::interpolate(times, velocities, count, t);
+  return rheonet::interpolate(times, velocities, count, Dual(t, 1));
 }
 
 // At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
@@ -189,14 +204,20 @@ double Past::velocity(NodeId node, double t, double aside) const {
     return stretch->position ? stretch->piece.rate(t) : stretch->piece.value(t);
   }
   const Run* run = current(track.runs, side);
-  return run ? interpolate(*run, t) : track.before;
+  return run ? interpolate(*run, t).value : track.before;
 }
 
 double Past::felt(std::size_t k, double t) const {
   const Delayed& d = delayed_[k];
-  // t - delay has the rounding of t, also where it is nearly 0.
-  const double aside = t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t);
-  return velocity(d.a, t - d.delay, aside) - velocity(d.b, t - d.delay, aside);
+  return velocity(d.a, t - d.delay, aside(t)) - velocity(d.b, t - d.delay, aside(t));
+}
+
+// t - delay has the rounding of t, also where it is nearly 0.
+double Past::aside(double t) const { return t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t); }
+
+Dual Past::channel(std::size_t k, double t, double aside) const {
+  const Run* run = current(channels_[k], t + aside);
+  return run ? interpolate(*run, t) : Dual(0);
 }
 
 double Past::take_steps(std::size_t k, double t) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/network/dual.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
@@ -17,7 +18,9 @@ namespace rheonet {
 /// too smooth to matter.
 class Past {
  public:
-  explicit Past(const Network& network);
+  /// Besides the velocities of nodes it remembers `channels` other values, as far back as `reach`; what breaks comes again
+  /// after each of `delays` [s].
+  Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels);
 
   struct Delayed { int branch; NodeId a, b; double delay; };
   const std::vector<Delayed>& delayed() const { return delayed_; }
@@ -33,7 +36,7 @@ class Past {
   /// From t on motion number `m` of the network moves along `piece`, the stretch of its position or of its velocity.
   void follow(std::size_t m, double t, const Piece& piece, bool position);
   /// The nodes (all of the network) have these velocities at t: after a break, and after each step.
-  void remember(double t, const std::vector<double>& velocity);
+  void remember(double t, const std::vector<double>& velocity, const std::vector<double>& channels);
   /// At t the nodes have moved by these distances in no time [m].
   void moved(double t, const std::vector<double>& distance);
 
@@ -41,6 +44,10 @@ class Past {
   double next_break() const { return next_break_; }
   /// What branch number k of `delayed` feels at t [m/s].
   double felt(std::size_t k, double t) const;
+  /// What a channel was at t, and its rate; `aside` as far as rounding goes to the side of t that is meant [s].
+  Dual channel(std::size_t k, double t, double aside) const;
+  /// To which side of a break it counts now that t is looked at [s].
+  double aside(double t) const;
   /// By how much its ends have come apart in no time, as it feels it: what has come through by t since it was last asked [m].
   double take_steps(std::size_t k, double t);
 
@@ -60,14 +67,17 @@ class Past {
   };
   Track* track(NodeId node);
   double velocity(NodeId node, double t, double aside) const;  ///< of the stretch that t + aside lies in
-  static double interpolate(const Run& run, double t);
+  static Dual interpolate(const Run& run, double t);
+  /// Returns whether the value jumps where a run begins.
+  static bool append(std::deque<Run>& runs, double t, double v);
   void forget(double t);
   void find_next_break();
 
   std::vector<Delayed> delayed_;
   std::vector<int> index_of_;   ///< of each deflection branch, -1
-  std::vector<double> delays_;  ///< those that there are, each once
+  std::vector<double> delays_;  ///< those that there are, of branches and of blocks, each once [s]
   std::vector<Track> tracks_;
+  std::vector<std::deque<Run>> channels_;
   std::vector<int> track_of_;   ///< of each node, -1
   std::vector<int> track_of_motion_;  ///< of each, -1
   std::deque<Break> breaks_;

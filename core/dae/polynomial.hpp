@@ -8,12 +8,13 @@ namespace rheonet {
 inline constexpr std::size_t step_points = 6;
 
 /// The value at x of the polynomial through `count` points (t[k], v[k]) at different t, by Newton's divided differences,
-/// which take the place of v.
-inline double interpolate(const double* t, double* v, std::size_t count, double x) {
+/// which take the place of v. With a Dual x it comes with its derivative.
+template <class T>
+T interpolate(const double* t, double* v, std::size_t count, T x) {
   for (std::size_t order = 1; order < count; ++order) {
     for (std::size_t k = count - 1; k >= order; --k) v[k] = (v[k] - v[k - 1]) / (t[k] - t[k - order]);
   }
-  double value = v[count - 1];
+  T value = v[count - 1];
   for (std::size_t k = count - 1; k-- > 0;) value = value * (x - t[k]) + v[k];
   return value;
 }

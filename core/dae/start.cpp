@@ -111,7 +111,7 @@ Start start(const Network& network, const Structure& classified) {
   }
   follow_displacements(network, x, fixed);
 
-  Start result{.state = {}, .drive = Drive(network, 0, x), .chosen = {}};
+  Start result{.state = {}, .drive = Drive(network, classified, 0, x), .chosen = {}};
   State& state = result.state;
   state.position = x;
   state.velocity.assign(nodes, 0);
@@ -128,6 +128,7 @@ Start start(const Network& network, const Structure& classified) {
       state.offset.push_back(d - state.p.back());
     }
   }
+  for (std::size_t k = 0; k < result.drive.blocks().states(); ++k) state.blocks.push_back(result.drive.blocks().initial(k));
   const std::vector<std::string> chosen = start_pairs(network, x);
   result.chosen = balance_start(network, classified, fixed, state);
   result.chosen.insert(result.chosen.end(), chosen.begin(), chosen.end());

@@ -45,6 +45,7 @@ void Settling::enter_drive() {
   std::vector<int> changing;  // elements
   drive_.enter(t_);
   drive_.evaluate(t_);
+  drive_.settle_blocks(t_, state_);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
     const std::size_t n = at(network_.motions[m].node);
     const double step = drive_.steps()[m];

@@ -20,8 +20,17 @@ struct Parameter {
     initial,  ///< an initial value (`f0`, `d0`): optional, absent means "not given"
   };
 
+  /// What its unit is: of a block's parameters it may go with what the block is connected to.
+  enum class Unit {
+    quantity,  ///< that of `quantity`
+    own,       ///< any; a factor of the unit of the block's output
+    input,     ///< that of the block's inputs
+    output,    ///< that of the block's output
+  };
+
   std::string name = {};
   Quantity quantity = Quantity::number;
+  Unit unit = Unit::quantity;
   Kind kind = Kind::value;
   std::optional<double> fallback = {};  ///< absent: the user must give it (an `initial` is always optional)
   double lower = 0;                ///< inclusive, unless lower_open
@@ -30,6 +39,8 @@ struct Parameter {
   bool may_be_infinite = false;                            ///< ... unless the law has a limit there: "inf" is accepted
   std::string flow_index = {};        ///< for damping: the parameter whose value is the n in N*(s/m)^n; "" means n = 1
   std::string same_as = {};           ///< if not given: the value of this other parameter (`breakaway` = `coulomb`)
+  bool opposite = false;              ///< if not given: that value with the other sign (`lower` = -`upper`)
+  bool from_block = false;            ///< of a signal: the output of a block may be given in its place
   std::string rotational_name = {};   ///< its name in a rotational scene, if another (`inertia` for `mass`)
   std::string symbol = {};            ///< as in the law
   std::string description = {};
@@ -47,11 +58,23 @@ struct Misfit {
 
 /// What an element type is, as data. Values given by a netlist are stored in the order of `parameters`.
 struct Declaration {
-  enum class Ports { between, at, at_or_between };
+  enum class Ports {
+    between,
+    at,
+    at_or_between,
+    block,  ///< no node: a block, which makes a signal of its inputs
+  };
+  /// What a block takes in, all in one unit; the unit of its output is that, times those of its own parameters, times s if
+  /// it integrates.
+  struct Inputs {
+    std::size_t least = 1, most = 1;
+    bool integrates = false;
+  };
 
   std::string type = {};
   std::string rotational_type = {};  ///< an alias in rotational scenes (`inertia`, `torque`); "" if none
   Ports ports = Ports::between;
+  Inputs inputs = {};  ///< of a block
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)
   std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< of the values of an element

@@ -124,7 +124,7 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   if (!element_values(plan, around.environment, element)) return false;
   element.name = path;
   element.declaration = plan.declaration;
-  element.a = ends[0];
+  element.a = ends.empty() ? ground : ends[0];
   element.b = plan.at ? ground : ends[1];
   element.at = plan.at;
   element.spot = plan.spot;
@@ -132,6 +132,7 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   if (around.force)
     around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1.0 : -1.0});
   scene_.elements.push_back(std::move(element));
+  wire(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;
 }
 
@@ -152,6 +153,12 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
       if (parameter.fallback && parameter.kind == Parameter::Kind::value) element.values[i] = *parameter.fallback;
       return;
     }
+    if (parameter.unit != Parameter::Unit::quantity) {
+      const auto number = formula.evaluate(environment, context_.mistakes);
+      good = number && check_bounds(number->value, parameter, formula, context_.domain, 1, context_.mistakes) && good;
+      if (number) element.values[i] = number->value;
+      return;
+    }
     const auto value =
         formula.evaluate(environment, parameter.quantity, context_.domain, context_.mistakes, flow_index);
     good = value && check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.mistakes) && good;
@@ -167,7 +174,7 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
   }
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (!parameters[i].same_as.empty() && !plan.values[i].given())
-      element.values[i] = element.values[index_of(parameters[i].same_as)];
+      element.values[i] = (parameters[i].opposite ? -1 : 1) * element.values[index_of(parameters[i].same_as)];
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(element.values)) {
       const Formula& formula = plan.values[index_of(misfit->parameter)];
@@ -183,6 +190,10 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
     if (!signal) continue;
     element.signals.push_back(*signal);
     element.signal_parameters.push_back(plan.signal_parameters[i]);
+  }
+  for (const Wire& feed : plan.feeds) {
+    element.signals.emplace_back(Signal::Constant{0});  // what the block gives takes its place
+    element.signal_parameters.push_back(feed.parameter);
   }
   for (const std::size_t i : plan.default_signals) {
     element.signals.emplace_back(Signal::Constant{*parameters[i].fallback});

@@ -8,6 +8,7 @@
 
 #include "core/netlist/overrides.hpp"
 #include "core/netlist/plan.hpp"
+#include "core/netlist/wires.hpp"
 #include "core/netlist/scene.hpp"
 
 namespace rheonet {
@@ -22,6 +23,8 @@ class Expander {
   void run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides);
   /// The entries of `elements` that nothing, or only a part, came of: something is wrong with them.
   const std::set<std::string>& failed() const { return failed_; }
+  /// What the wires name that have been met.
+  const LooseEnds& loose_ends() const { return loose_; }
 
  private:
   using Terms = std::vector<SceneAssembly::Term>;
@@ -59,6 +62,9 @@ class Expander {
   bool repeat(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
 
   bool element_values(const Plan& plan, const Environment& environment, SceneElement& element);
+  /// What is peculiar to the element made last: the inputs and units of a block, what feeds a source.
+  void wire(const Plan& plan, const Environment& environment, int element);
+  std::string path_of(const Wire& wire) const;
   bool instance_parameters(const Plan& plan, const Environment& around, Environment& inside);
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);
   std::size_t begin_assembly(const Plan& plan, Ends ends, const std::string& path);
@@ -80,6 +86,14 @@ class Expander {
   std::deque<TomlValue> patched_values_;
   std::deque<Plan> patched_plans_;
   std::set<std::string> failed_;
+  LooseEnds loose_;
+  /// The instance that is being expanded: where its wires lead.
+  struct Inside {
+    std::string path;                                  ///< "" at the top
+    std::unordered_map<std::string, std::string> ports;  ///< and the scene's name of each
+  };
+  Inside inside_;
+  std::unordered_map<NodeId, std::string> port_names_;  ///< of what stands for a first port
   NodeId next_port_ = -1;  ///< stands for the first port of an instance while it is expanded
   bool stopped_ = false;   ///< there are too many elements
 };

@@ -124,7 +124,13 @@ bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, co
   const bool assembled = model.ports.size() == 2;
   const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;
   Locals locals{model.scope, path, {ends.begin(), ends.end()}};
+  Inside inside{path, {}};
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    inside.ports[model.ports[i]] =
+        ends[i] < 0 ? port_names_.at(ends[i]) : scene_.nodes[static_cast<std::size_t>(ends[i])].name;
   const NodeId port = next_port_;
+  if (assembled) port_names_[port] = inside.ports.at(model.ports[0]);
+  std::swap(inside_, inside);
   if (assembled) {
     // The first port may be a node that the inside names too (ground), so it has an id of its own until it is known
     // which elements are at it.
@@ -135,6 +141,7 @@ bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, co
   const std::size_t first_assembly = scene_.assemblies.size();
   const Mistakes::Within within(context_.mistakes, path);
   const bool good = entries(locals, path, environment, around.overrides, around.depth + 1);
+  std::swap(inside_, inside);
   if (assembled) {
     ++next_port_;
     end_assembly(assembly, take_port_forces(port, ends[0], first_element, first_assembly), around);

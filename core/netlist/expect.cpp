@@ -86,8 +86,8 @@ class ClaimReader {
     }
     claim.spot = figure->value.spot;
     const bool crossing = claim.figure == Figure::crossing;
-    dimension_ = dimension_of(quantity_of(record.channel), context_.domain);
-    if (other) dimension_ = dimension_ / dimension_of(quantity_of(other->channel), context_.domain);
+    dimension_ = unit_of(scene_, record).dimension;
+    if (other) dimension_ = dimension_ / unit_of(scene_, *other).dimension;
     read_times(claim, *figure, at, from, to);
     if (crossing) {
       if (other) mistakes_.error(claim.spot, "a ratio has no `crosses`", "leave out `per`");

@@ -4,6 +4,7 @@
 
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/keys.hpp"
+#include "core/netlist/wires.hpp"
 
 namespace rheonet {
 
@@ -212,13 +213,22 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
   const Domain domain = context_.domain;
   const auto found = std::find(context_.declarations.begin(), context_.declarations.end(), &declaration);
   plan.declaration = static_cast<int>(found - context_.declarations.begin());
+  const bool block = declaration.ports == Declaration::Ports::block;
   const bool may_be_at = declaration.ports != Declaration::Ports::between;
   const bool may_be_between = declaration.ports != Declaration::Ports::at;
-  if (!scope && !may_be_between)
+  if (!scope && block)
+    mistakes.error(type.value.spot, article(type.value.text) + " is a block, which stands at no node: it cannot be a member of `series` or `parallel`",
+                   "give it an entry of its own in [elements]");
+  else if (!scope && !may_be_between)
     mistakes.error(type.value.spot,
                    article(type.value.text) + " stands at a node: it cannot be a member of `series` or `parallel`",
                    "give it an entry of its own in [elements], with `at`");
-  read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
+  if (block) {
+    plan.at = true;
+    plan.inputs = read_inputs(declaration, plan.name, plan.spot, keys, mistakes);
+  } else {
+    read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
+  }
   // One that would move it is refused with the conflict.
   if (plan.at && plan.nodes == std::vector<int>{-1} && !prescribes_motion(declaration))
     mistakes.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
@@ -243,7 +253,12 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
     if (parameter.kind == Parameter::Kind::signal) {
-      plan.signals.emplace_back(entry->value, name, parameter.quantity, context_);
+      if (const TomlEntry* feed = find_feed(entry->value)) {
+        if (auto wire = read_feed(*feed, entry->value, declaration, i, context_)) plan.feeds.push_back(std::move(*wire));
+        continue;
+      }
+      const bool any_unit = parameter.unit != Parameter::Unit::quantity;
+      plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(parameter.quantity), context_);
       plan.signal_parameters.push_back(static_cast<int>(i));
     } else {
       plan.values[i] = Formula(entry->value, "`" + name + "`", mistakes);

@@ -16,6 +16,14 @@ namespace rheonet {
 
 struct Model;
 
+/// An input of a block, or what takes the place of a signal, as it is written: `controller`, `-drum.velocity`.
+struct Wire {
+  const TomlValue* source = nullptr;  ///< a string
+  std::string path;                   ///< without the sign
+  double sign = 1;
+  int parameter = -1;  ///< index into Declaration::parameters of the signal that it takes the place of
+};
+
 /// `repeat = { count, as, arrange }` of an entry.
 struct Repeat {
   Formula count;
@@ -43,6 +51,8 @@ struct Plan {
   std::vector<SignalPlan> signals;  ///< of an element, for each of signal_parameters
   std::vector<int> signal_parameters;
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
+  std::vector<Wire> inputs;  ///< of a block
+  std::vector<Wire> feeds;   ///< signals that are the output of a block
 
   std::vector<Plan> members;  ///< of a group
   Model* model = nullptr;     ///< of an instance

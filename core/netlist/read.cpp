@@ -101,6 +101,7 @@ class Reader {
     if (!doubtful.empty())
       for (const Scope::Node& node : scope.nodes) doubtful.insert(node.name);
 
+    connect(expander.loose_ends(), doubtful, context_, scene_);
     if (const TomlEntry* nodes = document_.find("nodes"))
       read_initial_values(nodes->value, environment, doubtful, context_, scene_);
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;

@@ -17,7 +17,8 @@ using Subject = Record::Subject;
 constexpr std::pair<const char*, Channel> channels[] = {{"position", Channel::position},
                                                         {"velocity", Channel::velocity},
                                                         {"displacement", Channel::displacement},
-                                                        {"force", Channel::force}};
+                                                        {"force", Channel::force},
+                                                        {"out", Channel::out}};
 
 struct Path {
   std::string object;
@@ -27,6 +28,8 @@ struct Path {
 
 /// What can be recorded of something.
 std::vector<std::string> channels_of(const SceneIndex::Found& found) {
+  if (found.block >= 0 && found.node >= 0) return {"out", "position", "velocity"};
+  if (found.block >= 0) return {"out"};
   if (found.node >= 0 && found.element >= 0) return {"position", "velocity", "displacement", "force"};
   if (found.node >= 0) return {"position", "velocity"};
   return {"force", "displacement", "velocity"};
@@ -48,7 +51,12 @@ std::optional<Record> resolve(const Path& path, const SceneIndex::Found& found) 
   Record record{path.object + '.' + path.channel, Subject::node, found.node, channel->second};
   const bool of_node = record.channel == Channel::position || record.channel == Channel::velocity;
   if (of_node && found.node >= 0) return record;
-  if (record.channel == Channel::position) return {};
+  if (record.channel == Channel::position || (record.channel == Channel::out) != (found.block >= 0)) return {};
+  if (found.block >= 0) {
+    record.subject = Subject::block;
+    record.index = found.block;
+    return record;
+  }
   if (found.element >= 0) {
     record.subject = Subject::element;
     record.index = found.element;
@@ -71,7 +79,7 @@ void refuse(const Path& path, const SceneIndex::Found& found, Context& context, 
   }
   const auto known = channels_of(found);
   const Spot spot = context.mistakes.inside(source, path.object.size() + 1);
-  if (found.element >= 0 && scene.elements[static_cast<std::size_t>(found.element)].at && path.channel == "position") {
+  if (found.block < 0 && found.element >= 0 && scene.elements[static_cast<std::size_t>(found.element)].at && path.channel == "position") {
     const NodeId node = scene.elements[static_cast<std::size_t>(found.element)].a;
     context.mistakes.error(spot, "`" + path.object + "` has no `position`: it is an element, only nodes have one",
                            "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + ".position`");
@@ -92,7 +100,12 @@ void record_everything(Scene& scene) {
   };
   for (std::size_t i = 1; i < scene.nodes.size(); ++i)
     add(scene.nodes[i].name, Subject::node, i, {Channel::position, Channel::velocity});
+  std::size_t block = 0;
   for (std::size_t i = 0; i < scene.elements.size(); ++i) {
+    if (block < scene.blocks.size() && scene.blocks[block].element == static_cast<int>(i)) {
+      add(scene.elements[i].name, Subject::block, block++, {Channel::out});
+      continue;
+    }
     // What is at a node moves as the node, which is recorded.
     if (scene.elements[i].at)
       add(scene.elements[i].name, Subject::element, i, {Channel::force});
@@ -117,9 +130,24 @@ Quantity quantity_of(Channel channel) {
     case Channel::velocity:
       return Quantity::velocity;
     case Channel::force:
+    case Channel::out:
       break;
   }
   return Quantity::force;
+}
+
+BlockUnit unit_of(const Scene& scene, const Record& record) {
+  if (record.subject == Subject::block) return scene.blocks[static_cast<std::size_t>(record.index)].unit;
+  const double radian = scene.domain == Domain::rotation && record.channel != Channel::force ? 1 : 0;
+  return {dimension_of(quantity_of(record.channel), scene.domain), radian, false};
+}
+
+std::string unit_text(const Scene& scene, const Record& record) {
+  if (record.subject != Subject::block) return unit_of(quantity_of(record.channel), scene.domain);
+  const Dimension dimension = unit_of(scene, record).dimension;
+  for (const Quantity known : {Quantity::number, Quantity::position, Quantity::velocity, Quantity::force})
+    if (dimension.same(dimension_of(known, scene.domain))) return unit_of(known, scene.domain);
+  return to_string(dimension);
 }
 
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,

@@ -52,17 +52,37 @@ struct SceneAssembly {
   Spot spot;
 };
 
+/// What a block puts out is in this unit; `open` if nothing says in which one: it is taken in SI whatever it is for.
+struct BlockUnit {
+  Dimension dimension;
+  double radian = 0;  ///< the exponent of rad that came with it, for messages
+  bool open = true;
+};
+
+/// An element that makes a signal of others: its name, declaration and values are those of the element.
+struct SceneBlock {
+  struct Input {
+    bool from_block;  ///< the output of another block; else a quantity of the network
+    int index;        ///< into Scene::blocks or Scene::sensed
+    double sign;
+  };
+  int element = 0;
+  std::vector<Input> inputs;
+  BlockUnit unit;
+};
+
+/// The signal of an element is the output of a block, times `sign`.
+struct SceneFeed { int element, block; double sign; };
+
 struct Record {
-  enum class Subject { node, element, assembly };
-  enum class Channel { position, velocity, displacement, force };
+  enum class Subject { node, element, assembly, block };
+  enum class Channel { position, velocity, displacement, force, out };
   std::string path;  ///< as in the header row: `k1.force`
   Subject subject = Subject::node;
-  int index = 0;     ///< into nodes, elements or assemblies
+  int index = 0;     ///< into nodes, elements, assemblies or blocks
   Channel channel = Channel::position;
 };
 
-/// What a record measures.
-Quantity quantity_of(Record::Channel channel);
 
 /// A claim of `[expect]`: a figure of a record's course through the run, and between which values it should lie.
 struct Claim {
@@ -87,6 +107,9 @@ struct Scene {
   std::vector<SceneNode> nodes;          ///< [0] is ground
   std::vector<SceneElement> elements;    ///< in the order of the file
   std::vector<SceneAssembly> assemblies;
+  std::vector<SceneBlock> blocks;        ///< in the order of the file
+  std::vector<Record> sensed;            ///< what blocks take in of the network
+  std::vector<SceneFeed> feeds;
   std::vector<Record> records;           ///< in the order asked for; everything, in the order of the file, if not asked
 
   std::vector<Record> claimed;  ///< what claims are about, each once
@@ -105,5 +128,9 @@ struct Scene {
   std::int64_t output_intervals = 0;
   bool output_events = false;  ///< also a pair of rows at every event
 };
+
+/// What a record measures, and the SI unit of it as a user would type it ("1" for a number).
+BlockUnit unit_of(const Scene& scene, const Record& record);
+std::string unit_text(const Scene& scene, const Record& record);
 
 }  // namespace rheonet

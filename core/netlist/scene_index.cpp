@@ -20,6 +20,10 @@ SceneIndex::SceneIndex(const Scene& scene, const std::vector<std::string>& wante
   note(scene.nodes, &Found::node);
   note(scene.elements, &Found::element);
   note(scene.assemblies, &Found::assembly);
+  for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+    const std::string& name = scene.elements[static_cast<std::size_t>(scene.blocks[i].element)].name;
+    if (const auto found = found_.find(name); found != found_.end()) found->second.block = static_cast<int>(i);
+  }
 }
 
 std::vector<std::string> known_paths(const Scene& scene, bool all) {

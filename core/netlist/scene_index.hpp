@@ -17,6 +17,7 @@ class SceneIndex {
     int node = -1;
     int element = -1;
     int assembly = -1;
+    int block = -1;  ///< that the element is
 
     bool any() const { return node >= 0 || element >= 0 || assembly >= 0; }
   };

@@ -53,6 +53,9 @@ std::vector<std::string> types_of(const Declaration& declaration) {
 }
 
 std::string units_of(const Parameter& parameter) {
+  if (parameter.unit == Parameter::Unit::own) return "any unit";
+  if (parameter.unit == Parameter::Unit::input) return "the unit of the input";
+  if (parameter.unit == Parameter::Unit::output) return "the unit of the output";
   if (parameter.quantity == Quantity::number) return "no unit";
   const bool power_law = !parameter.flow_index.empty();
   const auto in = [&](Domain domain) {
@@ -69,7 +72,8 @@ Json parameter_schema(const Parameter& parameter) {
   if (!description.empty() && !parameter.description.empty()) description += ": ";
   description += parameter.description;
   description += fmt::format(" [{}]", units_of(parameter));
-  if (!parameter.same_as.empty()) description += fmt::format("; if absent, as `{}`", parameter.same_as);
+  if (!parameter.same_as.empty())
+    description += fmt::format("; if absent, {} `{}`", parameter.opposite ? "minus" : "as", parameter.same_as);
   if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
   Json schema = described(reference(parameter.kind == Parameter::Kind::signal ? "signal" : "value"), description);
@@ -94,8 +98,14 @@ Json common_properties() {
           {"repeat", reference("repeat")}};
 }
 
+Json inputs_schema(const Declaration::Inputs& inputs) {
+  const Json one = text("the name of a block, or a quantity of the network: drum.velocity; with - its negative");
+  return inputs.most == 1 ? one : list_of(one, static_cast<int>(inputs.least));
+}
+
 Json ports_properties(Declaration::Ports ports) {
   Json properties = Json::object();
+  if (ports == Declaration::Ports::block) return properties;
   if (ports != Declaration::Ports::at) properties["between"] = reference("between");
   if (ports != Declaration::Ports::between) properties["at"] = reference("at");
   return properties;
@@ -104,6 +114,8 @@ Json ports_properties(Declaration::Ports ports) {
 Json element_schema(const Declaration& declaration) {
   Json properties{{"type", {{"enum", types_of(declaration)}}}};
   properties.update(ports_properties(declaration.ports));
+  if (declaration.inputs.most > 0 && declaration.ports == Declaration::Ports::block)
+    properties["in"] = inputs_schema(declaration.inputs);
   properties.update(common_properties());
   Json requirements = Json::array();
   std::vector<std::string> one_of;
@@ -117,6 +129,7 @@ Json element_schema(const Declaration& declaration) {
                           !parameter.same_as.empty();
     if (!optional) requirements.push_back(one_required(names));
   }
+  if (properties.contains("in")) requirements.push_back(one_required({"in"}));
   if (!one_of.empty()) requirements.push_back(one_required(one_of));
   Json schema = object(std::move(properties));
   if (!requirements.empty()) schema["allOf"] = std::move(requirements);
@@ -197,7 +210,10 @@ Json signal_schema() {
   table["dependentRequired"] = {{"sine", {"frequency"}},   {"cosine", {"frequency"}},
                                 {"square", {"frequency"}}, {"triangle", {"frequency"}},
                                 {"pulse", {"width"}},      {"chirp", {"frequency", "end_frequency", "duration"}}};
-  return described({{"anyOf", {reference("value"), std::move(table)}}}, "a function of time: a constant, or a shape");
+  Json block = object({{"block", text("the name of a block: its output is the signal, with - its negative")}});
+  block["required"] = {"block"};
+  return described({{"anyOf", {reference("value"), std::move(table), std::move(block)}}},
+                   "a function of time: a constant, or a shape; or what a block puts out");
 }
 
 Json repeat_schema() {

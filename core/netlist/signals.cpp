@@ -22,7 +22,7 @@ const std::array<std::string, SignalPlan::key_count>& SignalPlan::key_names() {
   return names;
 }
 
-SignalPlan::SignalPlan(const TomlValue& source, const std::string& name, Quantity quantity, Context& context)
+SignalPlan::SignalPlan(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context)
     : name_(name), quantity_(quantity) {
   const std::size_t before = context.mistakes.errors();
   if (source.is_table()) {
@@ -140,8 +140,29 @@ void SignalPlan::read_points(const TomlValue& source, Context& context) {
 std::optional<Signal> SignalPlan::evaluate(const Environment& environment, Context& context) const {
   if (!sound_) return {};
   if (constant_ && made_) return made_;
+  unit_ = quantity_ ? BlockUnit{dimension_of(*quantity_, context.domain), 0, false} : BlockUnit{};
   made_ = make(environment, context);
   return made_;
+}
+
+std::optional<double> SignalPlan::in_unit(const Number& number, const Formula& formula, const Environment& environment,
+                                          Context& context) const {
+  const Spot spot = formula.source().spot;
+  if (quantity_) {
+    const auto checked = as_quantity(number, *quantity_, context.domain);
+    if (const auto* wrong = std::get_if<TextError>(&checked)) {
+      context.mistakes.error(spot, formula.name() + ": " + wrong->message,
+                             hint_for(formula, environment, context, wrong->hint));
+      return {};
+    }
+    return std::get<double>(checked);
+  }
+  if (number.plain) return number.value;
+  if (unit_.open) unit_ = {number.dimension, number.radian, false};
+  if (number.dimension.same(unit_.dimension)) return number.value;
+  context.mistakes.error(spot, formula.name() + ": expected " + describe(unit_.dimension, unit_.radian) +
+                                   ", as the rest of `" + name_ + "`, found " + describe(number.dimension, number.radian));
+  return {};
 }
 
 std::optional<Number> SignalPlan::times_amplitude(Number number, const Environment& environment,
@@ -174,7 +195,7 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
     context.mistakes.error(main_.source().spot,
                            main_.name() + ": there is no parameter `" + time +
                                "`, and no expression is one of the time",
-                           "a signal that changes is a table, { sine = \"1 " + unit_of(quantity_, context.domain) +
+                           "a signal that changes is a table, { sine = \"1 " + unit_of(quantity_.value_or(Quantity::number), context.domain) +
                                "\", frequency = \"2 Hz\" }; there are " + list_names(shape_names(), "and"));
     return true;
   }
@@ -196,9 +217,10 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
   if (!number) return {};
   const Domain domain = context.domain;
   const Spot spot = formula.source().spot;
+  const Dimension second = dimension_of(Quantity::time, domain);
   double value = number->value;
-  if (shape_ == Shape::ramp) {
-    const Dimension expected = dimension_of(quantity_, domain) / dimension_of(Quantity::time, domain);
+  if (shape_ == Shape::ramp && quantity_) {
+    const Dimension expected = unit_.dimension / second;
     if (!number->plain && !number->dimension.same(expected)) {
       context.mistakes.error(spot, formula.name() + ": expected " + describe(expected) + ", the rise of `" + name_ +
                                        "` per second, found " + describe(number->dimension, number->radian),
@@ -206,13 +228,10 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
       return {};
     }
   } else {
-    const auto checked = as_quantity(*number, quantity_, domain);
-    if (const auto* wrong = std::get_if<TextError>(&checked)) {
-      context.mistakes.error(spot, formula.name() + ": " + wrong->message,
-                             hint_for(formula, environment, context, wrong->hint));
-      return {};
-    }
-    value = std::get<double>(checked);
+    if (shape_ == Shape::ramp) number->dimension = number->dimension * second;
+    const auto checked = in_unit(*number, formula, environment, context);
+    if (!checked) return {};
+    value = *checked;
   }
   if (std::isfinite(value)) return value;
   context.mistakes.error(spot, formula.name() + " must be finite, but is infinite");
@@ -235,9 +254,13 @@ std::optional<double> SignalPlan::value_of(Key key, const Environment& environme
       case phase:
         return Quantity::angle;
       default:
-        return quantity_;
+        return quantity_.value_or(Quantity::number);
     }
   }();
+  if (key == offset && !quantity_) {
+    const auto number = formula.evaluate(environment, context.mistakes);
+    return number ? in_unit(*number, formula, environment, context) : std::nullopt;
+  }
   const auto value = formula.evaluate_finite(environment, quantity, context.domain, context.mistakes);
   if (!value) return {};
   const bool may_be_zero = shape_ == Shape::chirp && key != duration;
@@ -305,7 +328,8 @@ std::optional<Signal> SignalPlan::make_table(const Environment& environment, Con
     if (!file) return {};
     const auto unit = times_amplitude(file->unit, environment, context);
     if (!unit) return {};
-    const auto factor = as_quantity(*unit, quantity_, context.domain);
+    if (!quantity_ && !unit->plain) unit_ = {unit->dimension, unit->radian, false};
+    const auto factor = quantity_ ? as_quantity(*unit, *quantity_, context.domain) : unit->value;
     if (const auto* wrong = std::get_if<TextError>(&factor)) {
       context.mistakes.error(file_name_->spot, "`table`: " + wrong->message,
                              file->unit.plain ? wrong->hint : "the unit is that of the header of the file");

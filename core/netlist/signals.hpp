@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/netlist/context.hpp"
+#include "core/netlist/scene.hpp"
 #include "core/netlist/signal.hpp"
 #include "core/netlist/table_file.hpp"
 #include "core/netlist/values.hpp"
@@ -17,11 +18,14 @@ namespace rheonet {
 /// A signal as the file gives it: its shape is known, its numbers are evaluated where their names are known.
 class SignalPlan {
  public:
-  /// `name` is what messages call it: "velocity".
-  SignalPlan(const TomlValue& source, const std::string& name, Quantity quantity, Context& context);
+  /// `name` is what messages call it: "velocity". Without a quantity any unit will do, as long as there is only one.
+  SignalPlan(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context);
 
   /// The signal where `environment` holds; absent if anything in it is a mistake.
   std::optional<Signal> evaluate(const Environment& environment, Context& context) const;
+
+  /// In which unit it was at the last evaluation.
+  const BlockUnit& unit() const { return unit_; }
 
   /// `step`, `ramp`, ...
   static const std::vector<std::string>& shape_names();
@@ -49,11 +53,14 @@ class SignalPlan {
   const TableFile* table_file(Context& context) const;
   std::optional<Number> times_amplitude(Number number, const Environment& environment, Context& context) const;
   std::optional<double> value_of(Key key, const Environment& environment, Context& context, double otherwise) const;
+  /// The value of a signal, in SI, if its unit is the one that it has to have.
+  std::optional<double> in_unit(const Number& number, const Formula& formula, const Environment& environment,
+                                Context& context) const;
   std::optional<Signal> make(const Environment& environment, Context& context) const;
   std::optional<Signal> make_table(const Environment& environment, Context& context, double time, double offset) const;
 
   std::string name_;
-  Quantity quantity_ = Quantity::number;
+  std::optional<Quantity> quantity_;
   Shape shape_ = Shape::constant;
   bool sound_ = true;
   bool constant_ = true;  ///< no name in it: one evaluation serves all elements
@@ -64,6 +71,7 @@ class SignalPlan {
   /// What is in it, nullptr if it is mistaken. Read when it is needed: an override may take its place.
   mutable std::optional<std::shared_ptr<const TableFile>> file_;
   mutable std::optional<Signal> made_;
+  mutable BlockUnit unit_;
 };
 
 }  // namespace rheonet

@@ -22,6 +22,7 @@ enum class Role {
   mass,        ///< inertia of a node
   motion,      ///< prescribes a node's motion
   force,       ///< applies a given force
+  block,       ///< no part of the network: makes a signal of others
   nothing,     ///< carries no force: what a law becomes at a limit of its parameters
 };
 
@@ -144,6 +145,22 @@ struct Slip {
   double breakaway;  ///< N, not less than coulomb
 };
 
+/// A law of the role `block`. With u the sum of the inputs (or the signal that it generates), it puts out
+///
+///     z, where z' = gain u - leak z and z = initial at first   if it has a state
+///     u(t - delay), before that `initial`                      if it has a delay
+///     gain u, but not beyond `lower` and `upper`               else
+struct BlockLaw {
+  double gain = 1;     ///< [unit of the output / unit of the inputs], of a state that per second
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  bool state = false;
+  double leak = 0;     ///< [1/s]
+  double delay = 0;    ///< [s]
+  double initial = 0;  ///< [unit of the output]
+
+  bool limits() const { return upper < std::numeric_limits<double>::infinity() || lower > -std::numeric_limits<double>::infinity(); }
+};
+
 /// A deflection law f = stiffness (d - rest).
 struct LinearSpring {
   double stiffness;     ///< N/m
@@ -170,6 +187,7 @@ struct Component {
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
+  std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is one
   std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
 };

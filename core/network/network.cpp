@@ -204,6 +204,9 @@ Network build_network(const Scene& scene) {
         place = {role, static_cast<int>(network.forces.size())};
         network.forces.push_back({index, a, element.at ? -1 : b, element.signals.at(0).seen_from(scene.start)});
         break;
+      case Role::block:
+        place = {role, -1};
+        break;
     }
   }
   batch_up(deflections, Role::deflection, network.deflections, network.deflection_laws, network.places,
@@ -211,6 +214,12 @@ Network build_network(const Scene& scene) {
   batch_up(rates, Role::rate, network.rates, network.rate_laws, network.places,
            [](const Component& c, const Values& v) { return c.rate(v); });
   tie_up_pairs(network);
+  for (const SceneFeed& feed : scene.feeds) {
+    Network::Force& force = network.forces[static_cast<std::size_t>(network.places[static_cast<std::size_t>(feed.element)].index)];
+    force.block = feed.block;
+    force.sign = feed.sign;
+  }
+  network.blocks = find_blocks(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;
 }

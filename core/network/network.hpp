@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/netlist/scene.hpp"
+#include "core/network/blocks.hpp"
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"
 #include "core/network/iwan.hpp"
@@ -33,7 +34,8 @@ struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Motion { int element; NodeId node; Signal signal; bool position; };
   struct Slider { Branch branch; Slip law; };
-  struct Force { int element; NodeId a, b; Signal signal; };  ///< b = -1 for a force at one node
+  /// b = -1 for a force at one node. With a `block` it is what that puts out, times `sign`.
+  struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; };
   /// Where an element went: a branch of `deflections` or `rates`, or an index into sliders, masses, motions,
   /// forces; or into `pairs`, whatever its role.
   struct Place { Role role; int index; bool paired = false; };
@@ -47,6 +49,7 @@ struct Network {
   std::vector<Mass> masses;
   std::vector<Motion> motions;
   std::vector<Force> forces;
+  Blocks blocks;
   std::vector<Place> places;  ///< one for each element of the scene
   /// Springs and sliders in series, and what they are together: the last branches of `deflections`. A bundle goes by the
   /// name of its first slider.

@@ -64,6 +64,21 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
   return result;
 }
 
+/// What a block takes in is a quantity of its own: no pair hides it.
+void keep_sensed(const Scene& scene, std::vector<Touch>& touched) {
+  const auto keep = [&](NodeId node) { ++touched[at(node)].count; };
+  const auto keep_ends = [&](int element) {
+    keep(scene.elements[at(element)].a);
+    keep(scene.elements[at(element)].b);
+  };
+  for (const Record& record : scene.sensed) {
+    if (record.subject == Record::Subject::node) keep(record.index);
+    if (record.subject == Record::Subject::element) keep_ends(record.index);
+    if (record.subject == Record::Subject::assembly)
+      for (const SceneAssembly::Term& term : scene.assemblies[at(record.index)].force) keep_ends(term.element);
+  }
+}
+
 NodeId other_end(const SceneElement& element, NodeId node) { return element.a == node ? element.b : element.a; }
 
 /// Wherever the spring's end starts, its force is not beyond what the slider holds.
@@ -76,7 +91,8 @@ bool holds_at_start(const Pair& pair, const Touch& end) {
 }  // namespace
 
 std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& laws) {
-  const std::vector<Touch> touched = touches(scene, laws);
+  std::vector<Touch> touched = touches(scene, laws);
+  keep_sensed(scene, touched);
   std::vector<char> taken(scene.elements.size(), 0);
   std::vector<Pair> pairs;
   for (NodeId node = 1; node < static_cast<NodeId>(scene.nodes.size()); ++node) {

@@ -17,6 +17,8 @@ Ends ends_of(const Scene& scene, const Record& record) {
       return {record.index, ground};
     case Record::Subject::element:
       return {scene.elements[at(record.index)].a, scene.elements[at(record.index)].b};
+    case Record::Subject::block:
+      return {ground, ground};
     case Record::Subject::assembly:
       break;
   }
@@ -71,6 +73,9 @@ std::vector<char> needed_positions(const Network& network) {
       }
     }
   }
+  for (const Blocks::Sensor& sensor : network.blocks.sensors) {
+    if (sensor.what == Blocks::Sensor::What::position) needed[at(sensor.index)] = 1;
+  }
   // Positions go over sliders that stick, so both ends must be known when they begin to.
   if (std::find(needed.begin(), needed.end(), 1) == needed.end()) return needed;
   for (const Network::Slider& slider : network.sliders) needed[at(slider.branch.a)] = needed[at(slider.branch.b)] = 1;
@@ -124,6 +129,7 @@ double Channels::element_force(int element, const Dae::View& view) const {
       return dae_->reaction(network.motions[at(place.index)].node);
     case Role::force:
       return dae_->applied_force(place.index);
+    case Role::block:
     case Role::nothing:
       break;
   }
@@ -201,6 +207,9 @@ const std::vector<double>& Channels::read_state(double t, const std::vector<doub
         break;
       case Record::Channel::velocity:
         row_[k] = velocity(record, view);
+        break;
+      case Record::Channel::out:
+        row_[k] = dae_->output(record.index);
         break;
       case Record::Channel::force:
         row_[k] = 0;

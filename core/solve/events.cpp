@@ -42,8 +42,28 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
     if (!structure.stuck[k] && b.a == b.b) continue;
     rates_needed_ = rates_needed_ || floating(b);
     sliders_.push_back(static_cast<int>(k));
-    events_.push_back({static_cast<int>(k), -1});
+    events_.push_back({static_cast<int>(k), of_slider});
   }
+  const std::size_t limits = dae.drive().blocks().limits().size();
+  limit_margin_.assign(limits, 0);
+  for (std::size_t k = 0; k < limits; ++k) events_.push_back({static_cast<int>(k), of_limit});
+}
+
+int NetworkEvents::element(std::size_t k) const {
+  const auto [branch, which] = events_[k];
+  const Network& network = dae_.network();
+  if (which == of_slider) return network.sliders[at(branch)].branch.element;
+  if (which == of_limit) return network.blocks.blocks[at(dae_.drive().blocks().limits()[at(branch)].block)].element;
+  return network.deflections[at(branch)].element;
+}
+
+// Never exactly 0: from there a function would not be seen to fall.
+double NetworkEvents::limit_function(std::size_t k) const {
+  return dae_.drive().blocks().event_function(k) + limit_margin_[k] + std::numeric_limits<double>::min();
+}
+
+double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) const {
+  return k < sliders_.size() ? slider_function(sliders_[k], view) : limit_function(k - sliders_.size());
 }
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
@@ -65,6 +85,7 @@ void NetworkEvents::report_against_force(double t, int slider) const {
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
+  std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
   at_begin_.resize(events_.size());
   evaluate(t, y, yp, at_begin_.data());
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) : 0; };
@@ -75,24 +96,26 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
     if (!dae_.structure().stuck[at(k)] && g < -slip_rounding * tolerances_.largest_velocity()) report_against_force(t, k);
     margin_[at(k)] = margin(g);
   }
+  const std::size_t first = events_.size() - limit_margin_.size();
+  for (std::size_t k = 0; k < limit_margin_.size(); ++k) limit_margin_[k] = margin(at_begin_[first + k]);
 }
 
 bool NetworkEvents::sticks() const {
-  return std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
+  return !limit_margin_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
 
-double NetworkEvents::at_time(const Integrator& integrator, double t, int k) {
+double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_t k) {
   integrator.interpolate(t, 0, y_);
   integrator.interpolate(t, 1, yp_);
-  return slider_function(k, dae_.view(t, y_.data(), yp_.data()));
+  return sudden_function(k, dae_.view(t, y_.data(), yp_.data()));
 }
 
 void NetworkEvents::all_at_time(const Integrator& integrator, double t, std::vector<double>& g) {
   integrator.interpolate(t, 0, y_);
   integrator.interpolate(t, 1, yp_);
   const Dae::View& view = dae_.view(t, y_.data(), yp_.data());
-  g.resize(sliders_.size());
-  for (std::size_t i = 0; i < sliders_.size(); ++i) g[i] = slider_function(sliders_[i], view);
+  g.resize(suddens());
+  for (std::size_t i = 0; i < g.size(); ++i) g[i] = sudden_function(i, view);
 }
 
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
@@ -104,9 +127,8 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
   all_at_time(integrator, a, left_);
   all_at_time(integrator, (a + b) / 2, middle_);
   all_at_time(integrator, b, right_);
-  for (std::size_t i = 0; i < sliders_.size(); ++i) {
-    const int k = sliders_[i];
-    if (!dae_.structure().stuck[at(k)]) continue;
+  for (std::size_t i = 0; i < suddens(); ++i) {
+    if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])]) continue;
     double left = a, middle = (a + b) / 2, right = b;
     double gl = left_[i], gm = middle_[i], gr = right_[i];
     const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});
@@ -115,7 +137,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
       const double p = (middle - left) * (gm - gr), q = (middle - right) * (gm - gl);
       const double least = middle - ((middle - left) * p - (middle - right) * q) / (2 * (p - q));
       if (!(least > left && least < right) || least == middle || std::min({gl, gm, gr}) > near * (1 + n) * steep + gm / 2) break;
-      const double g = at_time(integrator, least, k);
+      const double g = at_time(integrator, least, i);
       if (g >= gm) break;
       (least < middle ? right : left) = middle;
       (least < middle ? gr : gl) = gm;
@@ -126,9 +148,9 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
     while (middle - left > 4 * std::numeric_limits<double>::epsilon() * std::abs(middle)) {
       const double half = (left + middle) / 2;
       if (half <= left || half >= middle) break;
-      (at_time(integrator, half, k) > 0 ? left : middle) = half;
+      (at_time(integrator, half, i) > 0 ? left : middle) = half;
     }
-    const int which = static_cast<int>(events_.size() - sliders_.size() + i);
+    const int which = static_cast<int>(events_.size() - suddens() + i);
     if (!first || middle < first->t) first = Missed{middle, which};
   }
   return first;
@@ -155,7 +177,7 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
     w.batch->event_functions(w.i, view.p[j], view.dp[j], view.flow[j], tolerances_.noise(w.branch), g);
     for (int k = 0; k < w.batch->events(w.i); ++k) *g++ += *margin++;
   }
-  for (int k : sliders_) *g++ = slider_function(k, view);
+  for (std::size_t k = 0; k < suddens(); ++k) *g++ = sudden_function(k, view);
 }
 
 }  // namespace rheonet

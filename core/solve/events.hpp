@@ -14,9 +14,10 @@ namespace rheonet {
 class NetworkEvents final : public EventFunctions {
  public:
   struct Which {
-    int branch;  ///< deflection branch, or slider
-    int which;   ///< event of a deflection law; -1 for a slider's
+    int branch;  ///< deflection branch, or slider, or limit of a block (BlockSignals::limits)
+    int which;   ///< event of a deflection law; or one of the next
   };
+  static constexpr int of_slider = -1, of_limit = -2;
 
   /// `modes` are the present ones; all must outlive this.
   NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
@@ -25,7 +26,7 @@ class NetworkEvents final : public EventFunctions {
   /// SimulationError where it is not.
   void begin(double t, const double* y, const double* yp);
 
-  /// Sliders stick here that may break away.
+  /// Sliders stick here that may break away, or blocks limit what they take in.
   bool sticks() const;
   /// A force may go beyond a bound and come back within one step: the first such instant in the last step, and the event
   /// that it is.
@@ -34,6 +35,8 @@ class NetworkEvents final : public EventFunctions {
 
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
+  /// The element of the scene that it is of.
+  int element(std::size_t k) const;
   const Which& operator[](std::size_t k) const { return events_[k]; }
 
  private:
@@ -43,9 +46,13 @@ class NetworkEvents final : public EventFunctions {
     int branch;
   };
   void all_at_time(const Integrator& integrator, double t, std::vector<double>& g);
-  double at_time(const Integrator& integrator, double t, int slider);
+  double at_time(const Integrator& integrator, double t, std::size_t sudden);
   double slider_function(int slider, const Dae::View& view) const;
   [[noreturn]] void report_against_force(double t, int slider) const;
+  double limit_function(std::size_t limit) const;
+  /// Of sliders, then of limits, in the state of the view.
+  std::size_t suddens() const { return sliders_.size() + limit_margin_.size(); }
+  double sudden_function(std::size_t k, const Dae::View& view) const;
 
   Dae& dae_;
   Consistency& consistency_;
@@ -55,8 +62,9 @@ class NetworkEvents final : public EventFunctions {
   std::vector<double> y_, yp_;
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
-  std::vector<double> left_, middle_, right_;  ///< event functions of the sliders over a step
+  std::vector<double> left_, middle_, right_;  ///< event functions of the sliders and limits over a step
   std::vector<double> margin_;  ///< of each slider
+  std::vector<double> limit_margin_;  ///< of each limit
   std::vector<double> law_margin_, at_begin_;  ///< of each event of the laws; event functions
   std::vector<Which> events_;
 };

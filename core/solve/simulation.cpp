@@ -53,7 +53,7 @@ class Run {
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
         systems_(network, classified_, drive_, needed, modes_, tolerances_),
-        switches_(network),
+        switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
         softening_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
@@ -143,8 +143,10 @@ class Run {
     yp_.assign(y_.size(), 0);
     dae.stand(t, y_.data(), yp_.data(), change.standing);
     system_->consistency.project(t, y_);
+    dae.choose_limits(t, y_.data(), yp_.data());
+    drive_.blocks().fire({});
     system_->consistency.derivative(t, y_, yp_);
-    drive_.past().remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
+    drive_.remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
     for (const std::string& note : check_ties(dae, t)) note_once(note);
     for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) observer_.event(event);
@@ -207,7 +209,7 @@ class Run {
       observer_.step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
-      drive_.past().remember(t, view.velocity);
+      drive_.remember(t, view.velocity);
       for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
         observer_.event(event);
       }
@@ -253,15 +255,15 @@ class Run {
     Dae& dae = system_->dae;
     const Dae::View view = dae.view(t, y_.data(), yp_.data());
     const std::vector<int> fired = system_->integrator.events();
-    std::vector<int> switched;
+    std::vector<int> switched, limits;
     fired_.clear();
     Instant::Fired sudden;
     for (std::size_t k = 0; k < fired.size(); ++k) {
       if (fired[k] == 0) continue;
       const auto [branch, which] = system_->events[k];
       if (which < 0) {
-        sudden.sliders.push_back(branch);
-        fired_.push_back(network_.sliders[at(branch)].branch.element);
+        (which == NetworkEvents::of_slider ? sudden.sliders : limits).push_back(branch);
+        fired_.push_back(system_->events.element(k));
         continue;
       }
       // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
@@ -271,7 +273,7 @@ class Run {
       const bool held = batch.holds(i);
       const int direction = batch.direction(i);
       switched.push_back(branch);
-      fired_.push_back(network_.deflections[at(branch)].element);
+      fired_.push_back(system_->events.element(k));
       batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
       if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
       if (held) {
@@ -282,6 +284,7 @@ class Run {
         list.insert(list.end(), released.begin(), released.end());
       }
     }
+    drive_.blocks().fire(limits);
     cross(t, false, sudden);
   }
 

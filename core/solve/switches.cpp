@@ -78,7 +78,8 @@ class WithinStep {
 
 }  // namespace
 
-Switches::Switches(const Network& network) : network_(network) {
+Switches::Switches(const Network& network, const BlockSignals& blocks)
+    : network_(network), blocks_(blocks), sides_(network.blocks.blocks.size(), 0) {
   last_.slider.assign(network.sliders.size(), Modes::stuck);
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     if (laws.batch.get() == network.bundles) continue;
@@ -122,7 +123,17 @@ const std::vector<Event>& Switches::follow(double t, const Modes& modes, const s
     last_.slider[k] = modes.slider[k];
   }
   for (Bundle& bundle : bundles_) follow(t, bundle, p[static_cast<std::size_t>(bundle.branch)]);
+  follow_blocks(t);
   return events_;
+}
+
+void Switches::follow_blocks(double t) {
+  for (std::size_t k = 0; k < sides_.size(); ++k) {
+    const int side = blocks_.side(static_cast<int>(k));
+    if (side == sides_[k]) continue;
+    events_.push_back({t, network_.blocks.blocks[k].element, side == 0 ? "release" : "limit", side});
+    sides_[k] = side;
+  }
 }
 
 void Switches::follow(double t, Bundle& bundle, double p) {

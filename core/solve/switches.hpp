@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/dae/block_signals.hpp"
 #include "core/dae/dae.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
@@ -24,13 +25,14 @@ struct Event {
 ///   slider             "slip", "stick"; "breakaway": it slips and lets go of more than its force of sliding
 ///   law with a memory  "start", "stop": between rest and motion; "yield", "release": it comes to its bound, leaves it
 ///   both               "reversal"
+///   limiter            "limit", "release"
 ///
 /// A slider in a pair (core/network/pairs.hpp) is told of as any other, though a bundle goes on without an event: when it
 /// yielded within a step follows from the deflection of the bundle.
 class Switches {
  public:
-  /// The network must outlive this.
-  explicit Switches(const Network& network);
+  /// Both must outlive this.
+  Switches(const Network& network, const BlockSignals& blocks);
 
   /// What has changed since the last call, with the deflections of all branches. Valid until the next one.
   const std::vector<Event>& follow(double t, const Modes& modes, const std::vector<double>& p);
@@ -58,11 +60,14 @@ class Switches {
     long on = -1;                       ///< that branch
   };
   void follow(double t, Bundle& bundle, double p);
+  void follow_blocks(double t);
   void yield(double t, Bundle& bundle, std::size_t pair);
   void tell(double t, const Bundle& bundle, std::size_t pair, int before, int after);
   void turn(double t, int element, int before, int after, const char* to_rest, const char* from_rest);
 
   const Network& network_;
+  const BlockSignals& blocks_;
+  std::vector<int> sides_;  ///< of each block, as for BlockSignals::side
   std::vector<Law> laws_;
   std::vector<Bundle> bundles_;
   Modes last_;

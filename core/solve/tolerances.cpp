@@ -40,7 +40,12 @@ constexpr double given_noise = 1e-13;
 Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative) {
   const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
   seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0),
-           std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0)};
+           std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0),
+           std::vector<double>(network.blocks.blocks.size(), 0)};
+  sensed_.assign(nodes, 0);
+  for (const Blocks::Sensor& sensor : network.blocks.sensors) {
+    if (sensor.what == Blocks::Sensor::What::position) sensed_[at(sensor.index)] = 1;
+  }
   foreseen_ = seen_;
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
@@ -73,6 +78,7 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.velocity_unknown(static_cast<NodeId>(k)), Sort::velocity, k);
     stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
+  for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
   tolerance_.assign(n, relative_);
   rounding_.assign(n, 0);
   drift_.assign(n, {});
@@ -222,6 +228,7 @@ bool Tolerances::blind() const {
   for (const Quantity& q : quantity_) {
     there[static_cast<std::size_t>(q.sort)] = true;
     if (seen(q) > 0) known[static_cast<std::size_t>(q.sort)] = true;
+    if (q.sort == Sort::block && seen(q) == 0) return true;
   }
   return there != known;
 }
@@ -321,7 +328,8 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
-    double scale = std::max({seen(q), foreseen_of(quantity_[i]), floor_of_kind * largest[static_cast<std::size_t>(q.sort)]});
+    double scale = std::max(seen(q), foreseen_of(quantity_[i]));
+    if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
     if (q.sort == Sort::deflection) {
       // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
       const std::size_t j = q.index;

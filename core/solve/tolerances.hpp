@@ -37,15 +37,18 @@ class Tolerances {
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
 
  private:
-  enum class Sort : char { velocity, deflection, force, position };
-  static constexpr std::size_t sorts = 4;
-  /// What an unknown stands for: the velocity or position of a node, the deflection or force of a branch.
+  enum class Sort : char { velocity, deflection, force, position, block };
+  static constexpr std::size_t sorts = 5;
+  /// What an unknown stands for: the velocity or position of a node, the deflection or force of a branch, a block's state.
   struct Quantity { Sort sort; std::size_t index; };
   double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double seen(const Quantity& q) const { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double& foreseen_of(const Quantity& q) { return foreseen_[static_cast<std::size_t>(q.sort)][q.index]; }
   void forget();
   void see(const std::vector<double>& y, const Dae::View& view);
+  /// Its size says nothing of that of others of its sort: states of blocks have units of their own, and what a block takes
+  /// in may be a small movement beside large ones.
+  bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void watch_kinks(const Dae::View& view);
   double local() const;
   using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
@@ -67,6 +70,7 @@ class Tolerances {
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown
+  std::vector<char> sensed_;                          ///< of each node: a block takes in its position
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
   std::array<std::vector<double>, sorts> seen_;       ///< largest magnitude of everything that can be an unknown
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`

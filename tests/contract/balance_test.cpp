@@ -22,6 +22,8 @@ double direction(const Component& component) {
     case Role::motion:
     case Role::force:
       return -1;
+    case Role::block:
+      break;
   }
   FAIL("a role that the contract does not know: " << component.declaration.type);
   return 0;

@@ -45,7 +45,8 @@ TEST_CASE("contract: declarations are complete") {
     CHECK(!d.source.empty());
     CHECK(!d.notes.empty());
     CHECK(component->drawing.starts_with("M"));  // an SVG path begins with a move
-    CHECK(!d.parameters.empty());
+    const bool block = d.ports == Declaration::Ports::block;
+    CHECK((block || !d.parameters.empty()));
     for (const std::string& name : d.one_of) {
       REQUIRE_MESSAGE(find(d, name), name);
       CHECK_MESSAGE(!find(d, name)->fallback, name);
@@ -82,6 +83,8 @@ TEST_CASE("contract: declarations are complete") {
       CHECK_MESSAGE(find_component(limit.becomes), limit.becomes);
     }
     CHECK((component->role == Role::deflection) == static_cast<bool>(component->deflection));
+    CHECK((component->role == Role::block) == block);
+    CHECK(block == static_cast<bool>(component->block));
     CHECK((component->role == Role::rate) == static_cast<bool>(component->rate));
   }
 }

@@ -19,7 +19,7 @@ struct Driven {
   Driven(const SceneBuilder& builder, double start, const std::vector<double>& positions)
       : scene(builder.finish(1, 10, 1e-6)),
         network(build_network(scene)),
-        drive(network, start, before(network, start, positions)) {}
+        drive(network, classify(network), start, before(network, start, positions)) {}
   Driven(const Driven&) = delete;
 
   /// Nodes that a position drives have followed it so far.

@@ -18,7 +18,7 @@ struct Remembering {
   Network network;
   Past past;
 
-  Remembering() : scene(make()), network(build_network(scene)), past(network) { past.begin({0, 0, 0}); }
+  Remembering() : scene(make()), network(build_network(scene)), past(network, {}, 0, 0) { past.begin({0, 0, 0}); }
   static Scene make() {
     SceneBuilder b;
     b.at("m", "mass", "free", {{"mass", 1}});
@@ -26,7 +26,7 @@ struct Remembering {
     b.between("v", "vfm", "free", "moved", {{"damping", 2}, {"stiffness", 3}, {"delay", delay}});
     return b.finish(1, 1, 1e-6);
   }
-  void remember(double t, double v) { past.remember(t, {0, v, 0}); }
+  void remember(double t, double v) { past.remember(t, {0, v, 0}, {}); }
 };
 
 double quintic(double t) { return 0.3 - 1.7 * t + t * t * (2.1 - t * (0.8 + t * (1.3 - 0.9 * t))); }

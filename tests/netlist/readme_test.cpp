@@ -3,6 +3,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/network/component.hpp"
 #include "tests/netlist/reading.hpp"
 
 namespace rheonet::test {
@@ -19,7 +20,10 @@ TEST_CASE("every example of the reference of the format is a scene") {
     at += fence.size();
     ReadOptions options;
     options.model_folders = {root / "netlists"};
-    scene_of(text.substr(at, text.find("```", at) - at), options, root / "core" / "netlist");
+    std::string example = text.substr(at, text.find("```", at) - at);
+    if (example.find("[simulate]") == example.npos) example += "[simulate]\nstop = 1\n";
+    INFO(example);
+    CHECK_EQ(messages(read_scene_text(example, "scene.toml", root / "core" / "netlist", declarations(), options)), "");
     ++examples;
   }
   CHECK(examples >= 6);

@@ -80,8 +80,9 @@ TEST_CASE("laws are sorted into one contiguous batch a type, and every element k
         CHECK_EQ(net.forces.at(index).element, element);
         CHECK_EQ(net.forces.at(index).b, scene.elements[e].at ? -1 : b.node("a"));
         break;
+      case Role::block:
       case Role::nothing:
-        FAIL("no element here is nothing");
+        FAIL("no element here is nothing, or a block");
     }
   }
   CHECK(net.notes.empty());

@@ -77,7 +77,17 @@ double Scaling::of(Quantity quantity, Domain domain, double flow_index) const {
 }
 
 double factor(const Scene& scene, const Record& record, const Scaling& scaling) {
-  return scaling.of(quantity_of(record.channel), scene.domain);
+  switch (record.channel) {
+    case Record::Channel::position:
+    case Record::Channel::displacement:
+      return scaling.of(Quantity::position, scene.domain);
+    case Record::Channel::velocity:
+      return scaling.of(Quantity::velocity, scene.domain);
+    case Record::Channel::force:
+    case Record::Channel::out:  // no scene that is scaled has blocks
+      break;
+  }
+  return scaling.of(Quantity::force, scene.domain);
 }
 
 bool oriented(const Parameter& parameter) {

@@ -27,6 +27,7 @@ std::size_t kind_of(const Record& record) {
     case Record::Channel::velocity:
       return 0;
     case Record::Channel::force:
+    case Record::Channel::out:
       return 1;
     case Record::Channel::position:
     case Record::Channel::displacement:

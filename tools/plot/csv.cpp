@@ -8,6 +8,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/csv_fields.hpp"
+#include "core/netlist/records.hpp"
 #include "core/netlist/scene.hpp"
 #include "tools/plot/mistake.hpp"
 

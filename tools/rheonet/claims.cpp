@@ -18,7 +18,7 @@ std::string with_unit(double value, const std::string& unit) { return readable(v
 const Record& record_of(const Scene& scene, int index) { return scene.claimed[static_cast<std::size_t>(index)]; }
 
 std::string unit_of(const Record& record, const Scene& scene) {
-  return rheonet::unit_of(quantity_of(record.channel), scene.domain);
+  return unit_text(scene, record);
 }
 
 /// Of what is claimed.
@@ -26,8 +26,8 @@ std::string unit_of(const Claim& claim, const Scene& scene) {
   if (claim.figure == Figure::crossing) return "s";
   const Record& record = record_of(scene, claim.record);
   if (claim.per < 0) return unit_of(record, scene);
-  const Dimension dimension = dimension_of(quantity_of(record.channel), scene.domain) /
-                              dimension_of(quantity_of(record_of(scene, claim.per).channel), scene.domain);
+  const Dimension dimension = rheonet::unit_of(scene, record).dimension /
+                              rheonet::unit_of(scene, record_of(scene, claim.per)).dimension;
   // A damping as N*s/m, not as kg/s.
   for (const Quantity known : {Quantity::number, Quantity::stiffness, Quantity::damping, Quantity::time})
     if (dimension.same(dimension_of(known, scene.domain))) return rheonet::unit_of(known, scene.domain);

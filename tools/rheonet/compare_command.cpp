@@ -74,10 +74,10 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
   }
   for (const Pairing& pairing : compared.pairings) {
     const auto what = [&](std::size_t i) {
-      return quantity_of(compared.scenes[i].records[compared.columns[i].at(pairing[i])].channel);
+      return unit_of(compared.scenes[i], compared.scenes[i].records[compared.columns[i].at(pairing[i])]);
     };
     for (std::size_t i = 1; i < pairing.size(); ++i) {
-      if (what(i) == what(0)) continue;
+      if (what(i).dimension.same(what(0).dimension)) continue;
       say("error: `{}` and `{}` are different quantities\n", pairing[0], pairing[i]);
       throw Ended{wrong_input};
     }

@@ -18,7 +18,7 @@ std::string relative(double value) { return value == 0 ? "0" : fmt::format("{:.2
 
 std::string unit_of(const Compared& compared, const Pairing& pairing) {
   const Scene& first = compared.scenes.front();
-  return unit_of(quantity_of(first.records[compared.columns.front().at(pairing.front())].channel), first.domain);
+  return unit_text(first, first.records[compared.columns.front().at(pairing.front())]);
 }
 
 std::string list_of_scenes(const Compared& compared) {

@@ -36,13 +36,21 @@ std::string unit(const Parameter& parameter, const Declaration& declaration, Dom
 }
 
 std::string units(const Parameter& parameter, const Declaration& declaration) {
+  if (parameter.unit == Parameter::Unit::own) return "any";
+  if (parameter.unit == Parameter::Unit::input) return "of the input";
+  if (parameter.unit == Parameter::Unit::output) return "of the output";
   const std::string translation = unit(parameter, declaration, Domain::translation);
   const std::string rotation = unit(parameter, declaration, Domain::rotation);
   if (translation == "1") return "-";
   return translation == rotation ? translation : translation + " | " + rotation;
 }
 
+std::string inputs(const Declaration::Inputs& inputs) {
+  return inputs.most == 0 ? "none" : inputs.most == 1 ? "in = signal" : "in = [signal, ...]";
+}
+
 std::string quantity(const Parameter& parameter) {
+  if (parameter.unit != Parameter::Unit::quantity) return "any";
   const std::string translation = name_of(parameter.quantity, Domain::translation);
   const std::string rotation = name_of(parameter.quantity, Domain::rotation);
   return translation == rotation ? translation : translation + " | " + rotation;
@@ -63,7 +71,7 @@ std::string bounds(const Parameter& p) {
 
 std::string fallback(const Parameter& p, const Declaration& declaration) {
   if (p.fallback) return number(*p.fallback);
-  if (!p.same_as.empty()) return p.same_as;
+  if (!p.same_as.empty()) return (p.opposite ? "-" : "") + p.same_as;
   if (p.kind == Parameter::Kind::initial) return "not given";
   const std::vector<std::string>& choice = declaration.one_of;
   if (std::find(choice.begin(), choice.end(), p.name) != choice.end()) {
@@ -92,6 +100,8 @@ std::string ports(Declaration::Ports p) {
       return "at = node";
     case Declaration::Ports::at_or_between:
       return "at = node, or between = [a, b]";
+    case Declaration::Ports::block:
+      break;  // see inputs
   }
   return "";
 }
@@ -113,7 +123,7 @@ std::string prose(const std::string& text) {
 // Names and units as code, each of two alternatives for itself.
 std::string code(const std::string& text) {
   const std::size_t bar = text.find(" | ");
-  if (text == "-") return text;
+  if (text == "-" || text == "any" || text.starts_with("of the ")) return text;
   if (bar == std::string::npos) return "`" + text + "`";
   return "`" + text.substr(0, bar) + "` | `" + text.substr(bar + 3) + "`";
 }
@@ -134,7 +144,8 @@ std::string as_text(const Component& component) {
   const auto line = [&text](const char* label, const std::string& value) {
     if (!value.empty()) text += fmt::format("  {:<8}{}\n", label, wrapped(value, 10));
   };
-  line("ports", ports(d.ports));
+  const bool block = d.ports == Declaration::Ports::block;
+  line(block ? "inputs" : "ports", block ? inputs(d.inputs) : ports(d.ports));
   line("law", d.law);
 
   const std::vector<std::string> titles = {"parameter", "symbol", "quantity", "unit", "value", "default"};
@@ -171,7 +182,8 @@ std::string as_markdown(const std::vector<const Component*>& components) {
     text += fmt::format("\n## `{}`{}\n\n{}\n\n", d.type,
                         d.rotational_type.empty() ? "" : fmt::format(" (in rotation also `{}`)", d.rotational_type),
                         d.summary);
-    text += fmt::format("    {}\n\n* Ports: `{}`\n", d.law, ports(d.ports));
+    const bool block = d.ports == Declaration::Ports::block;
+    text += fmt::format("    {}\n\n* {}: `{}`\n", d.law, block ? "Inputs" : "Ports", block ? inputs(d.inputs) : ports(d.ports));
     for (const Limit& limit : component->limits) {
       text +=
           fmt::format("* {}: {}\n", limit.when, limit.becomes.empty() ? becomes(limit) : "a `" + becomes(limit) + "`");

@@ -1,0 +1,27 @@
+#include "core/network/component.hpp"
+
+namespace rheonet {
+namespace {
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "gain",
+            .ports = Declaration::Ports::block,
+            .parameters =
+                {
+                    {.name = "gain", .unit = Parameter::Unit::own, .lower = -std::numeric_limits<double>::infinity(), .symbol = "K",
+                     .description = "what is put out for each unit of the input"},
+                },
+            .summary = "multiplies a signal",
+            .law = "y = K u",
+            .source = "definition",
+            .notes = "With a gain that has a unit the output has another one than the input: a torque for each rad/s, say. With one that has none nothing is known of the unit of the output.",
+        },
+    .role = Role::block,
+    .block = [](std::span<const double> v) { return BlockLaw{.gain = v[0]}; },
+    .drawing = "M.2 .2 V.8 L.8 .5 Z M0 .5 H.2 M.8 .5 H1",
+});
+
+}  // namespace
+}  // namespace rheonet

@@ -1,0 +1,30 @@
+#include "core/network/component.hpp"
+
+namespace rheonet {
+namespace {
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "integrator",
+            .ports = Declaration::Ports::block,
+            .inputs = {.integrates = true},
+            .parameters =
+                {
+                    {.name = "gain", .unit = Parameter::Unit::own, .fallback = 1.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "K",
+                     .description = "rate of the output for each unit of the input"},
+                    {.name = "initial", .unit = Parameter::Unit::output, .fallback = 0.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "y0",
+                     .description = "output at the start"},
+                },
+            .summary = "integrates a signal over time",
+            .law = "y' = K u, y = y0 at the start",
+            .source = "definition",
+            .notes = "A state: what it puts out never jumps. It has no limit of its own.",
+        },
+    .role = Role::block,
+    .block = [](std::span<const double> v) { return BlockLaw{.gain = v[0], .state = true, .initial = v[1]}; },
+    .drawing = "M.1 .2 H.9 V.8 H.1 Z M0 .5 H.1 M.9 .5 H1 M.6 .3 Q.5 .2 .5 .5 Q.5 .8 .4 .7",
+});
+
+}  // namespace
+}  // namespace rheonet

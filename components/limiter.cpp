@@ -1,0 +1,35 @@
+#include "core/network/component.hpp"
+
+namespace rheonet {
+namespace {
+
+std::optional<Misfit> upside_down(std::span<const double> v) {
+  if (v[1] <= v[0]) return {};
+  return Misfit{"upper", "is less than `lower`"};
+}
+
+const RegisterComponent registered({
+    .declaration =
+        {
+            .type = "limiter",
+            .ports = Declaration::Ports::block,
+            .parameters =
+                {
+                    {.name = "upper", .unit = Parameter::Unit::input, .lower = -std::numeric_limits<double>::infinity(), .may_be_infinite = true, .symbol = "U",
+                     .description = "the most that is put out"},
+                    {.name = "lower", .unit = Parameter::Unit::input, .lower = -std::numeric_limits<double>::infinity(), .same_as = "upper", .opposite = true, .symbol = "L",
+                     .description = "the least that is put out"},
+                },
+            .check = upside_down,
+            .summary = "keeps a signal within limits",
+            .law = "y = u where L <= u <= U, else the nearer of L and U",
+            .source = "definition",
+            .notes = "Where it begins and ceases to limit is an event, `limit` or `release`. With `upper` = inf it limits on one side.",
+        },
+    .role = Role::block,
+    .block = [](std::span<const double> v) { return BlockLaw{.lower = v[1], .upper = v[0]}; },
+    .drawing = "M.1 .2 H.9 V.8 H.1 Z M0 .5 H.1 M.9 .5 H1 M.2 .7 H.4 L.6 .3 H.8",
+});
+
+}  // namespace
+}  // namespace rheonet

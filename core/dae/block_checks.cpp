@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/dae/block_signals.hpp"
+
+namespace rheonet {
+
+using What = Blocks::Sensor::What;
+
+void BlockSignals::check_sensors(const Network& network, const Structure& classified) const {
+  for (const Blocks::Sensor& sensor : blocks_->sensors) {
+    if (sensor.what != What::velocity || classified.kind[at(sensor.index)] != Kind::floating) continue;
+    throw SimulationError(
+        network.spot_of_node(sensor.index),
+        fmt::format("no block can take in `{}`: node `{}` has neither a mass nor a dashpot, so that its velocity follows "
+                    "from how fast the forces there change; give it one, or take in the position",
+                    network.scene->sensed[at(sensor.record)].path, network.node_name(sensor.index)));
+  }
+}
+
+/// What a sensor tells is known only when all forces of the same instant are.
+bool BlockSignals::loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified) {
+  const auto firm = [&](NodeId node) { return classified.kind[at(node)] == Kind::known || classified.kind[at(node)] == Kind::massive; };
+  if (sensor.what == What::velocity) return !firm(sensor.index);
+  if (sensor.what == What::position) return classified.kind[at(sensor.index)] == Kind::floating;
+  const Network::Place& place = network.places[at(sensor.index)];
+  if (place.role == Role::force) return false;
+  const bool rate = place.role == Role::rate;
+  const Branch& b = rate ? network.rates[at(place.index)] : network.deflections[at(place.index)];
+  if (rate) return !firm(b.a) || !firm(b.b);
+  return classified.group[at(b.a)] >= 0 || classified.group[at(b.b)] >= 0;
+}
+
+void BlockSignals::refuse_loops(const Network& network, const Structure& classified) const {
+  for (const Network::Force& force : network.forces) {
+    for (std::size_t k = 0; force.block >= 0 && k < sensed.size(); ++k) {
+      const Blocks::Sensor& sensor = blocks_->sensors[k];
+      if (!depends(force.block, state.size() + k) || !loose(network, sensor, classified)) continue;
+      const std::string& source = network.scene->elements[at(force.element)].name;
+      throw SimulationError(
+          network.spot_of(force.element),
+          fmt::format("`{}` follows at the same instant from `{}`, which no mass keeps from jumping when a force does: "
+                      "neither can be known before the other; put a `lag` between them{}",
+                      source, network.scene->sensed[at(sensor.record)].path,
+                      sensor.what == What::force ? "" : fmt::format(", or give node `{}` a mass", network.node_name(sensor.index))));
+    }
+  }
+}
+
+bool BlockSignals::senses(int index, std::vector<char>& seen) const {
+  if (std::exchange(seen[at(index)], 1)) return false;
+  for (const Blocks::Input& in : blocks_->blocks[at(index)].inputs) {
+    if (!in.from_block || senses(in.index, seen)) return true;
+  }
+  return false;
+}
+
+void BlockSignals::settle() {
+  for (std::size_t k = 0; k < out_.size(); ++k) {
+    const int block = static_cast<int>(k);
+    bool matters = blocks_->blocks[k].breaks_loops();
+    for (const Network::Force& force : network_->forces) matters = matters || force.block == block;
+    std::vector<char> seen(out_.size(), 0);
+    if (matters && senses(block, seen)) refuse_steady(block, "depends on how the network moves, which is what is looked for");
+  }
+  before_run_.assign(out_.size(), 0);
+  for (std::size_t k = 0; k < out_.size(); ++k) {
+    std::vector<char> seen(out_.size(), 0), on_way(seen);
+    if (!senses(static_cast<int>(k), seen)) before_run_[k] = settle(static_cast<int>(k), on_way);
+  }
+}
+
+/// What a block puts out when nothing changes.
+double BlockSignals::settle(int index, std::vector<char>& on_way) {
+  const Blocks::Block& block = blocks_->blocks[at(index)];
+  if (block.generates) return out_[at(index)].value;
+  if (std::exchange(on_way[at(index)], 1)) refuse_steady(index, "is in a loop of blocks");
+  double u = 0;
+  for (const Blocks::Input& in : block.inputs) u += in.sign * settle(in.index, on_way);
+  on_way[at(index)] = 0;
+  if (block.law.delay > 0) return u;
+  if (!block.law.state) return limited(block, block.law.gain * u).value;
+  Dual& z = state[at(state_of(index))];
+  if (block.law.leak > 0) z = block.law.gain / block.law.leak * u;
+  if (block.law.leak == 0 && block.law.gain * u != 0) refuse_steady(index, "would go on for ever: its input is not 0");
+  return z.value;
+}
+
+void BlockSignals::refuse_steady(int index, const char* why) const {
+  const int element = blocks_->blocks[at(index)].element;
+  throw SimulationError(network_->spot_of(element),
+                        fmt::format("a start from rest or in steady motion is not known here: block `{}` {}; start from "
+                                    "given values, and give it time to settle",
+                                    network_->scene->elements[at(element)].name, why));
+}
+
+}  // namespace rheonet

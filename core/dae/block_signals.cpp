@@ -1,0 +1,313 @@
+#include "core/dae/block_signals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/dae/time_grain.hpp"
+
+namespace rheonet {
+
+using What = Blocks::Sensor::What;
+
+BlockSignals::BlockSignals(const Network& network, const Structure& classified)
+    : network_(&network),
+      blocks_(&network.blocks),
+      state_of_(blocks_->blocks.size(), -1),
+      generated_(blocks_->blocks.size()),
+      moved_(blocks_->sensors.size()) {
+  if (!any()) return;
+  for (std::size_t k = 0; k < blocks_->blocks.size(); ++k) {
+    const BlockLaw& law = blocks_->blocks[k].law;
+    const int block = static_cast<int>(k);
+    if (law.state) {
+      state_of_[k] = static_cast<int>(state_blocks_.size());
+      state_blocks_.push_back(block);
+    }
+    if (law.delay > 0) delays_.push_back(law.delay);
+    if (std::isfinite(law.upper)) limits_.push_back({block, true});
+    if (std::isfinite(law.lower)) limits_.push_back({block, false});
+  }
+  state.resize(state_blocks_.size());
+  for (std::size_t k = 0; k < state.size(); ++k) state[k] = initial(k);
+  sensed.resize(blocks_->sensors.size());
+  out_.resize(blocks_->blocks.size());
+  before_limits_ = out_;
+  side_.assign(out_.size(), 0);
+  check_sensors(network, classified);
+  find_slopes(side_, slope_, rate_slope_);
+  const auto nonzero = [](const std::vector<double>& slopes) {
+    std::vector<char> flags;
+    for (const double s : slopes) flags.push_back(s != 0);
+    return flags;
+  };
+  depends_ = nonzero(slope_);
+  rate_depends_ = nonzero(rate_slope_);
+  refuse_loops(network, classified);
+  find_channels();
+}
+
+void BlockSignals::find_channels() {
+  state_channel_.assign(state.size(), -1);
+  sensor_channel_.assign(sensed.size(), -1);
+  visited_.assign(out_.size(), 0);
+  for (std::size_t k = 0; k < out_.size(); ++k) {
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (block.law.delay == 0) continue;
+    reach_ = std::max(reach_, find_reach(static_cast<int>(k)));
+    for (const Blocks::Input& in : block.inputs) {
+      if (in.from_block) {
+        mark_past(in.index);
+      } else if (blocks_->sensors[at(in.index)].motion < 0) {
+        sensor_channel_[at(in.index)] = 0;
+      }
+    }
+  }
+  for (std::vector<int>* channels : {&state_channel_, &sensor_channel_}) {
+    for (int& channel : *channels) {
+      if (channel == 0) channel = static_cast<int>(channel_count_++);
+    }
+  }
+  remembered_.resize(channel_count_);
+}
+
+/// How far back the output of a block may look. Loops always go through a state.
+double BlockSignals::find_reach(int index) const {
+  const Blocks::Block& block = blocks_->blocks[at(index)];
+  double reach = 0;
+  for (const Blocks::Input& in : block.inputs) {
+    if (in.from_block && !block.law.state) reach = std::max(reach, find_reach(in.index));
+  }
+  return reach + block.law.delay;
+}
+
+/// What a delay needs to know of the past of a block.
+void BlockSignals::mark_past(int index) {
+  if (std::exchange(visited_[at(index)], 1)) return;
+  if (state_of(index) >= 0) {
+    state_channel_[at(state_of(index))] = 0;
+    return;
+  }
+  for (const Blocks::Input& in : blocks_->blocks[at(index)].inputs) {
+    if (in.from_block) {
+      mark_past(in.index);
+    } else if (blocks_->sensors[at(in.index)].motion < 0) {
+      sensor_channel_[at(in.index)] = 0;
+    }
+  }
+}
+
+bool BlockSignals::of_time_alone(int index) const {
+  const Blocks::Block& block = blocks_->blocks[at(index)];
+  return !block.law.state && std::all_of(block.inputs.begin(), block.inputs.end(), [&](const Blocks::Input& in) {
+    return in.from_block ? of_time_alone(in.index) : blocks_->sensors[at(in.index)].motion >= 0;
+  });
+}
+
+bool BlockSignals::breaks(double t, const Past& past) const {
+  constexpr double rounding = 1e-12;  // of values that are the same
+  const double side = time_grain(t);
+  const auto differ = [](double a, double b) { return std::abs(a - b) > rounding * (std::abs(a) + std::abs(b)); };
+  for (std::size_t k = 0; k < out_.size(); ++k) {
+    const int block = static_cast<int>(k);
+    if (blocks_->blocks[k].law.delay == 0 || !of_time_alone(block)) continue;
+    const Dual before = earlier(block, t, -side, past), after = earlier(block, t, side, past);
+    if (differ(before.value, after.value) || differ(before.derivative, after.derivative)) return true;
+  }
+  return false;
+}
+
+const std::vector<double>& BlockSignals::remembered() {
+  for (std::size_t k = 0; k < state_channel_.size(); ++k) {
+    if (state_channel_[k] >= 0) remembered_[at(state_channel_[k])] = state[k].value;
+  }
+  for (std::size_t k = 0; k < sensor_channel_.size(); ++k) {
+    if (sensor_channel_[k] >= 0) remembered_[at(sensor_channel_[k])] = sensed[k].value;
+  }
+  return remembered_;
+}
+
+double BlockSignals::enter(double t) {
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < generated_.size(); ++k) {
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (!block.generates) continue;
+    std::deque<Stretch>& stretches = generated_[k];
+    while (stretches.size() > 1 && stretches[1].t < t - reach_) stretches.pop_front();
+    if (!stretches.empty() && stretches.back().t >= t) stretches.pop_back();
+    stretches.push_back({t, block.signal.piece(t), false, 0});
+    next = std::min(next, stretches.back().piece.end);
+  }
+  return next;
+}
+
+void BlockSignals::follow(int motion, double t, const Piece& piece, bool by_position, double position) {
+  for (std::size_t k = 0; k < moved_.size(); ++k) {
+    if (blocks_->sensors[k].motion != motion) continue;
+    std::deque<Stretch>& stretches = moved_[k];
+    while (stretches.size() > 1 && stretches[1].t < t - reach_) stretches.pop_front();
+    if (!stretches.empty() && stretches.back().t >= t) stretches.pop_back();
+    stretches.push_back({t, piece, by_position, position});
+  }
+}
+
+std::vector<BlockSignals::Generator> BlockSignals::generators() const {
+  std::vector<Generator> result;
+  for (std::size_t k = 0; k < generated_.size(); ++k) {
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (block.generates && !generated_[k].empty())
+      result.push_back({block.element, &block.signal, &generated_[k].back().piece});
+  }
+  return result;
+}
+
+const BlockSignals::Stretch* BlockSignals::current(const std::deque<Stretch>& stretches, double t) {
+  const auto after = std::upper_bound(stretches.begin(), stretches.end(), t, [](double x, const Stretch& s) { return x < s.t; });
+  return after == stretches.begin() ? nullptr : &*std::prev(after);
+}
+
+Dual BlockSignals::motion_at(const Blocks::Sensor& sensor, const Stretch& s, double t) const {
+  if (sensor.what == What::velocity)
+    return s.by_position ? Dual(s.piece.rate(t), s.piece.curvature(t)) : Dual(s.piece.value(t), s.piece.rate(t));
+  return s.by_position ? Dual(s.piece.value(t), s.piece.rate(t))
+                       : Dual(s.anchor + s.piece.integral(s.t, t), s.piece.value(t));
+}
+
+void BlockSignals::evaluate_time(double t, const Past& past) {
+  for (std::size_t k = 0; k < out_.size(); ++k) {
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (block.generates) {
+      const Piece& piece = generated_[k].back().piece;
+      out_[k] = Dual(piece.value(t), piece.rate(t));
+    } else if (block.law.delay > 0) {
+      out_[k] = earlier(static_cast<int>(k), t, past.aside(t), past);
+    }
+  }
+  for (std::size_t k = 0; k < moved_.size(); ++k) {
+    if (!moved_[k].empty()) sensed[k] = motion_at(blocks_->sensors[k], moved_[k].back(), t);
+  }
+}
+
+/// What a block has put out at an earlier time.
+Dual BlockSignals::earlier(int index, double t, double aside, const Past& past) const {
+  const Blocks::Block& block = blocks_->blocks[at(index)];
+  if (block.generates) {
+    const Stretch* stretch = current(generated_[at(index)], t + aside);
+    const Piece& piece = stretch ? stretch->piece : generated_[at(index)].front().piece;
+    return Dual(piece.value(t), piece.rate(t));
+  }
+  if (block.law.state) return past.channel(static_cast<std::size_t>(state_channel_[at(state_of(index))]), t, aside);
+  if (block.law.delay > 0) {
+    const double then = t - block.law.delay;
+    if (then + aside >= 0) return earlier_input(block, then, aside, past);
+    return before_run_.empty() ? block.law.initial : before_run_[at(index)];
+  }
+  return limited(block, Dual(block.law.gain) * earlier_input(block, t, aside, past));
+}
+
+Dual BlockSignals::earlier_input(const Blocks::Block& block, double t, double aside, const Past& past) const {
+  Dual u;
+  for (const Blocks::Input& in : block.inputs) {
+    const auto value = [&]() -> Dual {
+      if (in.from_block) return earlier(in.index, t, aside, past);
+      if (sensor_channel_[at(in.index)] >= 0)
+        return past.channel(static_cast<std::size_t>(sensor_channel_[at(in.index)]), t, aside);
+      const Stretch* stretch = current(moved_[at(in.index)], t + aside);
+      return motion_at(blocks_->sensors[at(in.index)], stretch ? *stretch : moved_[at(in.index)].front(), t);
+    }();
+    u = u + Dual(in.sign) * value;
+  }
+  return u;
+}
+
+Dual BlockSignals::input(const Blocks::Block& block) const {
+  Dual u;
+  for (const Blocks::Input& in : block.inputs) u = u + Dual(in.sign) * (in.from_block ? out_[at(in.index)] : sensed[at(in.index)]);
+  return u;
+}
+
+Dual BlockSignals::limited(const Blocks::Block& block, Dual v) const {
+  return v.value > block.law.upper ? Dual(block.law.upper) : v.value < block.law.lower ? Dual(block.law.lower) : v;
+}
+
+void BlockSignals::run(bool sides) {
+  for (const int index : blocks_->order) {
+    const std::size_t k = at(index);
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (block.generates || block.law.delay > 0) continue;
+    if (block.law.state) {
+      out_[k] = state[at(state_of_[k])];
+      continue;
+    }
+    const Dual v = Dual(block.law.gain) * input(block);
+    before_limits_[k] = v;
+    out_[k] = !sides ? limited(block, v) : side_[k] > 0 ? Dual(block.law.upper) : side_[k] < 0 ? Dual(block.law.lower) : v;
+  }
+}
+
+double BlockSignals::rate(std::size_t k) const {
+  const Blocks::Block& block = blocks_->blocks[at(state_blocks_[k])];
+  return block.law.gain * input(block).value - block.law.leak * state[k].value;
+}
+
+void BlockSignals::find_slopes(const std::vector<signed char>& side, std::vector<double>& slope,
+                               std::vector<double>& rate_slope) const {
+  const std::size_t n = atoms();
+  slope.assign(out_.size() * n, 0);
+  rate_slope.assign(state.size() * n, 0);
+  const auto add_inputs = [&](const Blocks::Block& block, double* row) {
+    for (const Blocks::Input& in : block.inputs) {
+      const double factor = block.law.gain * in.sign;
+      if (!in.from_block) {
+        if (blocks_->sensors[at(in.index)].motion < 0) row[state.size() + at(in.index)] += factor;
+        continue;
+      }
+      for (std::size_t a = 0; a < n; ++a) row[a] += factor * slope[at(in.index) * n + a];
+    }
+  };
+  for (const int index : blocks_->order) {
+    const Blocks::Block& block = blocks_->blocks[at(index)];
+    double* row = slope.data() + at(index) * n;
+    if (block.law.state) {
+      row[at(state_of(index))] = 1;
+    } else if (!block.generates && block.law.delay == 0 && side[at(index)] == 0) {
+      add_inputs(block, row);
+    }
+  }
+  for (std::size_t k = 0; k < state.size(); ++k) {
+    const Blocks::Block& block = blocks_->blocks[at(state_blocks_[k])];
+    double* row = rate_slope.data() + k * n;
+    add_inputs(block, row);
+    row[k] -= block.law.leak;
+  }
+}
+
+double BlockSignals::event_function(std::size_t limit) const {
+  const auto [index, upper] = limits_[limit];
+  const BlockLaw& law = blocks_->blocks[at(index)].law;
+  const double v = before_limits_[at(index)].value;
+  const double beyond = upper ? v - law.upper : law.lower - v;
+  return side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond;
+}
+
+void BlockSignals::fire(const std::vector<int>& limits) {
+  fired_.clear();
+  for (const int k : limits) {
+    const auto [block, upper] = limits_[at(k)];
+    const signed char beyond = upper ? 1 : -1;
+    fired_.push_back({block, side_[at(block)] == beyond ? static_cast<signed char>(0) : beyond});
+  }
+}
+
+void BlockSignals::choose() {
+  const std::vector<signed char> before = side_;
+  for (const Limit& limit : limits_) {
+    const BlockLaw& law = blocks_->blocks[at(limit.block)].law;
+    const double v = before_limits_[at(limit.block)].value;
+    side_[at(limit.block)] = v > law.upper ? 1 : v < law.lower ? -1 : 0;
+  }
+  for (const Fired& fired : fired_) side_[at(fired.block)] = fired.side;
+  if (side_ != before) find_slopes(side_, slope_, rate_slope_);
+}
+
+}  // namespace rheonet

@@ -1,0 +1,95 @@
+#include "core/dae/dae.hpp"
+
+namespace rheonet {
+
+using What = Blocks::Sensor::What;
+
+/// What an atom of the blocks (a state, or what a sensor tells) is made of, among the unknowns.
+std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
+  using By = Coupling::By;
+  const BlockSignals& blocks = drive_->blocks();
+  if (atom < blocks.states()) return {{iz_[atom], 1, By::itself, 0}};
+  const Blocks::Sensor& sensor = network_->blocks.sensors[atom - blocks.states()];
+  if (sensor.motion >= 0) return {};
+  if (sensor.what == What::position) return {{ix_[at(sensor.index)], 1, By::itself, 0}};
+  if (sensor.what == What::velocity) return {{iv_[at(structure_->rigid[at(sensor.index)])], 1, By::itself, 0}};
+  const Network::Place& place = network_->places[at(sensor.index)];
+  const std::size_t branch = at(place.index);
+  if (place.role == Role::deflection) return {{ip_[branch], 1, By::slope, branch}};
+  if (place.role != Role::rate) return {};
+  if (if_[branch] >= 0) return {{if_[branch], 1, By::itself, 0}};
+  const Branch& b = structure_->rates[branch];
+  return {{iv_[at(b.a)], 1, By::damping, branch}, {iv_[at(b.b)], -1, By::damping, branch}};
+}
+
+void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) {
+  const BlockSignals& blocks = drive_->blocks();
+  for (std::size_t atom = 0; row >= 0 && atom < blocks.atoms(); ++atom) {
+    if (!(of_rate ? blocks.rate_depends(source, atom) : blocks.depends(static_cast<int>(source), atom))) continue;
+    for (const AtomTerm& term : terms_of_atom(atom)) {
+      if (term.column < 0) continue;
+      couplings_.push_back({builder.ticket(row, term.column), of_rate, source, atom, factor * term.factor, term.by, term.branch});
+    }
+  }
+}
+
+void Dae::build_couplings(PatternBuilder& builder) {
+  for (std::size_t k = 0; k < iz_.size(); ++k) couple(builder, iz_[k], true, k, -1);
+  for (const Network::Force& f : network_->forces) {
+    if (f.block < 0) continue;
+    for (const auto& [end, sign] : {std::pair{f.a, -f.sign}, std::pair{f.b, f.sign}}) {
+      if (end < 0) continue;
+      const NodeId node = structure_->rigid[at(end)];
+      couple(builder, iv_[at(node)], false, at(f.block), sign);
+      const int g = structure_->group[at(node)];
+      if (g >= 0) couple(builder, group_row_[at(g)], false, at(f.block), sign);
+    }
+  }
+}
+
+/// States, and what sensors tell; then all outputs.
+void Dae::feel_blocks(const double* y) {
+  BlockSignals& blocks = drive_->blocks();
+  for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];
+  for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = network_->blocks.sensors[k];
+    if (sensor.motion >= 0) continue;
+    if (sensor.what == What::position) blocks.sensed[k] = y[ix_[at(sensor.index)]];
+    if (sensor.what == What::velocity) blocks.sensed[k] = v_[at(structure_->rigid[at(sensor.index)])];
+    if (sensor.what != What::force) continue;
+    const Network::Place& place = network_->places[at(sensor.index)];
+    if (place.role == Role::deflection) {
+      std::size_t i = 0;
+      double slope = 0;
+      blocks.sensed[k] = batch_of(place.index, i).force_along(i, view_.p[at(place.index)], 0, slope);
+    } else if (place.role == Role::rate) {
+      for (const Laws<RateBatch>& laws : network_->rate_laws) {
+        const int i = place.index - laws.first;
+        if (i < 0 || at(i) >= laws.batch->size()) continue;
+        const double in = rate_in_[at(place.index)];
+        blocks.sensed[k] = if_[at(place.index)] >= 0 ? in : laws.batch->force_at(at(i), in);
+      }
+    }
+  }
+  blocks.run(true);
+  drive_->apply_blocks();
+}
+
+void Dae::block_jacobian(double* values) const {
+  const BlockSignals& blocks = drive_->blocks();
+  for (const Coupling& c : couplings_) {
+    const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
+    const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;
+    values[c.entry] += c.factor * slope * by;
+  }
+}
+
+void Dae::choose_limits(double t, const double* y, const double* yp) {
+  BlockSignals& blocks = drive_->blocks();
+  if (blocks.limits().empty()) return;
+  view(t, y, yp);
+  blocks.run(false);
+  blocks.choose();
+}
+
+}  // namespace rheonet

@@ -1,0 +1,31 @@
+#include "core/netlist/expand.hpp"
+
+namespace rheonet {
+
+/// What a wire names, in the scene: within a model its elements and nodes, and the nodes at its ports.
+std::string Expander::path_of(const Wire& wire) const {
+  if (inside_.path.empty()) return wire.path;
+  const std::size_t dot = wire.path.find('.');
+  const auto port = inside_.ports.find(wire.path.substr(0, dot));
+  if (port == inside_.ports.end()) return inside_.path + '.' + wire.path;
+  return port->second + (dot == wire.path.npos ? "" : wire.path.substr(dot));
+}
+
+void Expander::wire(const Plan& plan, const Environment& environment, int element) {
+  for (const Wire& feed : plan.feeds) loose_.ends.push_back({&feed, path_of(feed), inside_.path, -1, element});
+  const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  if (declaration.ports != Declaration::Ports::block) return;
+  const int block = static_cast<int>(scene_.blocks.size());
+  scene_.blocks.push_back({.element = element, .inputs = {}, .unit = {}});
+  for (const Wire& input : plan.inputs) loose_.ends.push_back({&input, path_of(input), inside_.path, block, element});
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const Formula& formula = plan.values[i];
+    if (declaration.parameters[i].unit == Parameter::Unit::quantity || !formula.given()) continue;
+    if (const auto number = formula.evaluate(environment, context_.mistakes))
+      loose_.units.push_back({block, static_cast<int>(i), {number->dimension, number->radian, number->plain}, &formula.source()});
+  }
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    loose_.units.push_back({block, plan.signal_parameters[i], plan.signals[i].unit(), nullptr});
+}
+
+}  // namespace rheonet

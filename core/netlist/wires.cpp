@@ -1,0 +1,272 @@
+#include "core/netlist/wires.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/netlist/expression.hpp"
+#include "core/netlist/records.hpp"
+#include "core/netlist/scene_index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+const char* const example = "a block (`controller`) or a quantity of the network (`drum.velocity`)";
+
+std::optional<Wire> read_wire(const TomlValue& source, const std::string& what, Mistakes& mistakes) {
+  if (!expect_string(source, what, mistakes, example)) return {};
+  Wire wire{.source = &source, .path = source.text};
+  if (wire.path.starts_with('-')) {
+    wire.sign = -1;
+    wire.path.erase(0, 1);
+  }
+  if (!wire.path.empty()) return wire;
+  mistakes.error(source.spot, what + " is empty", example);
+  return {};
+}
+
+/// Messages on this wire say in which instance it is, if it is in one.
+class Within {
+ public:
+  Within(Mistakes& mistakes, const LooseEnd& end) {
+    if (!end.within.empty()) within_.emplace(mistakes, end.within);
+  }
+
+ private:
+  std::optional<Mistakes::Within> within_;
+};
+
+class Connection {
+ public:
+  Connection(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene)
+      : loose_(loose), doubtful_(doubtful), context_(context), mistakes_(context.mistakes), scene_(scene) {}
+
+  void make() {
+    const std::size_t before = mistakes_.errors();
+    find_sources();
+    if (mistakes_.errors() > before) return;
+    find_units();
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) check_block(static_cast<int>(k));
+    for (std::size_t k = 0, feed = 0; k < loose_.ends.size(); ++k)
+      if (loose_.ends[k].block < 0) check_feed(loose_.ends[k], scene_.feeds[feed++]);
+  }
+
+ private:
+  const std::string& name(int block) const { return scene_.elements[at(scene_.blocks[at(block)].element)].name; }
+  const Declaration& declaration(int element) const {
+    return *context_.declarations[at(scene_.elements[at(element)].declaration)];
+  }
+
+  void find_sources() {
+    std::vector<std::string> names;
+    for (const LooseEnd& end : loose_.ends) {
+      names.push_back(end.path);
+      names.push_back(end.path.substr(0, end.path.rfind('.')));
+    }
+    const SceneIndex index(scene_, names);
+    for (const LooseEnd& end : loose_.ends) {
+      const Within within(mistakes_, end);
+      const std::size_t dot = end.path.rfind('.');
+      int block = index.find(end.path).block;
+      if (block < 0 && dot != end.path.npos && end.path.substr(dot) == ".out")
+        block = index.find(end.path.substr(0, dot)).block;
+      if (end.block < 0) {
+        if (block < 0)
+          refuse(end, index.find(end.path));
+        else
+          scene_.feeds.push_back({end.element, block, end.wire->sign});
+        continue;
+      }
+      const int source = block < 0 ? sensed(end, index.find(end.path)) : block;
+      if (source >= 0) scene_.blocks[at(end.block)].inputs.push_back({block >= 0, source, end.wire->sign});
+    }
+  }
+
+  /// A quantity of the network; -1 if it is none.
+  int sensed(const LooseEnd& end, const SceneIndex::Found& found) {
+    if (end.path.find('.') == end.path.npos || found.any()) {
+      refuse(end, found);
+      return -1;
+    }
+    TomlValue path = *end.wire->source;
+    path.text = end.path;
+    auto record = std::move(find_records({path}, doubtful_, context_, scene_).front());
+    if (!record) return -1;
+    scene_.sensed.push_back(std::move(*record));
+    return static_cast<int>(scene_.sensed.size()) - 1;
+  }
+
+  bool is_doubtful(const std::string& path) const { return doubtful_.contains(path.substr(0, path.find('.'))); }
+
+  void refuse(const LooseEnd& end, const SceneIndex::Found& found) {
+    if (!found.any() && is_doubtful(end.path)) return;
+    const Spot spot = end.wire->source->spot;
+    if (found.any() && end.block >= 0) {
+      mistakes_.error(spot, "`" + end.path + "` does not say which quantity is meant",
+                      "for instance `" + end.path + (found.node >= 0 ? ".velocity`" : ".force`"));
+      return;
+    }
+    std::vector<std::string> blocks;
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) blocks.push_back(name(static_cast<int>(k)));
+    mistakes_.error(spot, "no block is called `" + end.path + "`",
+                    did_you_mean(end.path, blocks,
+                                 end.block < 0 ? "a signal comes from a block: a `gain` makes one of a quantity of the network"
+                                               : "an input is " + std::string(example)));
+  }
+
+  BlockUnit unit_of_input(const SceneBlock::Input& input) const {
+    return input.from_block ? scene_.blocks[at(input.index)].unit : unit_of(scene_, scene_.sensed[at(input.index)]);
+  }
+
+  const Parameter& parameter(const OwnUnit& own) const {
+    return declaration(scene_.blocks[at(own.block)].element).parameters[at(own.parameter)];
+  }
+
+  /// Of the first that has one: an input, or a parameter that goes with them.
+  BlockUnit taken_in(int block) const {
+    for (const SceneBlock::Input& input : scene_.blocks[at(block)].inputs)
+      if (const BlockUnit unit = unit_of_input(input); !unit.open) return unit;
+    return given(block, Parameter::Unit::input);
+  }
+
+  BlockUnit given(int block, Parameter::Unit kind) const {
+    for (const OwnUnit& own : loose_.units)
+      if (own.block == block && parameter(own).unit == kind && !own.unit.open) return own.unit;
+    return {};
+  }
+
+  /// The unit that comes of the inputs.
+  BlockUnit made(int block) const {
+    const Declaration::Inputs& inputs = declaration(scene_.blocks[at(block)].element).inputs;
+    BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
+    for (const OwnUnit& own : loose_.units) {
+      if (own.block != block || parameter(own).unit != Parameter::Unit::own) continue;
+      unit = {unit.dimension * own.unit.dimension, unit.radian + own.unit.radian, unit.open || own.unit.open};
+    }
+    if (inputs.integrates) unit.dimension = unit.dimension * dimension_of(Quantity::time, context_.domain);
+    return unit;
+  }
+
+  /// Units go from block to block until nothing new comes of it.
+  void find_units() {
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
+        BlockUnit& unit = scene_.blocks[k].unit;
+        if (!unit.open) continue;
+        unit = made(static_cast<int>(k));
+        if (unit.open) unit = given(static_cast<int>(k), Parameter::Unit::output);
+        again = again || !unit.open;
+      }
+    }
+  }
+
+  void check_block(int block) {
+    const BlockUnit in = taken_in(block), out = made(block);
+    const auto differs = [](const BlockUnit& a, const BlockUnit& b) {
+      return !a.open && !b.open && !a.dimension.same(b.dimension);
+    };
+    for (const LooseEnd& end : loose_.ends) {
+      if (end.block != block) continue;
+      const BlockUnit unit = unit_of_end(end);
+      if (!differs(unit, in)) continue;
+      const Within within(mistakes_, end);
+      mistakes_.error(end.wire->source->spot, "`" + end.path + "` is " + words(unit) + ", but the other inputs of `" +
+                                                  name(block) + "` are " + words(in),
+                      "all inputs of a block have one unit: put a `gain` before it");
+    }
+    for (const OwnUnit& own : loose_.units) {
+      if (own.block != block) continue;
+      const Parameter::Unit kind = parameter(own).unit;
+      const BlockUnit& expected = kind == Parameter::Unit::input ? in : kind == Parameter::Unit::output ? out : own.unit;
+      if (differs(own.unit, expected))
+        mistakes_.error(own.source->spot, "`" + parameter(own).name + "`: expected " + words(expected) + ", as what the block " +
+                                              (kind == Parameter::Unit::input ? "takes in" : "puts out") + ", found " +
+                                              words(own.unit));
+    }
+  }
+
+  BlockUnit unit_of_end(const LooseEnd& end) const {
+    std::size_t number = 0;
+    for (const LooseEnd& other : loose_.ends) {
+      if (&other == &end) break;
+      if (other.block == end.block) ++number;
+    }
+    return unit_of_input(scene_.blocks[at(end.block)].inputs[number]);
+  }
+
+  void check_feed(const LooseEnd& end, const SceneFeed& feed) {
+    const BlockUnit& unit = scene_.blocks[at(feed.block)].unit;
+    if (unit.open) return;
+    const Parameter& wanted = declaration(end.element).parameters[at(end.wire->parameter)];
+    const Number number{.value = 0, .dimension = unit.dimension, .plain = false, .radian = unit.radian};
+    const auto checked = as_quantity(number, wanted.quantity, context_.domain);
+    const auto* wrong = std::get_if<TextError>(&checked);
+    if (!wrong) return;
+    const Within within(mistakes_, end);
+    mistakes_.error(end.wire->source->spot,
+                    "`" + wanted.name_in(context_.domain) + "` from block `" + end.path + "`: " + wrong->message);
+  }
+
+  static std::string words(const BlockUnit& unit) { return describe(unit.dimension, unit.radian); }
+
+  const LooseEnds& loose_;
+  const std::set<std::string>& doubtful_;
+  Context& context_;
+  Mistakes& mistakes_;
+  Scene& scene_;
+};
+
+}  // namespace
+
+std::vector<Wire> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, Keys& keys,
+                              Mistakes& mistakes) {
+  const Declaration::Inputs& inputs = declaration.inputs;
+  std::vector<Wire> wires;
+  if (inputs.most == 0) return wires;
+  const TomlEntry* in = keys.require("in", spot, std::string("an input is ") + example);
+  if (!in) return wires;
+  std::vector<const TomlValue*> sources{&in->value};
+  if (in->value.is_array()) {
+    sources.clear();
+    for (const TomlValue& item : in->value.items) sources.push_back(&item);
+  }
+  if (sources.size() < inputs.least || sources.size() > inputs.most) {
+    mistakes.error(in->value.spot, "`" + called + "` takes in " +
+                                       (inputs.most > inputs.least ? "at least " : "") + std::to_string(inputs.least) +
+                                       (inputs.least > 1 ? " signals" : " signal") + ", but `in` names " +
+                                       std::to_string(sources.size()),
+                   inputs.most == 1 ? "a `sum` adds several" : "in = [\"a\", \"-b\"]");
+    return wires;
+  }
+  for (const TomlValue* source : sources)
+    if (auto wire = read_wire(*source, "`in`", mistakes)) wires.push_back(std::move(*wire));
+  return wires;
+}
+
+const TomlEntry* find_feed(const TomlValue& signal) { return signal.is_table() ? signal.find("block") : nullptr; }
+
+std::optional<Wire> read_feed(const TomlEntry& feed, const TomlValue& signal, const Declaration& declaration,
+                              std::size_t parameter, Context& context) {
+  const Parameter& fed = declaration.parameters[parameter];
+  if (!fed.from_block) {
+    context.mistakes.error(feed.spot, "the " + fed.name_in(context.domain) + " of a `" + declaration.type +
+                                          "` is a function of time alone: no block can give it",
+                           "drive a node that has a mass with a force that a block gives, as a servo does");
+    return {};
+  }
+  Keys keys(signal, "a signal from a block");
+  keys.find("block");
+  keys.finish(context.mistakes);
+  auto wire = read_wire(feed.value, "`block`", context.mistakes);
+  if (wire) wire->parameter = static_cast<int>(parameter);
+  return wire;
+}
+
+void connect(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
+  if (!loose.ends.empty() || !loose.units.empty()) Connection(loose, doubtful, context, scene).make();
+}
+
+}  // namespace rheonet

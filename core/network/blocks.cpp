@@ -1,0 +1,165 @@
+#include "core/network/blocks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/network/network.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+class Finder {
+ public:
+  explicit Finder(const Network& network) : network_(network), scene_(*network.scene) {}
+
+  Blocks find() {
+    for (const SceneBlock& block : scene_.blocks) add(block);
+    // A loop that delays alone close would be gone round without end, and without a state that smoothes what jumps.
+    const auto refuse_delays = [&](const std::vector<int>& loop) {
+      refuse(loop, "make a loop in which nothing but delays takes time, and what jumps would jump for ever; put a `lag` into it");
+    };
+    const auto refuse_loop = [&](const std::vector<int>& loop) {
+      refuse(loop, loop.size() > 1 ? "make a loop in which each needs the output of another at the same instant; put a `lag` into it"
+                                   : "needs its own output at the same instant; put a `lag` between");
+    };
+    sort([](const Blocks::Block& b) { return b.breaks_loops(); }, refuse_loop);
+    const std::vector<int> order = result_.order;
+    sort([](const Blocks::Block& b) { return b.law.state; }, refuse_delays);
+    result_.order = order;
+    return std::move(result_);
+  }
+
+ private:
+  void add(const SceneBlock& made) {
+    const SceneElement& element = scene_.elements[at(made.element)];
+    Blocks::Block block{.element = made.element,
+                        .law = components()[at(element.declaration)]->block(element.values),
+                        .generates = !element.signals.empty(),
+                        .signal = {},
+                        .inputs = {}};
+    if (block.generates) block.signal = element.signals.front().seen_from(scene_.start);
+    for (const SceneBlock::Input& input : made.inputs) {
+      if (input.from_block) {
+        block.inputs.push_back({true, input.index, input.sign});
+      } else {
+        take_in(block, input);
+      }
+    }
+    result_.blocks.push_back(std::move(block));
+  }
+
+  /// A quantity of the network, as a sum of what sensors tell.
+  void take_in(Blocks::Block& block, const SceneBlock::Input& input) {
+    const Record& record = scene_.sensed[at(input.index)];
+    using What = Blocks::Sensor::What;
+    if (record.channel == Record::Channel::force) {
+      if (record.subject == Record::Subject::element) {
+        force(block, record.index, input.sign, input.index);
+      } else {
+        for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force)
+          force(block, term.element, input.sign * term.sign, input.index);
+      }
+      return;
+    }
+    const What what = record.channel == Record::Channel::velocity ? What::velocity : What::position;
+    const auto [a, b] = [&]() -> std::pair<NodeId, NodeId> {
+      switch (record.subject) {
+        case Record::Subject::element:
+          return {scene_.elements[at(record.index)].a, scene_.elements[at(record.index)].b};
+        case Record::Subject::assembly:
+          return {scene_.assemblies[at(record.index)].a, scene_.assemblies[at(record.index)].b};
+        default:
+          return {record.index, ground};
+      }
+    }();
+    for (const auto& [end, sign] : {std::pair{a, input.sign}, std::pair{b, -input.sign}})
+      if (end != ground) block.inputs.push_back({false, sensor({what, network_.node_of[at(end)], -1, input.index}), sign});
+  }
+
+  void force(Blocks::Block& block, int element, double sign, int record) {
+    const Network::Place& place = network_.places[at(element)];
+    for (const SceneFeed& feed : scene_.feeds) {
+      if (feed.element != element) continue;
+      block.inputs.push_back({true, feed.block, sign * feed.sign});
+      return;
+    }
+    if (place.role == Role::nothing) return;
+    if (place.role != Role::deflection && place.role != Role::rate && place.role != Role::force)
+      throw SimulationError(
+          scene_.elements[at(block.element)].spot,
+          fmt::format("block `{}` cannot take in `{}`: the force of `{}` is what all others at its node leave over; take "
+                      "in that of a spring or a dashpot beside it",
+                      scene_.elements[at(block.element)].name, scene_.sensed[at(record)].path,
+                      scene_.elements[at(element)].name));
+    block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, element, -1, record}), sign});
+  }
+
+  /// The same quantity is sensed once.
+  int sensor(Blocks::Sensor wanted) {
+    const auto same = [&](const Blocks::Sensor& s) { return s.what == wanted.what && s.index == wanted.index; };
+    const auto found = std::find_if(result_.sensors.begin(), result_.sensors.end(), same);
+    if (found != result_.sensors.end()) return static_cast<int>(found - result_.sensors.begin());
+    for (std::size_t m = 0; wanted.what != Blocks::Sensor::What::force && m < network_.motions.size(); ++m)
+      if (network_.motions[m].node == wanted.index) wanted.motion = static_cast<int>(m);
+    result_.sensors.push_back(wanted);
+    return static_cast<int>(result_.sensors.size()) - 1;
+  }
+
+  /// Depth first: what a block needs comes before it. `stops` where an output needs no input of the same instant.
+  template <class Stops, class Refuse>
+  void sort(const Stops& stops, const Refuse& refuse_loop) {
+    enum : char { fresh, open, done };
+    std::vector<char> mark(result_.blocks.size(), fresh);
+    result_.order.clear();
+    for (std::size_t first = 0; first < mark.size(); ++first) {
+      std::vector<std::pair<int, std::size_t>> path;  // blocks, and how many of their inputs have been looked at
+      if (mark[first] == fresh) path.emplace_back(static_cast<int>(first), 0);
+      while (!path.empty()) {
+        auto& [index, next] = path.back();
+        const Blocks::Block& block = result_.blocks[at(index)];
+        mark[at(index)] = open;
+        while (next < block.inputs.size() && (stops(block) || !block.inputs[next].from_block || mark[at(block.inputs[next].index)] == done)) ++next;
+        if (next == block.inputs.size()) {
+          mark[at(index)] = done;
+          result_.order.push_back(index);
+          path.pop_back();
+          continue;
+        }
+        const int needed = block.inputs[next].index;
+        if (mark[at(needed)] == open) {
+          std::vector<int> loop;
+          for (const auto& [on_path, unused] : path)
+            if (!loop.empty() || on_path == needed) loop.push_back(on_path);
+          std::reverse(loop.begin(), loop.end());
+          refuse_loop(loop);
+        }
+        path.emplace_back(needed, 0);
+      }
+    }
+  }
+
+  [[noreturn]] void refuse(const std::vector<int>& loop, const std::string& why) const {
+    std::string names;
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      names += (k == 0 ? "" : k + 1 == loop.size() ? " and " : ", ") + ('`' + name(loop[k]) + '`');
+    throw SimulationError(scene_.elements[at(result_.blocks[at(loop.front())].element)].spot,
+                          (loop.size() > 1 ? "blocks " : "block ") + names + " " + why);
+  }
+
+  const std::string& name(int block) const { return scene_.elements[at(result_.blocks[at(block)].element)].name; }
+
+  const Network& network_;
+  const Scene& scene_;
+  Blocks result_;
+};
+
+}  // namespace
+
+Blocks find_blocks(const Network& network) { return Finder(network).find(); }
+
+}  // namespace rheonet

@@ -1,0 +1,231 @@
+#include <doctest/doctest.h>
+
+#include "core/network/component.hpp"
+#include "tests/netlist/reading.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+struct Bad { const char *elements, *messages; };
+
+/// With the declarations of the project: the fake ones know no blocks.
+void check_messages(const Bad& bad) {
+  const std::string text = std::string("domain = \"rotation\"\n[elements]\nj = { type = \"inertia\", at = \"shaft\", inertia = 1 }\n") +
+                           bad.elements + "[simulate]\nstop = 1\n";
+  const ReadResult result = read_scene_text(text, "scene.toml", "no-such-folder", declarations(), {});
+  CHECK_EQ('\n' + messages(result), std::string(bad.messages));
+  CHECK_FALSE(result.scene);
+}
+
+}  // namespace
+
+TEST_CASE("bad netlists: blocks and their inputs") {
+  const Bad cases[] = {
+      {R"~(h = { type = "generator", signal = { step = "7 rad/s" }, in = "g" }
+)~",
+       R"~(
+scene.toml:4:58: error: unknown key `in` of a `generator`
+    4 | h = { type = "generator", signal = { step = "7 rad/s" }, in = "g" }
+      |                                                          ^
+  its keys are `type`, `signal` and `repeat`
+)~"},
+      {R"~(a = { type = "gain", in = ["j.force", "shaft.velocity"], gain = 2 }
+)~",
+       R"~(
+scene.toml:4:27: error: `a` takes in 1 signal, but `in` names 2
+    4 | a = { type = "gain", in = ["j.force", "shaft.velocity"], gain = 2 }
+      |                           ^
+  a `sum` adds several
+)~"},
+      {R"~(b = { type = "gain", in = "nowhere", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:27: error: no block is called `nowhere`
+    4 | b = { type = "gain", in = "nowhere", gain = 2 }
+      |                           ^
+  an input is a block (`controller`) or a quantity of the network (`drum.velocity`)
+)~"},
+      {R"~(c = { type = "gain", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:1: error: a `gain` needs `in`
+    4 | c = { type = "gain", gain = 2 }
+      | ^
+  an input is a block (`controller`) or a quantity of the network (`drum.velocity`)
+)~"},
+      {R"~(d = { type = "gain", in = "shaft", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:27: error: `shaft` does not say which quantity is meant
+    4 | d = { type = "gain", in = "shaft", gain = 2 }
+      |                           ^
+  for instance `shaft.velocity`
+)~"},
+      {R"~(e = { type = "sum", in = "shaft.velocity" }
+)~",
+       R"~(
+scene.toml:4:26: error: `e` takes in at least 2 signals, but `in` names 1
+    4 | e = { type = "sum", in = "shaft.velocity" }
+      |                          ^
+  in = ["a", "-b"]
+)~"},
+      {R"~(q = { type = "gain", in = "shaft.speed", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:34: error: `shaft` has no `speed`
+    4 | q = { type = "gain", in = "shaft.speed", gain = 2 }
+      |                                  ^
+  it has `position` and `velocity`
+)~"},
+      {R"~(q2 = { type = "gain", in = "nowhere.velocity", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:28: error: nothing is called `nowhere`
+    4 | q2 = { type = "gain", in = "nowhere.velocity", gain = 2 }
+      |                            ^
+)~"},
+      {R"~(r = { type = "gain", in = 3, gain = 2 }
+)~",
+       R"~(
+scene.toml:4:27: error: `in` must be a string, but is the number 3
+    4 | r = { type = "gain", in = 3, gain = 2 }
+      |                           ^
+  a block (`controller`) or a quantity of the network (`drum.velocity`)
+)~"},
+      {R"~(r2 = { type = "gain", in = "-", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:28: error: `in` is empty
+    4 | r2 = { type = "gain", in = "-", gain = 2 }
+      |                            ^
+  a block (`controller`) or a quantity of the network (`drum.velocity`)
+)~"},
+      {R"~(p = { type = "gain", at = "shaft", in = "shaft.velocity", gain = 2 }
+)~",
+       R"~(
+scene.toml:4:22: error: unknown key `at` of a `gain`
+    4 | p = { type = "gain", at = "shaft", in = "shaft.velocity", gain = 2 }
+      |                      ^
+  its keys are `type`, `in`, `gain` and `repeat`
+)~"},
+      {R"~(s = { between = ["shaft", "ground"], series = [ { type = "gain", in = "j.force", gain = 1 } ] }
+)~",
+       R"~(
+scene.toml:4:58: error: a `gain` is a block, which stands at no node: it cannot be a member of `series` or `parallel`
+    4 | s = { between = ["shaft", "ground"], series = [ { type = "gain", in = "j.force", gain = 1 } ] }
+      |                                                          ^
+  give it an entry of its own in [elements]
+)~"},
+      {R"~(ctrl = { type = "gain", in = "shaft.velocity", gain = 1 }
+n = { type = "torque", at = "shaft", torque = { block = "ctl" } }
+)~",
+       R"~(
+scene.toml:5:57: error: no block is called `ctl`
+    5 | n = { type = "torque", at = "shaft", torque = { block = "ctl" } }
+      |                                                         ^
+  did you mean `ctrl`?
+)~"},
+      {R"~(n = { type = "torque", at = "shaft", torque = { block = "shaft.velocity" } }
+)~",
+       R"~(
+scene.toml:4:57: error: no block is called `shaft.velocity`
+    4 | n = { type = "torque", at = "shaft", torque = { block = "shaft.velocity" } }
+      |                                                         ^
+  a signal comes from a block: a `gain` makes one of a quantity of the network
+)~"},
+      {R"~(g = { type = "gain", in = "shaft.velocity", gain = 1 }
+n = { type = "torque", at = "shaft", torque = { block = "g", time = 3 } }
+)~",
+       R"~(
+scene.toml:5:62: error: unknown key `time` of a signal from a block
+    5 | n = { type = "torque", at = "shaft", torque = { block = "g", time = 3 } }
+      |                                                              ^
+  its keys are `block`
+)~"},
+      {R"~(g = { type = "gain", in = "shaft.velocity", gain = 1 }
+m = { type = "motion", at = "other", velocity = { block = "g" } }
+)~",
+       R"~(
+scene.toml:5:51: error: the velocity of a `motion` is a function of time alone: no block can give it
+    5 | m = { type = "motion", at = "other", velocity = { block = "g" } }
+      |                                                   ^
+  drive a node that has a mass with a force that a block gives, as a servo does
+)~"},
+      {R"~(t = { type = "lag", in = "shaft.velocity", time_constant = "0 s" }
+)~",
+       R"~(
+scene.toml:4:60: error: `time_constant` must be greater than 0, but is 0
+    4 | t = { type = "lag", in = "shaft.velocity", time_constant = "0 s" }
+      |                                                            ^
+)~"},
+      {R"~(l = { type = "limiter", in = "shaft.velocity", upper = "2 rad/s", lower = "3 rad/s" }
+)~",
+       R"~(
+scene.toml:4:56: error: `upper` is less than `lower`
+    4 | l = { type = "limiter", in = "shaft.velocity", upper = "2 rad/s", lower = "3 rad/s" }
+      |                                                        ^
+)~"},
+      {R"~(x = { type = "delay", in = "shaft.velocity", delay = "-1 ms" }
+)~",
+       R"~(
+scene.toml:4:54: error: `delay` must be at least 0, but is -0.001 s
+    4 | x = { type = "delay", in = "shaft.velocity", delay = "-1 ms" }
+      |                                                      ^
+)~"},
+  };
+  for (const Bad& bad : cases) check_messages(bad);
+}
+
+TEST_CASE("bad netlists: units of blocks") {
+  const Bad cases[] = {
+      {R"~(g = { type = "generator", signal = { step = "7 rad/s", offset = "1 N*m" } }
+)~",
+       R"~(
+scene.toml:4:45: error: `step`: expected a torque or an energy (N*m), as the rest of `signal`, found an angular velocity (rad/s)
+    4 | g = { type = "generator", signal = { step = "7 rad/s", offset = "1 N*m" } }
+      |                                             ^
+)~"},
+      {R"~(f = { type = "sum", in = ["shaft.velocity", "-j.force"] }
+)~",
+       R"~(
+scene.toml:4:45: error: `j.force` is a torque or an energy (N*m), but the other inputs of `f` are an angular velocity (rad/s)
+    4 | f = { type = "sum", in = ["shaft.velocity", "-j.force"] }
+      |                                             ^
+  all inputs of a block have one unit: put a `gain` before it
+)~"},
+      {R"~(l = { type = "limiter", in = "shaft.velocity", upper = "2 N*m" }
+)~",
+       R"~(
+scene.toml:4:56: error: `upper`: expected an angular velocity (rad/s), as what the block takes in, found a torque or an energy (N*m)
+    4 | l = { type = "limiter", in = "shaft.velocity", upper = "2 N*m" }
+      |                                                        ^
+)~"},
+      {R"~(i = { type = "integrator", in = "shaft.velocity", initial = "2 N*m" }
+)~",
+       R"~(
+scene.toml:4:61: error: `initial`: expected an angle (rad), as what the block puts out, found a torque or an energy (N*m)
+    4 | i = { type = "integrator", in = "shaft.velocity", initial = "2 N*m" }
+      |                                                             ^
+)~"},
+      {R"~(t = { type = "lag", in = "shaft.velocity", time_constant = "1 s" }
+n = { type = "torque", at = "shaft", torque = { block = "t" } }
+)~",
+       R"~(
+scene.toml:5:57: error: `torque` from block `t`: expected a torque (N*m), found an angular velocity (rad/s)
+    5 | n = { type = "torque", at = "shaft", torque = { block = "t" } }
+      |                                                         ^
+)~"},
+      {R"~(t = { type = "gain", in = "shaft.velocity", gain = "3 N*m" }
+n = { type = "torque", at = "shaft", torque = { block = "-t" } }
+)~",
+       R"~(
+scene.toml:5:57: error: `torque` from block `t`: expected a torque (N*m), found a power (W)
+    5 | n = { type = "torque", at = "shaft", torque = { block = "-t" } }
+      |                                                         ^
+)~"},
+  };
+  for (const Bad& bad : cases) check_messages(bad);
+}
+
+}  // namespace rheonet::test
