@@ -237,10 +237,11 @@ void Instant::add_carried(std::vector<NodeId>& nodes) const {
       if (laws.batch->events(i) == 0) join(network_.deflections[at(laws.first) + i]);
     }
   }
-  const std::vector<NodeId> given = nodes;
+  std::vector<char> carried(structure_.kind.size(), 0);  // of each set, by the node that speaks for it
+  for (NodeId n : nodes) carried[at(together.find(n))] = 1;
+  nodes.clear();
   for (NodeId n = 0; at(n) < structure_.kind.size(); ++n) {
-    const auto goes_with = [&](NodeId other) { return together.find(n) == together.find(other); };
-    if (std::any_of(given.begin(), given.end(), goes_with)) nodes.push_back(n);
+    if (carried[at(together.find(n))]) nodes.push_back(n);
   }
 }
 
@@ -248,8 +249,6 @@ void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
   std::vector<int> nodes;
   for (int k : runaways) nodes.push_back(network_.node_order[at(k)]);
   add_carried(nodes);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<char> in(structure_.kind.size(), 0);
   std::string names, elements;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
