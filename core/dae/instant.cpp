@@ -234,7 +234,7 @@ void Instant::add_carried(std::vector<NodeId>& nodes) const {
   for (const Branch& b : network_.rates) join(b);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->events(i) == 0) join(network_.deflections[at(laws.first) + i]);
+      if (std::isinf(laws.batch->steady(i).bound)) join(network_.deflections[at(laws.first) + i]);
     }
   }
   std::vector<char> carried(structure_.kind.size(), 0);  // of each set, by the node that speaks for it
