@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/listed.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -95,19 +97,16 @@ void Consistency::collocate(double t, double rate, std::vector<double>& y, std::
 void Consistency::report_singular(double t) {
   const Network& network = dae_.network();
   const Structure& structure = dae_.structure();
-  constexpr int most = 5;
-  std::string nodes;
-  int count = 0;
+  std::vector<std::string> nodes;
   for (std::size_t n = 0; n < structure.kind.size(); ++n) {
     if (structure.kind[n] != Kind::floating && structure.kind[n] != Kind::viscous) continue;
-    if (++count <= most) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network.node_name(static_cast<NodeId>(n)));
+    nodes.push_back(network.node_name(static_cast<NodeId>(n)));
   }
-  if (count == 0) report_unsolved(t);
-  if (count > most) nodes += fmt::format(" and {} more", count - most);
+  if (nodes.empty()) report_unsolved(t);
   throw UndeterminedError(fmt::format(
       "{} nothing determines the motion of {} {}: every element there has come to a constant force, or values lie too far "
       "apart for double precision; give the node a mass, a dashpot or a spring",
-      at_time(*network.scene, t), count > 1 ? "one of the massless nodes" : "massless node", nodes));
+      at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", listed(nodes)));
 }
 
 void Consistency::report_unsolved(double t) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
@@ -237,38 +238,27 @@ void Instant::add_carried(std::vector<NodeId>& nodes) const {
       if (std::isinf(laws.batch->steady(i).bound)) join(network_.deflections[at(laws.first) + i]);
     }
   }
-  std::vector<char> carried(structure_.kind.size(), 0);  // of each set, by the node that speaks for it
-  for (NodeId n : nodes) carried[at(together.find(n))] = 1;
+  std::vector<char> goes(structure_.kind.size(), 0);  // of each set, by the node that speaks for it
+  for (NodeId n : nodes) goes[at(together.find(n))] = 1;
   nodes.clear();
   for (NodeId n = 0; at(n) < structure_.kind.size(); ++n) {
-    if (carried[at(together.find(n))]) nodes.push_back(n);
+    if (goes[at(together.find(n))]) nodes.push_back(n);
   }
 }
 
 void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
-  std::vector<int> nodes;
+  std::vector<NodeId> nodes;
   for (int k : runaways) nodes.push_back(network_.node_order[at(k)]);
   add_carried(nodes);
   std::vector<char> in(structure_.kind.size(), 0);
-  std::string names, elements;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    in[at(nodes[k])] = 1;
-    if (k < 5) names += fmt::format("{}`{}`", k ? ", " : "", network_.node_name(nodes[k]));
-  }
-  if (nodes.size() > 5) names += fmt::format(" and {} more", nodes.size() - 5);
-  int count = 0;
+  for (NodeId n : nodes) in[at(n)] = 1;
+  std::vector<int> elements;
   const auto mention = [&](const Branch& b) {
-    if (in[at(b.a)] != in[at(b.b)] && ++count <= 5) {
-      elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", network_.name_of(b));
-    }
+    if (in[at(b.a)] != in[at(b.b)]) elements.push_back(b.element);
   };
   for (const Network::Slider& s : network_.sliders) mention(s.branch);
   for (const Branch& b : network_.deflections) mention(b);
-  throw SimulationError(fmt::format(
-      "{} nothing resists the force at node{} {}: {} there {} at the largest force that {} can take; give the node "
-      "a mass or a dashpot, or apply less force",
-      at_time(*network_.scene, t), nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements,
-      count < 2 ? "is" : "are", count < 2 ? "it" : "they"));
+  report_overload(network_, t, nodes, elements);
 }
 
 }  // namespace rheonet
