@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dae/time_grain.hpp"
 #include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
 
@@ -18,8 +19,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // How far ahead it is looked: a share of the time until something is known to happen, and of the network's own times.
 constexpr double share_of_horizon = 1e-7;
 constexpr double share_of_network = 1e-3;
-// Roundings of the time: less is no time at all.
-constexpr double time_grains = 64;
 // Energies that differ by this share are equal.
 constexpr double link_rounding = 1e-9;
 // Jumps in a row that refine each other.
@@ -127,7 +126,7 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
   }
   double ahead = share_of_horizon * horizon;
   if (fastest > 0) ahead = std::min(ahead, share_of_network / fastest);
-  return std::max(ahead, time_grains * std::numeric_limits<double>::epsilon() * std::abs(t));
+  return std::max(ahead, time_grain(t));
 }
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative

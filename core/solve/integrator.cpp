@@ -159,6 +159,7 @@ struct Integrator::Implementation {
 
   /// What rounding leaves of the unknowns, as the norm of a change. (IDA holds the iterate in the vector that it returns.)
   double rounding(N_Vector weight) const {
+    // A change comes out of a residual and two triangular solutions, sums of some tens of rounded terms.
     constexpr double grains = 64;
     return grains * std::numeric_limits<double>::epsilon() * N_VWrmsNorm(ny, weight);
   }

@@ -19,9 +19,11 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 constexpr double floor_of_kind = 1e-4;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
-// Roundings of the time that a step may be off by without being rejected.
+// Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a prediction
+// is made of are each rounded by one. (Fewer than in time_grain.hpp, within which two times are one: what changes faster
+// is to be seen.)
 constexpr double time_grains = 8;
-// Roundings of a deflection that a step may be off by, and of forces that balance.
+// Roundings of a deflection that a step may be off by (its sum of two), and of forces that balance (a sum of a few).
 constexpr double value_grains = 4;
 constexpr double force_grains = 16;
 // Small kinks one after the other, as a bundle of many pairs makes them, upset the error test more than the solution: their
