@@ -8,7 +8,6 @@
 
 #include "core/dae/given_reversals.hpp"
 #include "core/dae/instant.hpp"
-#include "core/dae/rate_law.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
 #include "core/dae/time_grain.hpp"
