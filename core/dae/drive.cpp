@@ -6,7 +6,8 @@
 
 namespace rheonet {
 
-Drive::Drive(const Network& network, double start, const std::vector<double>& positions) : stop_(network.scene->stop - network.scene->start), past_(network) {
+Drive::Drive(const Network& network, double start, const std::vector<double>& positions)
+    : stop_(network.scene->stop - network.scene->start), past_(network) {
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
     motion.anchor_time = start;

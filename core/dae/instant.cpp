@@ -29,7 +29,13 @@ bool contains(const std::vector<int>& list, int x) { return std::find(list.begin
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
-    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), impulse_told_(network.scene->elements.size(), 0), slipping_(network.sliders.size(), 0), came_to_rest_(network.sliders.size(), Modes::stuck) {}
+    : network_(network),
+      structure_(classified),
+      drive_(drive),
+      broken_(network.sliders.size(), 0),
+      impulse_told_(network.scene->elements.size(), 0),
+      slipping_(network.sliders.size(), 0),
+      came_to_rest_(network.sliders.size(), Modes::stuck) {}
 
 // What slips one way must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {

@@ -6,7 +6,8 @@
 
 namespace rheonet {
 
-void report_overload(const Network& network, double t, const std::vector<NodeId>& nodes, const std::vector<int>& elements) {
+void report_overload(const Network& network, double t, const std::vector<NodeId>& nodes,
+                     const std::vector<int>& elements) {
   std::vector<std::string> node_names, element_names;
   for (NodeId n : nodes) node_names.push_back(network.node_name(n));
   for (int e : elements) element_names.push_back(network.scene->elements[static_cast<std::size_t>(e)].name);

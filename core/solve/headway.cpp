@@ -71,7 +71,8 @@ std::string Headway::describe(const Network& network, double t) const {
   return fmt::format(
       "element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a dashpot beside {}, a mass "
       "at {} ends or a looser accuracy would end it",
-      several ? "s" : "", listed(names, most), several ? "" : "es", enough, t - since_, several ? "them" : "it", several ? "their" : "its");
+      several ? "s" : "", listed(names, most), several ? "" : "es", enough, t - since_, several ? "them" : "it",
+      several ? "their" : "its");
 }
 
 bool Headway::failing(double t, double within) {
