@@ -126,11 +126,12 @@ void Consistency::report_unsolved(double t) {
       at_time(*dae_.network().scene, t), dae_.describe(worst)));
 }
 
-/// One rate beyond all numbers makes others so that are solved with it: the equation that it stands in comes first.
+/// One rate beyond all numbers makes others so that are solved with it: the equation that is not finite itself comes first.
+/// Equation number i is that of unknown number i (see Dae): the balance of forces at a node has the number of its velocity.
 void Consistency::report_rate(double t, int unknown) {
-  for (int i = 0; i < dae_.size(); ++i) {
-    if (std::isfinite(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)])) continue;
-    unknown = i;
+  for (int equation = 0; equation < dae_.size(); ++equation) {
+    if (std::isfinite(dae_.differential(equation) ? r0_[at(equation)] : r1_[at(equation)])) continue;
+    unknown = equation;
     break;
   }
   throw UndeterminedError(fmt::format(
