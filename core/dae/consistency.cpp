@@ -26,6 +26,20 @@ constexpr int most_secant_steps = 300;
 constexpr int most_idle_secants = 40;
 // Of the velocities that there are: less is nothing.
 constexpr double velocity_rounding = 1e-14;
+// Damped steps. Each unknown against its own size: a change of this share is the rounding of some tens of terms.
+constexpr double change_rounding = 1e-14;
+// After a whole step, what is left of it would be lost in the last digits of the unknown.
+constexpr double last_digits = 1e-15;
+// Where no part of a step down to this one gains, none does: the slopes are rounding, or there is no solution.
+constexpr double least_damping = 1e-6;
+// Then a change this small is what such slopes leave, far below any accuracy that can be asked for.
+constexpr double loose_change = 1e-9;
+constexpr int most_damped_steps = 500;
+// A change of this share of what there is keeps to the branch of every law, and its effect is far above rounding: about
+// the square root of that, so that both errors of a difference are alike.
+constexpr double probing_share = 1e-7;
+// What is this much smaller than the largest of its kind comes of that one: its growth says nothing of a rate.
+constexpr double share_that_tells = 1e-3;
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// As long as it lives slopes are secants.
@@ -176,11 +190,10 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
   for (std::size_t k = 0; k < kinds; ++k) there[k] = std::max(there[k], within * soon[k]);
   double rate = 0;
   for (int k = 0; k < steps; ++k) {
-    // A change this small keeps to the branch of every law, and its effect is far above rounding.
     double step = std::numeric_limits<double>::infinity();
     const Sizes size = largest(u);
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, 1e-7 * there[kind] / size[kind]);
+      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, probing_share * there[kind] / size[kind]);
     }
     if (!std::isfinite(step)) break;
     for (std::size_t i = 0; i < n; ++i) moved[i] = y[i] + step * u[i];
@@ -188,7 +201,8 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
     for (std::size_t i = 0; i < n; ++i) next[i] = (next[i] - yp[i]) / step;
     const Sizes most = largest(before);
     for (std::size_t i = 0; i < n && k > 0; ++i) {
-      if (std::abs(before[i]) > 1e-3 * most[kind_[i]]) rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
+      if (std::abs(before[i]) <= share_that_tells * most[kind_[i]]) continue;
+      rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
     }
     before = u;
     u = next;
@@ -297,7 +311,7 @@ void Consistency::project(double t, std::vector<double>& y) {
   }
   y = before;
   double damping = 1;
-  for (int iteration = 0; iteration < 500; ++iteration) {
+  for (int iteration = 0; iteration < most_damped_steps; ++iteration) {
     factorise(t, y);
     if (within_rounding(y)) return finish();
     for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
@@ -319,7 +333,7 @@ void Consistency::project(double t, std::vector<double>& y) {
     for (std::size_t i = 0; i < n; ++i) scale[i] = std::max(size_of(i), share_of_kind * largest[kind_[i]]);
     const double size = norm(change);
     if (!std::isfinite(size)) report_unsolved(t);
-    if (size <= 1e-14) return finish();
+    if (size <= change_rounding) return finish();
     for (;; damping /= 2) {
       for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
       if (within_rounding(trial)) {
@@ -328,14 +342,14 @@ void Consistency::project(double t, std::vector<double>& y) {
       }
       for (std::size_t i = 0; i < n; ++i) next[i] = -defect[i];
       elimination_.solve(next);
-      if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
-      if (damping < 1e-6) {
-        if (size <= 1e-9 || within_rounding(y)) return finish();
+      if (norm(next) <= (1 - damping / 4) * size || norm(next) <= change_rounding) break;
+      if (damping < least_damping) {
+        if (size <= loose_change || within_rounding(y)) return finish();
         report_unsolved(t);
       }
     }
     y = trial;
-    if (damping == 1 && norm(next) <= 1e-15) return finish();
+    if (damping == 1 && norm(next) <= last_digits) return finish();
     damping = std::min(1.0, 2 * damping);
   }
   report_unsolved(t);

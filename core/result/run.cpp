@@ -12,6 +12,7 @@
 #include "core/result/claims.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
+#include "core/result/row_grain.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet {
@@ -134,7 +135,7 @@ class Recorder final : public Observer {
     return std::abs(t - length_) <= slack() ? length_ : t;
   }
   /// An event this close to an output time is at it.
-  double slack() const { return 1e-9 * scene_.output_every; }
+  double slack() const { return row_grain * scene_.output_every; }
   double event_time(double t) const {
     const auto nearest = static_cast<std::int64_t>(std::round(t / scene_.output_every));
     const double row = row_time(std::min(nearest, scene_.output_intervals));
