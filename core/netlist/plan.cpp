@@ -28,13 +28,6 @@ std::string wanted(const Parameter& parameter, Domain domain) {
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
 
-bool prescribes_motion(const Declaration& declaration) {
-  return std::any_of(declaration.parameters.begin(), declaration.parameters.end(), [](const Parameter& p) {
-    return p.kind == Parameter::Kind::signal &&
-           (p.quantity == Quantity::position || p.quantity == Quantity::velocity);
-  });
-}
-
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -194,7 +187,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
                    "give it an entry of its own in [elements], with `at`");
   read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
   // One that would move it is refused with the conflict.
-  if (plan.at && plan.nodes == std::vector<int>{-1} && !prescribes_motion(declaration))
+  if (plan.at && plan.nodes == std::vector<int>{-1} && !declaration.prescribes_motion())
     mistakes.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
                      "name another node, or leave it out");
 
