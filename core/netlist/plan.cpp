@@ -35,7 +35,7 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 int Scope::node(const std::string& name, Spot spot) {
-  if (name == "ground") return -1;
+  if (name == "ground") return ground;
   const auto [found, is_new] = node_index.emplace(name, static_cast<int>(nodes.size()));
   if (is_new) nodes.push_back({name, spot});
   return found->second;
@@ -187,7 +187,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
                    "give it an entry of its own in [elements], with `at`");
   read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
   // One that would move it is refused with the conflict.
-  if (plan.at && plan.nodes == std::vector<int>{-1} && !declaration.prescribes_motion())
+  if (plan.at && plan.nodes == std::vector<int>{Scope::ground} && !declaration.prescribes_motion())
     mistakes.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
                      "name another node, or leave it out");
 
@@ -206,7 +206,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
       if (!entry) continue;
       // An override takes the place of what a model for translation says.
       const TomlEntry* given_now = keys.find_quietly(name);
-      if (plan.in_model && rotation && other == parameter.name && given_now && given_now->spot.file < 0) continue;
+      if (plan.in_model && rotation && other == parameter.name && given_now && given_now->spot.on_command_line()) continue;
       misnamed = true;
       mistakes.error(
           entry->spot,
