@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/index.hpp"
 #include "core/network/listed.hpp"
 
 namespace rheonet {
@@ -40,8 +41,6 @@ constexpr int most_damped_steps = 500;
 constexpr double probing_share = 1e-7;
 // What is this much smaller than the largest of its kind comes of that one: its growth says nothing of a rate.
 constexpr double share_that_tells = 1e-3;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// As long as it lives slopes are secants.
 struct Secants {
   explicit Secants(Dae& d) : dae(d) { dae.use_secants(true); }

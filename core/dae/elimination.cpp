@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
 
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 struct Elimination::Factor {

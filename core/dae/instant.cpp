@@ -7,14 +7,13 @@
 #include <limits>
 
 #include "core/dae/time_grain.hpp"
+#include "core/network/index.hpp"
 #include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // How far ahead it is looked: a share of the time until something is known to happen, and of the network's own times.
 constexpr double share_of_horizon = 1e-7;

@@ -9,6 +9,7 @@
 
 #include "core/dae/convex.hpp"
 #include "core/dae/steady.hpp"
+#include "core/network/index.hpp"
 #include "core/network/listed.hpp"
 #include "core/network/sets.hpp"
 
@@ -23,7 +24,6 @@ class Settling {
   SteadyStart go();
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   /// Forces that balance, and values that agree, but for this share of their magnitudes do so.
   static constexpr double rounding = 1e-12;
 

@@ -7,13 +7,12 @@
 #include <map>
 #include <queue>
 
+#include "core/network/index.hpp"
 #include "core/network/listed.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 [[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<int>& lost) {
   std::vector<std::string> names;

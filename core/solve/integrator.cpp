@@ -14,11 +14,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));

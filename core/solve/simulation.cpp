@@ -11,6 +11,7 @@
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
 #include "core/dae/time_grain.hpp"
+#include "core/network/index.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
@@ -19,8 +20,6 @@
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The local error of a step against the global error promised. Errors add up: over 16 cycles of an undamped oscillator
 // by a factor of 100 to 900 (measured with IDA at order 5).

@@ -7,13 +7,12 @@
 #include <optional>
 
 #include "core/dae/rate_law.hpp"
+#include "core/network/index.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
 constexpr double floor_of_kind = 1e-4;
