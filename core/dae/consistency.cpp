@@ -33,7 +33,7 @@ constexpr double change_rounding = 1e-14;
 constexpr double last_digits = 1e-15;
 // Where no part of a step down to this one gains, none does: the slopes are rounding, or there is no solution.
 constexpr double least_damping = 1e-6;
-// Then a change this small is what such slopes leave, far below any accuracy that can be asked for.
+// Then a change this small is what such slopes leave.
 constexpr double loose_change = 1e-9;
 constexpr int most_damped_steps = 500;
 // A change of this share of what there is keeps to the branch of every law, and its effect is far above rounding: about
@@ -41,6 +41,7 @@ constexpr int most_damped_steps = 500;
 constexpr double probing_share = 1e-7;
 // What is this much smaller than the largest of its kind comes of that one: its growth says nothing of a rate.
 constexpr double share_that_tells = 1e-3;
+
 /// As long as it lives slopes are secants.
 struct Secants {
   explicit Secants(Dae& d) : dae(d) { dae.use_secants(true); }
@@ -139,11 +140,13 @@ void Consistency::report_unsolved(double t) {
       at_time(*dae_.network().scene, t), dae_.describe(worst)));
 }
 
-/// One rate beyond all numbers makes others so that are solved with it: the equation that is not finite itself comes first.
-/// Equation number i is that of unknown number i (see Dae): the balance of forces at a node has the number of its velocity.
+/// One rate beyond all numbers makes others so that are solved with it: the equation that leads to it by itself comes
+/// first. Equation number i is that of unknown number i (see Dae): the balance of forces at a node has the number of its
+/// velocity.
 void Consistency::report_rate(double t, int unknown) {
   for (int equation = 0; equation < dae_.size(); ++equation) {
-    if (std::isfinite(dae_.differential(equation) ? r0_[at(equation)] : r1_[at(equation)])) continue;
+    const double right = dae_.differential(equation) ? r0_[at(equation)] : r1_[at(equation)];
+    if (std::isfinite(elimination_.scaled(equation, right))) continue;
     unknown = equation;
     break;
   }

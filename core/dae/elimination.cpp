@@ -13,6 +13,7 @@ namespace rheonet {
 namespace {
 
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
+
 }  // namespace
 
 struct Elimination::Factor {
@@ -85,6 +86,8 @@ bool Elimination::factorise_sparse(const std::vector<double>& values) {
   f.sparse_lu.factorize(f.sparse);
   return f.sparse_lu.info() == Eigen::Success;
 }
+
+double Elimination::scaled(int row, double right) const { return right * factor_->row_scale[row]; }
 
 void Elimination::solve(std::vector<double>& b) const {
   Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
