@@ -27,8 +27,9 @@ double shared(double v, double B, double B2, double n) {
 // At close accuracies the iteration waited for changes below the rounding of the velocities, which never came: "changes
 // faster than double precision can follow".
 TEST_CASE("a dashpot and a dilatant one in series, driven at close accuracies") {
-  constexpr double B = 2.7725, B2 = 0.83411, n = 1.75;
-  const auto check = [&](const std::string& drive, const std::string& beside, const test::Exact& velocity) {
+  constexpr double n = 1.75;
+  const auto check = [n](const std::string& drive, double B, double B2, const std::string& beside,
+                        const test::Exact& velocity) {
     const std::string toml = fmt::format(R"([elements]
 drive = {{ type = "motion", at = "end", {} }}
 e1 = {}
@@ -39,30 +40,33 @@ stop = 1.0623
 output = {{ points = 62 }}
 )",
                                          drive, beside, B, B2, n);
+    const test::Exact between = [&](double t) { return shared(velocity(t), B, B2, n); };
+    const test::Exact force = [&](double t) { return B * (between(t) - velocity(t)); };
     for (const double accuracy : {1e-9, 1e-10}) {
       const test::Trajectory run = test::simulate(toml, accuracy);
-      test::check_against(run, {"n1.velocity", [&](double t) { return shared(velocity(t), B, B2, n); }}, accuracy);
-      test::check_against(
-          run, {"e2.force", [&](double t) { return B * (shared(velocity(t), B, B2, n) - velocity(t)); }}, accuracy);
+      test::check_against(run, {"n1.velocity", between}, accuracy);
+      test::check_against(run, {"e2.force", force}, accuracy);
     }
   };
   const auto sides = [](double v, double frequency, double phase) {
     return [=](double t) { return std::fmod(t * frequency + phase, 1.0) < 0.5 ? v : -v; };
   };
-  check("velocity = { square = -1.2252, frequency = 1.5569 }",
-        R"({ type = "spring", between = ["end", "ground"], stiffness = 40.739 })", sides(-1.2252, 1.5569, 0));
-  check("position = { triangle = 0.060118, frequency = 1.6462 }",
-        R"({ type = "slider", between = ["ground", "end"], coulomb = 1.4797 })", sides(4 * 0.060118 * 1.6462, 1.6462, 0.25));
+  constexpr double v = -1.2251904439750647, f = 1.5568880258472528, d = 0.06011810406480225, g = 1.6461949457401481;
+  check(fmt::format("velocity = {{ square = {}, frequency = {} }}", v, f), 2.7725361351434037, 0.8341091101672643,
+        R"({ type = "spring", between = ["end", "ground"], stiffness = 40.739 })", sides(v, f, 0));
+  check(fmt::format("position = {{ triangle = {}, frequency = {} }}", d, g), 1.3887363901426468, 1.676770975635443,
+        R"({ type = "slider", between = ["ground", "end"], coulomb = 1.4797 })", sides(4 * d * g, g, 0.25));
 }
 
-// Where a force has just come to the bound of a slider, what is left for a dilatant dashpot moves its node by the root of
-// it. Tolerances that held its rounding at rest for that at present left its position off by some parts in a million.
+// Where a force has just come to the bound of a slider, what is left for a dilatant dashpot moves its node by the root
+// of it. Tolerances that held its rounding at rest for that at present left its position off by some parts in a
+// million.
 TEST_CASE("the position of a node behind a dilatant dashpot, beside a slider, is as close as it is asked for") {
   constexpr double F = 0.95207, frequency = 2.674, B1 = 4.2135, B2 = 1.8991, Fc = 0.93825;
   constexpr double omega = 2 * std::numbers::pi * frequency;
   const double half = std::acos(Fc / F);  // of the angle in which it slips, about each extreme of the force
-  // -F cos(a) pulls at the slider and, beyond Fc, at both dashpots: B2 v^2 = F abs(cos a) - Fc. With a = half sin(u) from an
-  // extreme on the integral of v is smooth: Simpson's rule.
+  // -F cos(a) pulls at the slider and, beyond Fc, at both dashpots: B2 v^2 = F abs(cos a) - Fc. With a = half sin(u)
+  // from an extreme on the integral of v is smooth: Simpson's rule.
   const auto travelled = [&](double a) {
     constexpr int steps = 400;
     const double end = std::asin(a / half);
@@ -85,14 +89,13 @@ TEST_CASE("the position of a node behind a dilatant dashpot, beside a slider, is
     const double force = -F * std::cos(omega * t);
     return std::copysign(std::sqrt(std::max(0.0, std::abs(force) - Fc) / B2), force);
   };
-  const std::string toml =
-      test::netlist({{"F", F}, {"f", frequency}, {"B1", B1}, {"B2", B2}, {"Fc", Fc}}, R"([elements]
+  const std::string toml = test::netlist({{"F", F}, {"f", frequency}, {"B1", B1}, {"B2", B2}, {"Fc", Fc}}, R"([elements]
 drive = { type = "force", at = "end", force = { cosine = "-F", frequency = "f" } }
 e1 = { type = "dashpot", between = ["end", "n1"], damping = "B1" }
 e2 = { type = "dashpot", between = ["n1", "ground"], damping = "B2", flow_index = 2 }
 e3 = { type = "slider", between = ["end", "ground"], coulomb = "Fc" }
 )",
-                    1.0353, 61);
+                                         1.0353, 61);
   // Closer than this, what is left to rounding where the dashpots come to rest shows: 8e-12 m.
   for (const double accuracy : {1e-3, 1e-6, 1e-8}) {
     const test::Trajectory run = test::simulate(toml, accuracy);

@@ -5,8 +5,8 @@
 
 #include "tests/support/simulate.hpp"
 
-// Forces a little above what a slider and an sfm take together: the hundredth that was missing was left to slopes that are
-// there to decide among equals, and the refusal came from the equations, without the elements.
+// Forces a little above what a slider and an sfm take together: the hundredth that was missing was left to slopes that
+// are there to decide among equals, and the refusal came from the equations, without the elements.
 TEST_CASE("a force half a percent beyond what all friction takes is refused with its names, one below runs") {
   const double most = 0.73 + 0.57;
   for (const double share : {1.005, 0.995}) {
@@ -23,10 +23,12 @@ accuracy = 1e-6
 )",
                                                                      signal));
       const std::string time = signal.starts_with("{") ? "0.4" : "0";
-      CHECK(refusal == (share < 1 ? ""
-                                  : "at t = " + time + " s nothing resists the force at node `a`: `e1`, `e2` are at the "
-                                    "largest force that they can take; give the node a mass or a dashpot, or apply less "
-                                    "force"));
+      CHECK(refusal == (share < 1
+                            ? ""
+                            : "at t = " + time +
+                                  " s nothing resists the force at node `a`: `e1`, `e2` are at the "
+                                  "largest force that they can take; give the node a mass or a dashpot, or apply less "
+                                  "force"));
     }
   }
 }
