@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
-
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
 
 // Balance at each node: left + sum of +-f = 0. Of all solutions f = A phi, differences of one potential phi at the nodes, is
 // the one of least norm. phi is 0 at known nodes, which take any force, and at one node of every other cluster, whose

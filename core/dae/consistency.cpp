@@ -7,33 +7,18 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/index.hpp"
+#include "core/network/listed.hpp"
+
 namespace rheonet {
 
 namespace {
 
-// The least share of the largest of its kind that counts.
-constexpr double share_of_kind = 1e-6;
-// Terms of an equation that cancel leave this share of their magnitudes.
-constexpr double balance_rounding = 1e-14;
-// What Newton's method may leave where it gets no further.
-constexpr double loose_balance = 1e-10;
-constexpr int most_whole_steps = 20;
-constexpr int most_idle = 3;  // of them in a row that do not halve what is left
-// With secants an unknown comes nearer by a power of what is left: slowly at first.
-constexpr int most_secant_steps = 300;
-constexpr int most_idle_secants = 40;
-// Of the velocities that there are: less is nothing.
-constexpr double velocity_rounding = 1e-14;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// As long as it lives slopes are secants.
-struct Secants {
-  explicit Secants(Dae& d) : dae(d) { dae.use_secants(true); }
-  ~Secants() { dae.use_secants(false); }
-  Secants(const Secants&) = delete;
-  Secants& operator=(const Secants&) = delete;
-  Dae& dae;
-};
+// A change of this share of what there is keeps to the branch of every law, and its effect is far above rounding: about
+// the square root of that, so that both errors of a difference are alike.
+constexpr double probing_share = 1e-7;
+// What is this much smaller than the largest of its kind comes of that one: its growth says nothing of a rate.
+constexpr double share_that_tells = 1e-3;
 
 }  // namespace
 
@@ -96,19 +81,16 @@ void Consistency::collocate(double t, double rate, std::vector<double>& y, std::
 void Consistency::report_singular(double t) {
   const Network& network = dae_.network();
   const Structure& structure = dae_.structure();
-  constexpr int most = 5;
-  std::string nodes;
-  int count = 0;
+  std::vector<std::string> nodes;
   for (std::size_t n = 0; n < structure.kind.size(); ++n) {
     if (structure.kind[n] != Kind::floating && structure.kind[n] != Kind::viscous) continue;
-    if (++count <= most) nodes += fmt::format("{}`{}`", nodes.empty() ? "" : ", ", network.node_name(static_cast<NodeId>(n)));
+    nodes.push_back(network.node_name(static_cast<NodeId>(n)));
   }
-  if (count == 0) report_unsolved(t);
-  if (count > most) nodes += fmt::format(" and {} more", count - most);
+  if (nodes.empty()) report_unsolved(t);
   throw UndeterminedError(fmt::format(
       "{} nothing determines the motion of {} {}: every element there has come to a constant force, or values lie too far "
       "apart for double precision; give the node a mass, a dashpot or a spring",
-      at_time(*network.scene, t), count > 1 ? "one of the massless nodes" : "massless node", nodes));
+      at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", listed(nodes)));
 }
 
 void Consistency::report_unsolved(double t) {
@@ -128,11 +110,14 @@ void Consistency::report_unsolved(double t) {
       at_time(*dae_.network().scene, t), dae_.describe(worst)));
 }
 
-/// One rate beyond all numbers makes others so that are solved with it: the equation that it stands in comes first.
+/// One rate beyond all numbers makes others so that are solved with it: the equation that leads to it by itself comes
+/// first. Equation number i is that of unknown number i (see Dae): the balance of forces at a node has the number of its
+/// velocity.
 void Consistency::report_rate(double t, int unknown) {
-  for (int i = 0; i < dae_.size(); ++i) {
-    if (std::isfinite(dae_.differential(i) ? r0_[at(i)] : r1_[at(i)])) continue;
-    unknown = i;
+  for (int equation = 0; equation < dae_.size(); ++equation) {
+    const double right = dae_.differential(equation) ? r0_[at(equation)] : r1_[at(equation)];
+    if (std::isfinite(elimination_.scaled(equation, right))) continue;
+    unknown = equation;
     break;
   }
   throw UndeterminedError(fmt::format(
@@ -177,11 +162,10 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
   for (std::size_t k = 0; k < kinds; ++k) there[k] = std::max(there[k], within * soon[k]);
   double rate = 0;
   for (int k = 0; k < steps; ++k) {
-    // A change this small keeps to the branch of every law, and its effect is far above rounding.
     double step = std::numeric_limits<double>::infinity();
     const Sizes size = largest(u);
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, 1e-7 * there[kind] / size[kind]);
+      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, probing_share * there[kind] / size[kind]);
     }
     if (!std::isfinite(step)) break;
     for (std::size_t i = 0; i < n; ++i) moved[i] = y[i] + step * u[i];
@@ -189,157 +173,13 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
     for (std::size_t i = 0; i < n; ++i) next[i] = (next[i] - yp[i]) / step;
     const Sizes most = largest(before);
     for (std::size_t i = 0; i < n && k > 0; ++i) {
-      if (std::abs(before[i]) > 1e-3 * most[kind_[i]]) rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
+      if (std::abs(before[i]) <= share_that_tells * most[kind_[i]]) continue;
+      rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
     }
     before = u;
     u = next;
   }
   return rate;
-}
-
-/// Solves the algebraic equations for y; the integrals of the differential ones stay, M (y - before) = 0. Newton's method,
-/// damped by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3), which does not
-/// depend on the units of the equations.
-void Consistency::project(double t, std::vector<double>& y) {
-  const std::vector<double> before = y;
-  const std::size_t n = y.size();
-  std::vector<double> change(n), trial(n), next(n), scale(n, 0);
-  std::vector<double>& defect = r0_;
-  const auto defects = [&](const std::vector<double>& at_y) {
-    dae_.residual(t, at_y.data(), zero_.data(), defect.data());
-    for (std::size_t i = 0; i < n; ++i) {
-      if (dae_.differential(static_cast<int>(i))) defect[i] = 0;
-    }
-    const Pattern& pattern = dae_.pattern();
-    for (std::size_t c = 0; c < n; ++c) {
-      for (int e = pattern.column_start[c]; e < pattern.column_start[c + 1]; ++e) {
-        const int row = pattern.row[at(e)];
-        if (dae_.differential(row)) defect[at(row)] += values_[at(e)] * (at_y[c] - before[c]);
-      }
-    }
-  };
-  const auto norm = [&](const std::vector<double>& x) {
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!std::isfinite(x[i])) return std::numeric_limits<double>::infinity();
-      if (scale[i] > 0) largest = std::max(largest, std::abs(x[i]) / scale[i]);
-    }
-    return largest;
-  };
-  // What rounding leaves of the equations, in terms of the unknowns.
-  const auto within_rounding = [&](const std::vector<double>& at_y) {
-    defects(at_y);
-    dae_.magnitudes(r1_.data());
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!dae_.differential(static_cast<int>(i)) && std::abs(defect[i]) > balance_rounding * r1_[i]) return false;
-    }
-    return true;
-  };
-  double fastest = 0;  // velocity at first, all nodes
-  const auto finish = [&] {
-    // What is left of a velocity by rounding on the way there is nothing.
-    for (std::size_t i = 0; i < n; ++i) {
-      if (kind_[i] == 0 && std::abs(y[i]) <= velocity_rounding * fastest) y[i] = 0;
-    }
-    // Integrals that nothing moves stay as they were to the last digit.
-    std::swap(trial, y);
-    y = trial;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (kind_[i] == 1 || kind_[i] >= 3) y[i] = before[i];
-    }
-    if (!within_rounding(y)) y = trial;
-  };
-  // Mostly the equations are as good as linear here, and whole steps reach the rounding of their terms at once.
-  for (const double v : dae_.drive().velocity) fastest = std::max(fastest, std::abs(v));
-  for (std::size_t i = 0; i < n; ++i) {
-    if (kind_[i] == 0) fastest = std::max(fastest, std::abs(y[i]));
-  }
-  // At rest nothing but rest solves them, and that exactly.
-  trial = y;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!dae_.differentiated(static_cast<int>(i)) && kind_[i] != 1) trial[i] = 0;
-  }
-  factorise(t, trial);
-  defects(trial);
-  if (std::all_of(defect.begin(), defect.end(), [](double d) { return d == 0; })) {
-    y = trial;
-    return;
-  }
-  const auto whole_steps = [&](int most, int patience) {
-    std::vector<double> best = y;
-    double least = std::numeric_limits<double>::infinity();
-    int idle = 0;
-    for (int iteration = 0; iteration < most; ++iteration) {
-      factorise(t, y);
-      if (within_rounding(y)) return true;
-      double error = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        if (!dae_.differential(static_cast<int>(i)) && defect[i] != 0) error = std::max(error, std::abs(defect[i]) / r1_[i]);
-      }
-      // One balance may have got so small that its own rounding shows, while another gains much.
-      idle = error < least / 2 ? 0 : idle + 1;
-      if (error < least) {
-        least = error;
-        best = y;
-      }
-      if (idle == patience || !std::isfinite(error)) break;
-      for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
-      elimination_.solve(change);
-      for (std::size_t i = 0; i < n; ++i) y[i] += change[i];
-    }
-    y = best;
-    return least <= loose_balance;
-  };
-  if (whole_steps(most_whole_steps, most_idle)) return finish();
-  if (dae_.rough()) {
-    y = before;
-    const Secants secants(dae_);
-    if (whole_steps(most_secant_steps, most_idle_secants)) return finish();
-  }
-  y = before;
-  double damping = 1;
-  for (int iteration = 0; iteration < 500; ++iteration) {
-    factorise(t, y);
-    if (within_rounding(y)) return finish();
-    for (std::size_t i = 0; i < n; ++i) change[i] = -defect[i];
-    elimination_.solve(change);
-    // What is small beside others of its kind is not small by itself: it may be their rounding.
-    std::array<double, kinds> largest{};
-    for (const double v : dae_.drive().velocity) largest[0] = std::max(largest[0], std::abs(v));
-    // A deflection counts by the force that it makes.
-    double force = 0;
-    for (double r : r1_) force = std::max(force, r);
-    const std::vector<double>& slope = dae_.slopes();
-    const auto size_of = [&](std::size_t i) {
-      if (kind_[i] >= 3) return std::max(std::abs(before[i]), std::abs(y[i]));
-      if (kind_[i] != 1) return std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
-      const double stiffness = std::abs(slope[at(branch_[i])]);
-      return std::max(std::abs(before[i]), stiffness > 0 ? share_of_kind * force / stiffness : 0);
-    };
-    for (std::size_t i = 0; i < n; ++i) largest[kind_[i]] = std::max(largest[kind_[i]], size_of(i));
-    for (std::size_t i = 0; i < n; ++i) scale[i] = std::max(size_of(i), share_of_kind * largest[kind_[i]]);
-    const double size = norm(change);
-    if (!std::isfinite(size)) report_unsolved(t);
-    if (size <= 1e-14) return finish();
-    for (;; damping /= 2) {
-      for (std::size_t i = 0; i < n; ++i) trial[i] = y[i] + damping * change[i];
-      if (within_rounding(trial)) {
-        y = trial;
-        return finish();
-      }
-      for (std::size_t i = 0; i < n; ++i) next[i] = -defect[i];
-      elimination_.solve(next);
-      if (norm(next) <= (1 - damping / 4) * size || norm(next) <= 1e-14) break;
-      if (damping < 1e-6) {
-        if (size <= 1e-9 || within_rounding(y)) return finish();
-        report_unsolved(t);
-      }
-    }
-    y = trial;
-    if (damping == 1 && norm(next) <= 1e-15) return finish();
-    damping = std::min(1.0, 2 * damping);
-  }
-  report_unsolved(t);
 }
 
 }  // namespace rheonet

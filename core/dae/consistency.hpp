@@ -33,6 +33,7 @@ class Consistency {
   double fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp);
 
  private:
+  class Projection;
   void factorise(double t, const std::vector<double>& y);
   void eliminate(double t);
   [[noreturn]] void report_singular(double t);

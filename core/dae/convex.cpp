@@ -27,6 +27,15 @@ constexpr double weak_share = 1e-9;
 constexpr double weak_force = 1e-9;
 // A law with a slope this much smaller than its other one is flat to that side.
 constexpr double negligible = 1e-14;
+// A search along a line. Where the step to the end of a jump is rounded, and its product: twice the half unit each.
+constexpr double break_rounding = 4e-16;
+// To this side of a jump: so much less than the step that leads to it, more than its rounding.
+constexpr double short_of_break = 1e-14;
+// Of the slope where the stretch begins: less of it at its end may be what cancelling terms leave.
+constexpr double slope_rounding = 1e-12;
+// Of the slope where the search begins: less is the minimum, as the next direction takes what is left.
+constexpr double flat_enough = 1e-10;
+constexpr int most_sections = 100;  // of a stretch; every third halves it: ten digits at least
 
 }  // namespace
 
@@ -263,7 +272,7 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
     if (dw == 0) continue;
     double w = difference(b) + step * dw;
     // The breakpoint of this branch itself, but for rounding.
-    if (std::abs(w) <= 4e-16 * std::abs(step * dw)) w = 0;
+    if (std::abs(w) <= break_rounding * std::abs(step * dw)) w = 0;
     sum += force(b, w, dw > 0 ? 1 : -1) * dw;
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
@@ -299,28 +308,28 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   if (first != breaks.end()) {
     high = first->step;
     // This side of the jump: the far side says nothing of the stretch.
-    const double before = slope_along(d, high * (1 - 1e-14));
+    const double before = slope_along(d, high * (1 - short_of_break));
     if (before < 0 || high == low) {
       move(high);
       branches_[at(first->branch)].stuck = true;
       return Outcome::solved;
     }
-    high *= 1 - 1e-14;
+    high *= 1 - short_of_break;
   } else {
     for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
       // The last digits of the whole step may be rounding.
-      if (high == 1 && slope_along(d, 1) > -1e-12 * std::abs(slope_along(d, low))) break;
+      if (high == 1 && slope_along(d, 1) > -slope_rounding * std::abs(slope_along(d, low))) break;
       if (high > 1e200) return Outcome::unbounded;
     }
   }
   // Within one stretch: exact at once where all is linear.
   const double descent = -slope_along(d, 0);
   double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
-  for (int k = 0; k < 100 && slope_high > 0; ++k) {
+  for (int k = 0; k < most_sections && slope_high > 0; ++k) {
     const double secant = low + (high - low) * slope_low / (slope_low - slope_high);
     step = k % 3 == 2 ? (low + high) / 2 : std::min(std::max(secant, low), high);
     const double slope = slope_along(d, step);
-    if (std::abs(slope) <= 1e-10 * descent || step == low || step == high) break;
+    if (std::abs(slope) <= flat_enough * descent || step == low || step == high) break;
     (slope < 0 ? low : high) = step;
     (slope < 0 ? slope_low : slope_high) = slope;
   }

@@ -8,13 +8,12 @@
 #include <map>
 
 #include "core/dae/convex.hpp"
+#include "core/network/index.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Dashpot {
   NodeId a, b;

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
 
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
@@ -85,6 +86,8 @@ bool Elimination::factorise_sparse(const std::vector<double>& values) {
   f.sparse_lu.factorize(f.sparse);
   return f.sparse_lu.info() == Eigen::Success;
 }
+
+double Elimination::scaled(int row, double right) const { return right * factor_->row_scale[row]; }
 
 void Elimination::solve(std::vector<double>& b) const {
   Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace rheonet {
+#include "core/network/index.hpp"
 
-namespace {
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
+namespace rheonet {
 
 GivenReversals::GivenReversals(const Network& network, const Structure& classified, Drive& drive) : drive_(drive) {
   const auto known = [&](NodeId node) { return classified.kind[at(node)] == Kind::known; };

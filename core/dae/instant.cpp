@@ -6,19 +6,18 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dae/time_grain.hpp"
+#include "core/network/index.hpp"
+#include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // How far ahead it is looked: a share of the time until something is known to happen, and of the network's own times.
 constexpr double share_of_horizon = 1e-7;
 constexpr double share_of_network = 1e-3;
-// Roundings of the time: less is no time at all.
-constexpr double time_grains = 64;
 // Energies that differ by this share are equal.
 constexpr double link_rounding = 1e-9;
 // Jumps in a row that refine each other.
@@ -29,7 +28,13 @@ bool contains(const std::vector<int>& list, int x) { return std::find(list.begin
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)
-    : network_(network), structure_(classified), drive_(drive), broken_(network.sliders.size(), 0), impulse_told_(network.scene->elements.size(), 0), slipping_(network.sliders.size(), 0), came_to_rest_(network.sliders.size(), Modes::stuck) {}
+    : network_(network),
+      structure_(classified),
+      drive_(drive),
+      broken_(network.sliders.size(), 0),
+      impulse_told_(network.scene->elements.size(), 0),
+      slipping_(network.sliders.size(), 0),
+      came_to_rest_(network.sliders.size(), Modes::stuck) {}
 
 // What slips one way must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {
@@ -129,7 +134,7 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
   }
   double ahead = share_of_horizon * horizon;
   if (fastest > 0) ahead = std::min(ahead, share_of_network / fastest);
-  return std::max(ahead, time_grains * std::numeric_limits<double>::epsilon() * std::abs(t));
+  return std::max(ahead, time_grain(t));
 }
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
@@ -237,42 +242,30 @@ void Instant::add_carried(std::vector<NodeId>& nodes) const {
   for (const Branch& b : network_.rates) join(b);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->events(i) == 0) join(network_.deflections[at(laws.first) + i]);
+      if (std::isinf(laws.batch->steady(i).bound)) join(network_.deflections[at(laws.first) + i]);
     }
   }
-  const std::vector<NodeId> given = nodes;
+  std::vector<char> goes(structure_.kind.size(), 0);  // of each set, by the node that speaks for it
+  for (NodeId n : nodes) goes[at(together.find(n))] = 1;
+  nodes.clear();
   for (NodeId n = 0; at(n) < structure_.kind.size(); ++n) {
-    const auto goes_with = [&](NodeId other) { return together.find(n) == together.find(other); };
-    if (std::any_of(given.begin(), given.end(), goes_with)) nodes.push_back(n);
+    if (goes[at(together.find(n))]) nodes.push_back(n);
   }
 }
 
 void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
-  std::vector<int> nodes;
+  std::vector<NodeId> nodes;
   for (int k : runaways) nodes.push_back(network_.node_order[at(k)]);
   add_carried(nodes);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::vector<char> in(structure_.kind.size(), 0);
-  std::string names, elements;
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    in[at(nodes[k])] = 1;
-    if (k < 5) names += fmt::format("{}`{}`", k ? ", " : "", network_.node_name(nodes[k]));
-  }
-  if (nodes.size() > 5) names += fmt::format(" and {} more", nodes.size() - 5);
-  int count = 0;
+  for (NodeId n : nodes) in[at(n)] = 1;
+  std::vector<int> elements;
   const auto mention = [&](const Branch& b) {
-    if (in[at(b.a)] != in[at(b.b)] && ++count <= 5) {
-      elements += fmt::format("{}`{}`", elements.empty() ? "" : ", ", network_.name_of(b));
-    }
+    if (in[at(b.a)] != in[at(b.b)]) elements.push_back(b.element);
   };
   for (const Network::Slider& s : network_.sliders) mention(s.branch);
   for (const Branch& b : network_.deflections) mention(b);
-  throw SimulationError(fmt::format(
-      "{} nothing resists the force at node{} {}: {} there {} at the largest force that {} can take; give the node "
-      "a mass or a dashpot, or apply less force",
-      at_time(*network_.scene, t), nodes.size() > 1 ? "s" : "", names, elements.empty() ? "what is" : elements,
-      count < 2 ? "is" : "are", count < 2 ? "it" : "they"));
+  report_overload(network_, t, nodes, elements);
 }
 
 }  // namespace rheonet

@@ -6,13 +6,12 @@
 
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/instant.hpp"
+#include "core/network/index.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Forces that balance but for this share of their magnitudes balance.
 constexpr double balance_rounding = 1e-12;

@@ -9,6 +9,8 @@
 
 #include "core/dae/convex.hpp"
 #include "core/dae/steady.hpp"
+#include "core/network/index.hpp"
+#include "core/network/listed.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
@@ -22,7 +24,6 @@ class Settling {
   SteadyStart go();
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   /// Forces that balance, and values that agree, but for this share of their magnitudes do so.
   static constexpr double rounding = 1e-12;
 
@@ -44,12 +45,6 @@ class Settling {
     return rheonet::with_unit(*network_.scene, x, quantity);
   }
   std::string name(const Branch& b) const { return network_.name_of(b); }
-  static std::string listed(const std::vector<std::string>& names) {
-    constexpr std::size_t most = 5;
-    std::string text;
-    for (std::size_t k = 0; k < std::min(most, names.size()); ++k) text += fmt::format("{}`{}`", k ? ", " : "", names[k]);
-    return names.size() > most ? text + fmt::format(" and {} more", names.size() - most) : text;
-  }
   void note(const std::string& text) {
     result_.notes.push_back((resting_ ? "start from rest: " : "steady start: ") + text);
   }

@@ -12,6 +12,9 @@ namespace rheonet {
 
 namespace {
 
+// Initial values that differ by this share are one: a user may give one of them in another unit, with fewer digits.
+constexpr double same_value = 1e-9;
+
 /// The initial displacement (`d0`) that an element was given; NaN if none.
 double initial_displacement(const Network& network, const Branch& branch) {
   const SceneElement& element = network.scene->elements[static_cast<std::size_t>(branch.element)];
@@ -41,7 +44,7 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
       const auto a = static_cast<std::size_t>(b->a), c = static_cast<std::size_t>(b->b);
       const double d0 = initial_displacement(network, *b);
       if (fixed[a] && fixed[c]) {
-        if (std::abs(x[a] - x[c] - d0) > 1e-9 * (std::abs(x[a]) + std::abs(x[c]) + std::abs(d0))) {
+        if (std::abs(x[a] - x[c] - d0) > same_value * (std::abs(x[a]) + std::abs(x[c]) + std::abs(d0))) {
           throw SimulationError(
               network.spot_of(b->element),
               fmt::format("element `{}` cannot start with the displacement d0 = {}: nodes `{}` and `{}` start {} "
@@ -89,7 +92,7 @@ Start start(const Network& network, const Structure& classified) {
     const double velocity = m.position ? m.signal.piece(0).rate(0) : m.signal.value(0);
     if (m.position) {
       const double before = m.signal.before(0), after = m.signal.value(0);
-      const double tolerance = 1e-9 * (std::abs(before) + std::abs(after));
+      const double tolerance = same_value * (std::abs(before) + std::abs(after));
       const bool there_already = fixed[n] && std::abs(x[n] - after) <= tolerance;
       if (fixed[n] && !there_already && std::abs(x[n] - before) > tolerance) {
         throw SimulationError(
@@ -100,7 +103,7 @@ Start start(const Network& network, const Structure& classified) {
       }
       x[n] = there_already ? after : before;
     }
-    if (!std::isnan(node.velocity) && std::abs(node.velocity - velocity) > 1e-9 * std::abs(velocity)) {
+    if (!std::isnan(node.velocity) && std::abs(node.velocity - velocity) > same_value * std::abs(velocity)) {
       throw SimulationError(
           node.spot,
           fmt::format("node `{}` cannot start with velocity {}: motion `{}` gives it {}; leave out one of them",

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The initial value of this quantity that an element was given; NaN if none.
 double initial(const Network& network, const Branch& branch, Quantity quantity) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -48,6 +49,9 @@ struct Parameter {
   const std::string& name_in(Domain domain) const {
     return domain == Domain::rotation && !rotational_name.empty() ? rotational_name : name;
   }
+  /// It makes a node move: a signal that says the node's position, or its velocity.
+  bool prescribes(Quantity motion) const { return kind == Kind::signal && quantity == motion; }
+  bool prescribes_motion() const { return prescribes(Quantity::position) || prescribes(Quantity::velocity); }
 };
 
 /// What is wrong with values that are each within their bounds.
@@ -82,6 +86,10 @@ struct Declaration {
   std::string law = {};      ///< as a textbook prints it
   std::string source = {};   ///< citation
   std::string notes = {};    ///< sign, range of validity, what is stored and what is dissipated
+
+  bool prescribes_motion() const {
+    return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.prescribes_motion(); });
+  }
 };
 
 using Declarations = std::span<const Declaration* const>;

@@ -82,7 +82,7 @@ std::string lower_case(std::string_view text) {
 
 std::string format(const Diagnostic& diagnostic, const Sources& sources) {
   const auto& [severity, spot, message, hint] = diagnostic;
-  const auto* file = spot.file >= 0 && spot.file < std::ssize(sources.files)
+  const auto* file = !spot.on_command_line() && spot.file < std::ssize(sources.files)
                          ? &sources.files[static_cast<std::size_t>(spot.file)]
                          : nullptr;
   std::string text = file ? printable(file->path.string()) : "command line";
@@ -90,7 +90,7 @@ std::string format(const Diagnostic& diagnostic, const Sources& sources) {
   text += severity == Severity::error ? ": error: " : ": warning: ";
   text += printable(message);
   if (file && spot.line > 0) text += '\n' + excerpt(line_of(file->text, spot.line), spot.line, spot.column);
-  if (spot.file < 0 && spot.line > 0 && spot.line <= std::ssize(sources.command_line))
+  if (spot.on_command_line() && spot.line > 0 && spot.line <= std::ssize(sources.command_line))
     text += '\n' + excerpt(sources.command_line[static_cast<std::size_t>(spot.line - 1)], 0, spot.column);
   if (!hint.empty()) text += "\n  " + printable(hint);
   return text;

@@ -8,11 +8,15 @@
 namespace rheonet {
 
 /// A place in a netlist. Files are numbered in the order in which they were read; lines and columns count from 1, columns
-/// in characters (UTF-8 code points). file = -1: the command line; lines then count `Sources::command_line`.
+/// in characters (UTF-8 code points). On the command line, lines count `Sources::command_line`.
 struct Spot {
-  int file = -1;
+  static constexpr int command_line = -1;
+
+  int file = command_line;
   int line = 0;
   int column = 0;
+
+  bool on_command_line() const { return file == command_line; }
 };
 
 /// The text of every file read, kept for excerpts.

@@ -65,7 +65,7 @@ bool Expander::refuse_number(Spot spot) {
 }
 
 NodeId Expander::node(Locals& locals, int index) {
-  if (index < 0) return ground;
+  if (index == Scope::ground) return ground;
   const auto i = static_cast<std::size_t>(index);
   if (locals.ids.size() < locals.scope.nodes.size()) locals.ids.resize(locals.scope.nodes.size(), no_node);
   if (locals.ids[i] == no_node) {

@@ -36,7 +36,7 @@ class Files {
   const std::string& text(int file) const { return sources_.files[static_cast<std::size_t>(file)].text; }
   /// What messages call a file.
   std::string shown(int file) const {
-    return file < 0 ? "the command line" : sources_.files[static_cast<std::size_t>(file)].path.string();
+    return file == Spot::command_line ? "the command line" : sources_.files[static_cast<std::size_t>(file)].path.string();
   }
 
  private:

@@ -52,7 +52,7 @@ void Mistakes::warning(Spot spot, std::string message, std::string hint) {
 void Mistakes::add(Severity severity, Spot spot, std::string message, std::string hint) {
   if (severity == Severity::error) ++errors_;
   if (!seen_.insert({spot.file, spot.line, spot.column, message}).second) return;
-  if (path_ && spot.file >= 0) message += " (in `" + shortened(*path_) + "`)";
+  if (path_ && !spot.on_command_line()) message += " (in `" + shortened(*path_) + "`)";
   all_.push_back({severity, spot, std::move(message), std::move(hint)});
 }
 
@@ -60,7 +60,7 @@ Spot Mistakes::inside(const TomlValue& value, std::size_t offset) const {
   Spot spot = value.spot;
   std::string_view text;
   std::size_t at = 0;
-  if (spot.file >= 0) {
+  if (!spot.on_command_line()) {
     text = sources_.files[static_cast<std::size_t>(spot.file)].text;
     at = index_of(text, spot.line, spot.column);
   } else {
@@ -69,7 +69,7 @@ Spot Mistakes::inside(const TomlValue& value, std::size_t offset) const {
   }
   const auto advance = [&](std::size_t characters) {
     for (; characters > 0 && at < text.size(); --characters) {
-      if (text[at] == '\n' && spot.file >= 0) {
+      if (text[at] == '\n' && !spot.on_command_line()) {
         ++spot.line;
         spot.column = 0;
       }
@@ -105,7 +105,7 @@ std::vector<Diagnostic> Mistakes::sorted() const {
 }
 
 bool comes_before(const Spot& a, const Spot& b) {
-  const auto rank = [](const Spot& s) { return std::tuple(s.file < 0, s.file, s.line, s.column); };
+  const auto rank = [](const Spot& s) { return std::tuple(s.on_command_line(), s.file, s.line, s.column); };
   return rank(a) < rank(b);
 }
 

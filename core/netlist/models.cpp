@@ -74,7 +74,7 @@ void refuse_unused_ports(const Model& model, Mistakes& mistakes) {
   for (const Plan& entry : model.scope.entries) {
     if (!entry.sound) return;
     for (const int node : entry.nodes)
-      if (node >= 0) used[static_cast<std::size_t>(node)] = true;
+      if (node != Scope::ground) used[static_cast<std::size_t>(node)] = true;
   }
   for (std::size_t i = 0; i < model.ports.size(); ++i)
     if (!used[i])

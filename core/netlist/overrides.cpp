@@ -18,7 +18,7 @@ std::size_t read_path(std::string_view text, int line, std::vector<Override::Par
   char quote = '\0';
   const auto finish = [&](std::size_t end) {
     const auto column = static_cast<int>(option.size() + count_characters(text.substr(0, begin)));
-    path.push_back({name, {-1, line, 1 + column}});
+    path.push_back({name, {Spot::command_line, line, 1 + column}});
     name.clear();
     begin = end + 1;
   };
@@ -64,12 +64,13 @@ std::deque<Override> read_overrides(const std::vector<std::string>& texts, Sourc
     const bool nameless =
         std::any_of(override.path.begin(), override.path.end(), [](auto& p) { return p.name.empty(); });
     if (begin == 0 || nameless) {
-      mistakes.error({-1, line, 1 + static_cast<int>(option.size())}, "expected PATH=VALUE, found `" + text + "`",
+      mistakes.error({Spot::command_line, line, 1 + static_cast<int>(option.size())},
+                     "expected PATH=VALUE, found `" + text + "`",
                      "for instance --set k1.stiffness=\"2 N/m\"");
       continue;
     }
     const std::string_view value = std::string_view(text).substr(begin);
-    const Spot spot{-1, line, 1 + static_cast<int>(option.size() + count_characters(text.substr(0, begin)))};
+    const Spot spot{Spot::command_line, line, 1 + static_cast<int>(option.size() + count_characters(text.substr(0, begin)))};
     if (auto parsed = parse_toml_value(value, spot)) {
       override.value = std::move(*parsed);
     } else {

@@ -29,13 +29,6 @@ std::string wanted(const Parameter& parameter, Domain domain) {
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
 
-bool prescribes_motion(const Declaration& declaration) {
-  return std::any_of(declaration.parameters.begin(), declaration.parameters.end(), [](const Parameter& p) {
-    return p.kind == Parameter::Kind::signal &&
-           (p.quantity == Quantity::position || p.quantity == Quantity::velocity);
-  });
-}
-
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -75,7 +68,7 @@ bool refuse_other_names(const Parameter& parameter, const std::string& name, boo
     if (!entry) continue;
     // An override takes the place of what a model for translation says.
     const TomlEntry* given_now = keys.find_quietly(name);
-    if (in_model && rotation && other == parameter.name && given_now && given_now->spot.file < 0) continue;
+    if (in_model && rotation && other == parameter.name && given_now && given_now->spot.on_command_line()) continue;
     misnamed = true;
     mistakes.error(
         entry->spot,
@@ -88,7 +81,7 @@ bool refuse_other_names(const Parameter& parameter, const std::string& name, boo
 }  // namespace
 
 int Scope::node(const std::string& name, Spot spot) {
-  if (name == "ground") return -1;
+  if (name == "ground") return ground;
   const auto [found, is_new] = node_index.emplace(name, static_cast<int>(nodes.size()));
   if (is_new) nodes.push_back({name, spot});
   return found->second;
@@ -230,7 +223,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
     read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
   }
   // One that would move it is refused with the conflict.
-  if (plan.at && plan.nodes == std::vector<int>{-1} && !prescribes_motion(declaration))
+  if (plan.at && plan.nodes == std::vector<int>{Scope::ground} && !declaration.prescribes_motion())
     mistakes.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
                      "name another node, or leave it out");
 

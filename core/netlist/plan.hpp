@@ -42,7 +42,7 @@ struct Plan {
   std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
   Spot spot;           ///< of its name, or of its table
   const TomlValue* source = nullptr;
-  std::vector<int> nodes;  ///< `at`, `between`: indices into Scope::nodes, -1 for ground. Empty within a group
+  std::vector<int> nodes;  ///< `at`, `between`: indices into Scope::nodes, or Scope::ground. Empty within a group
   std::optional<Repeat> repeat;
 
   int declaration = 0;          ///< of an element
@@ -64,13 +64,14 @@ struct Scope {
     std::string name;
     Spot spot;
   };
+  static constexpr int ground = -1;  ///< stands for it among indices into `nodes`
   std::vector<Node> nodes;  ///< a model's ports come first
   std::unordered_map<std::string, int> node_index;
   std::vector<Plan> entries;
 
   std::unordered_map<std::string, std::size_t> entry_index;
 
-  /// Index of the node `name`, -1 for ground.
+  /// Index of the node `name`, or `ground`.
   int node(const std::string& name, Spot spot);
   /// The entry `name`, nullptr if there is none.
   const Plan* find(const std::string& name) const;

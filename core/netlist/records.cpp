@@ -217,7 +217,7 @@ void add_records(const std::vector<std::string>& paths, const std::set<std::stri
     sources.command_line.push_back(path);
     wanted.emplace_back();
     wanted.back().kind = TomlValue::Kind::string;
-    wanted.back().spot = {-1, static_cast<int>(sources.command_line.size()), 1};
+    wanted.back().spot = {Spot::command_line, static_cast<int>(sources.command_line.size()), 1};
     wanted.back().text = path;
   }
   for (auto& found : find_records(wanted, doubtful, context, scene))

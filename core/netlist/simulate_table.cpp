@@ -118,7 +118,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
 void override_accuracy(double accuracy, Context& context, Sources& sources, Scene& scene) {
   constexpr std::string_view option = "--accuracy ";
   sources.command_line.push_back(std::string(option) + number_text(accuracy));
-  const Spot spot{-1, static_cast<int>(sources.command_line.size()), 1 + static_cast<int>(option.size())};
+  const Spot spot{Spot::command_line, static_cast<int>(sources.command_line.size()), 1 + static_cast<int>(option.size())};
   if (check_accuracy(accuracy, spot, context.mistakes)) scene.accuracy = accuracy;
 }
 

@@ -7,27 +7,26 @@
 #include <map>
 #include <queue>
 
+#include "core/network/index.hpp"
+#include "core/network/listed.hpp"
+
 namespace rheonet {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 [[noreturn]] void report_undefined(const Network& network, const Structure& s, const std::vector<int>& lost) {
-  std::string names;
-  int count = 0;
+  std::vector<std::string> names;
   NodeId first = ground;
   for (int g : lost) {
     for (NodeId node : s.groups[at(g)].nodes) {
       if (first == ground || s.rank[at(node)] < s.rank[at(first)]) first = node;
-      if (++count <= 5) names += fmt::format("{}`{}`", names.empty() ? "" : ", ", network.node_name(node));
+      names.push_back(network.node_name(node));
     }
   }
-  if (count > 5) names += fmt::format(" and {} more", count - 5);
   throw SimulationError(network.spot_of_node(first), fmt::format(
       "nothing determines the motion of node{} {}: no mass there, and no element that resists motion leads from there to "
       "ground, to a mass or to a prescribed motion; add one, or a mass",
-      count > 1 ? "s" : "", names));
+      names.size() > 1 ? "s" : "", listed(names)));
 }
 
 /// An element whose force is constant at present: it leads somewhere, but holds nothing.

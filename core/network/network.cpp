@@ -141,7 +141,7 @@ std::string with_unit(const Scene& scene, double value, Quantity quantity) {
 bool prescribes_position(const SceneElement& motion) {
   const auto declaration = static_cast<std::size_t>(motion.declaration);
   const auto parameter = static_cast<std::size_t>(motion.signal_parameters.at(0));
-  return components()[declaration]->declaration.parameters[parameter].quantity == Quantity::position;
+  return components()[declaration]->declaration.parameters[parameter].prescribes(Quantity::position);
 }
 
 Network build_network(const Scene& scene) {

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// What touches a node.
 struct Touch {

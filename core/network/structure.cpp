@@ -7,14 +7,13 @@
 #include <numeric>
 
 #include "core/network/forest.hpp"
+#include "core/network/index.hpp"
 
 namespace rheonet {
 
 namespace {
 
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// Sticking sliders join their ends. A known node stands for what it is joined to, else a massive one.
 void join(const Network& network, const Modes& modes, Structure& s) {
   const std::size_t n = s.kind.size();

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The ends between which a record measures a displacement or a velocity.
 struct Ends { NodeId a, b; };

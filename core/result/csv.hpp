@@ -16,7 +16,8 @@ struct WriteError : SimulationError {
 };
 
 /// Writes rows, their numbers so that they read back as the same doubles. A row that comes more than a quarter of a second
-/// after the last writing is written at once with those before it; the last ones with `flush`, which the caller owes. Throws WriteError if that fails (disk full, pipe closed).
+/// after the last writing is written at once with those before it; the last ones with `flush`, which the caller owes.
+/// Throws WriteError if that fails (disk full, pipe closed).
 class CsvWriter {
  public:
   /// `what` is written, for messages: "the results". Without a file nothing is.

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Rounding of a force that is compared with its bound.
 constexpr double force_rounding = 1e-12;

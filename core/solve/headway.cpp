@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/listed.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -63,16 +65,14 @@ std::string Headway::describe(const Network& network, double t) const {
   const auto& elements = network.scene->elements;
   std::vector<int> busy = busiest();
   std::erase_if(busy, [&](int cause) { return static_cast<std::size_t>(cause) >= elements.size(); });
-  std::string names;
-  for (std::size_t k = 0; k < std::min(most, busy.size()); ++k) {
-    names += fmt::format("{}`{}`", k ? ", " : "", elements[static_cast<std::size_t>(busy[k])].name);
-  }
-  if (busy.size() > most) names += fmt::format(" and {} more", busy.size() - most);
+  std::vector<std::string> names;
+  for (int cause : busy) names.push_back(elements[static_cast<std::size_t>(cause)].name);
   const bool several = busy.size() > 1;
   return fmt::format(
       "element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a dashpot beside {}, a mass "
       "at {} ends or a looser accuracy would end it",
-      several ? "s" : "", names, several ? "" : "es", enough, t - since_, several ? "them" : "it", several ? "their" : "its");
+      several ? "s" : "", listed(names, most), several ? "" : "es", enough, t - since_, several ? "them" : "it",
+      several ? "their" : "its");
 }
 
 bool Headway::failing(double t, double within) {

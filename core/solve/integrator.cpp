@@ -14,11 +14,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));
@@ -159,6 +159,7 @@ struct Integrator::Implementation {
 
   /// What rounding leaves of the unknowns, as the norm of a change. (IDA holds the iterate in the vector that it returns.)
   double rounding(N_Vector weight) const {
+    // A change comes out of a residual and two triangular solutions, sums of some tens of rounded terms.
     constexpr double grains = 64;
     return grains * std::numeric_limits<double>::epsilon() * N_VWrmsNorm(ny, weight);
   }

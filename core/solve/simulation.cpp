@@ -8,10 +8,10 @@
 
 #include "core/dae/given_reversals.hpp"
 #include "core/dae/instant.hpp"
-#include "core/dae/rate_law.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
 #include "core/dae/time_grain.hpp"
+#include "core/network/index.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
@@ -20,8 +20,6 @@
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // The local error of a step against the global error promised. Errors add up: over 16 cycles of an undamped oscillator
 // by a factor of 100 to 900 (measured with IDA at order 5).
@@ -179,7 +177,8 @@ class Run {
 
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
-    const double until = std::min({drive_.next_break(), settings_.stop, given_reversals_.next(t, std::min(drive_.next_break(), settings_.stop))});
+    const double given = std::min(drive_.next_break(), settings_.stop);
+    const double until = std::min(given, given_reversals_.next(t, given));
     if (until - t <= time_grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
@@ -335,7 +334,8 @@ class Run {
     double h = std::min(until - t, 100 * ahead);
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
     const double omega = drive_.fastest();
-    const double turn = omega > 0 && system_->events.sticks() ? longest_angle / omega : std::numeric_limits<double>::infinity();
+    const bool turns = omega > 0 && system_->events.sticks();
+    const double turn = turns ? longest_angle / omega : std::numeric_limits<double>::infinity();
     system_->integrator.limit_step(std::min(turn, drive_.past().shortest()));
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }

@@ -4,14 +4,9 @@
 #include <limits>
 
 #include "core/dae/rate_law.hpp"
+#include "core/network/index.hpp"
 
 namespace rheonet {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   const Drive::Reach reach = coming_reach(drive, velocity);

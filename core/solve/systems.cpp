@@ -1,10 +1,10 @@
 #include "core/solve/systems.hpp"
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr std::size_t most_kept = 64;
 

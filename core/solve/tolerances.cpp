@@ -7,21 +7,22 @@
 #include <optional>
 
 #include "core/dae/rate_law.hpp"
+#include "core/network/index.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
 constexpr double floor_of_kind = 1e-4;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
-// Roundings of the time that a step may be off by without being rejected.
+// Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
+// prediction is made of are each rounded by one. (Fewer than in time_grain.hpp, within which two times are one: what
+// changes faster is to be seen.)
 constexpr double time_grains = 8;
-// Roundings of a deflection that a step may be off by, and of forces that balance.
+// Roundings of a deflection that a step may be off by (its sum of two), and of forces that balance (a sum of a few).
 constexpr double value_grains = 4;
 constexpr double force_grains = 16;
 // Small kinks one after the other, as a bundle of many pairs makes them, upset the error test more than the solution: their
@@ -143,7 +144,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
     double& largest = force[at(part_[n])];
     largest = std::max(largest, std::abs(view.applied[n]));
   }
-  settled_.assign(nodes, 0);
+  plain_rounding_.assign(nodes, 0);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const auto [sort, k] = quantity_[i];
     rounding_[i] = 0;
@@ -152,49 +153,53 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const double impedance = std::sqrt(stiffness[k] * structure.mass[k]) + damping[k];
       const std::size_t part = at(part_[k]);
       rounding_[i] = eps * (speed[part] + (impedance > 0 ? force[part] / impedance : 0));
-      settled_[part] = std::max(settled_[part], rounding_[i]);
+      plain_rounding_[part] = std::max(plain_rounding_[part], rounding_[i]);
     } else if (sort == Sort::deflection) {
       const Branch& b = structure.deflections[k];
       const bool alone = known(b.a) && known(b.b);
       const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
       if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / std::abs(df[k]);
-      drift_[i] = {eps * (alone ? speed_of(b) : speed[part]), dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
+      drift_[i] = {eps * (alone ? speed_of(b) : speed[part]),
+                   dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       const Branch& b = structure.rates[k];
       rounding_[i] = eps * force[at(part_[at(known(b.a) ? b.b : b.a)])];
     }
   }
-  restless_ = settled_;
-  find_grain(view, df, force);
-  find_wobble(view);
+  rounding_at_rest_ = plain_rounding_;
+  find_force_rounding(view, df, force);
+  find_rounding_now(view);
 }
 
 int Tolerances::part_of(const Branch& b) const {
   return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
 }
 
-/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, the
-/// more so at rest.
-void Tolerances::find_grain(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force) {
+/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, at
+/// rest the most.
+void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<double>& df,
+                                     const std::vector<double>& force) {
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
-  grain_ = force;
+  force_rounding_ = force;
   for (std::size_t j = 0; j < df.size(); ++j) {
-    double& largest = grain_[at(part_of(structure.deflections[j]))];
+    double& largest = force_rounding_[at(part_of(structure.deflections[j]))];
     largest = std::max(largest, std::abs(df[j] * view.p[j]));
   }
-  for (double& grain : grain_) grain *= eps;
+  for (double& rounding : force_rounding_) rounding *= eps;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
-    restless_[at(part)] = std::max(restless_[at(part)], law.velocity_at(i, grain_[at(part)]));
+    double& largest = rounding_at_rest_[at(part)];
+    largest = std::max(largest, law.velocity_at(i, force_rounding_[at(part)]));
   });
 }
 
-/// The same at present.
-void Tolerances::find_wobble(const Dae::View& view) {
-  wobble_ = settled_;
+/// What it is of the velocity at present.
+void Tolerances::find_rounding_now(const Dae::View& view) {
+  rounding_now_ = plain_rounding_;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
-    const double f = std::abs(view.rate_force[r]);
-    wobble_[at(part)] = std::max(wobble_[at(part)], law.velocity_at(i, f + grain_[at(part)]) - law.velocity_at(i, f));
+    const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
+    double& largest = rounding_now_[at(part)];
+    largest = std::max(largest, law.velocity_at(i, f + rounding) - law.velocity_at(i, f));
   });
 }
 
@@ -281,7 +286,7 @@ double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowanc
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
-  find_wobble(view);
+  find_rounding_now(view);
   watch_kinks(view);
   update(t, yp);
 }
@@ -347,9 +352,9 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       tolerance_[i] = std::max(tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q));
     }
     if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
-      tolerance_[i] = std::max(tolerance_[i], wobble_[at(part_[q.index])]);
+      tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);
     }
-    const Drift drift = q.sort == Sort::position ? Drift{wobble_[at(part_[q.index])]} : drift_[i];
+    const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
     tolerance_[i] = std::max(tolerance_[i], drift.velocity * std::min(t - begin_, drift.lasting));
     // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
     if (q.sort == Sort::deflection || q.sort == Sort::position) {
@@ -359,12 +364,14 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   }
   const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
   largest_velocity_ = velocity;
-  unresolved_velocity_ = std::max(relative_ * velocity, *std::max_element(restless_.begin(), restless_.end()));
+  const double rounding = *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end());
+  unresolved_velocity_ = std::max(relative_ * velocity, rounding);
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
   const auto noise = [&](bool given, double flow, const Branch& b) {
     const double unresolved =
         given ? given_noise * flow
-              : std::max(noise_share * relative_ * std::max(flow, floor_of_kind * velocity), restless_[at(part_of(b))]);
+              : std::max(noise_share * relative_ * std::max(flow, floor_of_kind * velocity),
+                         rounding_at_rest_[at(part_of(b))]);
     // More than nothing: an event function that begins at 0 would never be seen to fall through it.
     return std::max(unresolved, std::numeric_limits<double>::min());
   };

@@ -11,7 +11,8 @@ namespace rheonet {
 /// Absolute tolerances of all unknowns, from the scale of each: the largest magnitude that it has had in the run so far.
 ///
 /// A deflection is measured by the force that it makes: presliding of a nanometre is as much as sliding of a metre. No
-/// scale is below `floor` times the largest of its kind, so that what is yet to come need not be resolved in every digit.
+/// scale is below `floor_of_kind` times the largest of its kind, so that what is yet to come need not be resolved in
+/// every digit.
 class Tolerances {
  public:
   Tolerances(const Network& network, double relative);
@@ -57,8 +58,8 @@ class Tolerances {
   void find_parts();
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
-  void find_grain(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
-  void find_wobble(const Dae::View& view);
+  void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
+  void find_rounding_now(const Dae::View& view);
   /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
   template <class Visit>
   void for_each_dilatant(Visit visit) const;
@@ -81,10 +82,11 @@ class Tolerances {
   /// That of a velocity, and how long it adds up in what comes of it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
   std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
-  std::vector<double> settled_;                       ///< of each part: the largest of its velocities, power laws apart
-  std::vector<double> restless_;                      ///< the same with power laws at rest
-  std::vector<double> wobble_;                        ///< the same with power laws as they are at present
-  std::vector<double> grain_;                         ///< of each part: what rounding leaves of its forces [N]
+  // Of each part: what rounding leaves of its forces [N], and of its velocities [m/s].
+  std::vector<double> force_rounding_;
+  std::vector<double> plain_rounding_;    ///< but for dilatant laws
+  std::vector<double> rounding_at_rest_;  ///< with those at rest
+  std::vector<double> rounding_now_;      ///< with those as they are at present
   /// How far each bundle has yielded, and on which of its branches.
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;

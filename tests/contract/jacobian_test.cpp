@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
 #include "tests/contract/situation.hpp"
 #include "tests/support/probe.hpp"
 
 namespace rheonet::test {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Typical magnitude of each unknown.
 std::vector<double> scales(Probe& probe, Domain domain) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/index.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
 namespace rheonet::test {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// One node of each kind, groups of two, loops, laws of each role, forces and motions that vary.
 Scene everything() {

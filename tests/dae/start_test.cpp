@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/network/index.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 #include "tests/support/solid_friction.hpp"
@@ -14,8 +15,6 @@ namespace {
 
 constexpr double k = 137.3, k2 = 71.9, B = 2.71, B2 = 0.83, m = 0.47, dx = 0.0193, F = 3.7;
 constexpr double digits = 1e-12;
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Signal step(double height) { return Signal(Signal::Step{height, 0, 0}); }
 

@@ -1,3 +1,4 @@
+#include "core/network/index.hpp"
 #include "core/network/structure.hpp"
 
 #include <doctest/doctest.h>
@@ -14,8 +15,6 @@
 namespace rheonet::test {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Modes all_slip(const Network& network) {
   return {std::vector<signed char>(network.sliders.size(), Modes::forward)};

@@ -54,6 +54,17 @@ void check_at_all_accuracies(const std::string& toml, const Expectations& expect
   }
 }
 
+void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns) {
+  constexpr double closest = 1e-10;
+  INFO(toml);
+  const Trajectory run = simulate(toml, accuracy), closer = simulate(toml, closest);
+  for (const std::string& column : columns) {
+    std::size_t row = 0;
+    REQUIRE_EQ(run.time(), closer.time());
+    check_against(run, {column, [&](double) { return closer[column][row++]; }}, accuracy);
+  }
+}
+
 Exact from(double start, Exact after, double before) {
   return [=](double t) { return t < start ? before : after(t - start); };
 }

@@ -32,6 +32,10 @@ void check_against(const Trajectory& trajectory, const Expectation& expected, do
 /// Runs the netlist at each of `accuracies` and checks every expectation at each.
 void check_at_all_accuracies(const std::string& toml, const Expectations& expected);
 
+/// Where there is no closed form: runs the netlist at `accuracy` and much closer, and checks each of these columns, which do
+/// not jump, at every row: off by at most 10 accuracy max(abs(closer)).
+void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns);
+
 /// A function that begins at `start`; before it, the constant `before`.
 Exact from(double start, Exact after, double before = 0);
 

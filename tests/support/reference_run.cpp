@@ -4,11 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/network/index.hpp"
+
 namespace rheonet::test {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // A position step is a ramp of this part of the run, and "just after" an instant is as much later.
 constexpr double instant = 1e-7;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/network/index.hpp"
 #include "tests/support/reference_bundle.hpp"
 
 namespace rheonet::test {
@@ -55,7 +56,6 @@ class ReferenceNetwork {
   bool could_slip_on(const ReferenceNetwork& before) const;
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   double span(const Input& input) const { return before_ > 0 ? (before_ + input.h) / 2 : input.h; }
   bool minimise(const Input& input);
   bool minimise(const Input& input, double factor);

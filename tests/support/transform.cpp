@@ -5,12 +5,11 @@
 #include <cmath>
 
 #include "core/network/component.hpp"
+#include "core/network/index.hpp"
 
 namespace rheonet::test {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const Declaration& declared(const SceneElement& element) { return *declarations()[at(element.declaration)]; }
 

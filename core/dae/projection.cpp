@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/dae/consistency.hpp"
+#include "core/network/index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// The least share of the largest of its kind that counts.
+constexpr double share_of_kind = 1e-6;
+// Terms of an equation that cancel leave this share of their magnitudes.
+constexpr double balance_rounding = 1e-14;
+// What Newton's method may leave where it gets no further.
+constexpr double loose_balance = 1e-10;
+constexpr int most_whole_steps = 20;
+constexpr int most_idle = 3;  // of them in a row that do not halve what is left
+// With secants an unknown comes nearer by a power of what is left: slowly at first.
+constexpr int most_secant_steps = 300;
+constexpr int most_idle_secants = 40;
+// Of the velocities that there are: less is nothing.
+constexpr double velocity_rounding = 1e-14;
+// Damped steps. Each unknown against its own size: a change of this share is the rounding of some tens of terms.
+constexpr double change_rounding = 1e-14;
+// After a whole step, what is left of it would be lost in the last digits of the unknown.
+constexpr double last_digits = 1e-15;
+// Where no part of a step down to this one gains, none does: the slopes are rounding, or there is no solution.
+constexpr double least_damping = 1e-6;
+// Then a change this small is what such slopes leave.
+constexpr double loose_change = 1e-9;
+constexpr int most_damped_steps = 500;
+
+/// As long as it lives slopes are secants.
+struct Secants {
+  explicit Secants(Dae& d) : dae(d) { dae.use_secants(true); }
+  ~Secants() { dae.use_secants(false); }
+  Secants(const Secants&) = delete;
+  Secants& operator=(const Secants&) = delete;
+  Dae& dae;
+};
+
+}  // namespace
+
+/// Solves the algebraic equations for y; the integrals of the differential ones stay, M (y - before) = 0. Mostly the
+/// equations are as good as linear here, and whole steps of Newton's method reach the rounding of their terms at once. Else
+/// secants, where laws are infinitely steep or flat at rest; else damped steps.
+class Consistency::Projection {
+ public:
+  Projection(Consistency& consistency, double t, std::vector<double>& y)
+      : c_(consistency),
+        dae_(consistency.dae_),
+        t_(t),
+        y_(y),
+        n_(y.size()),
+        before_(y),
+        defect_(consistency.r0_),
+        magnitude_(consistency.r1_),
+        change_(n_),
+        trial_(n_),
+        next_(n_),
+        scale_(n_, 0) {
+    for (const double v : dae_.drive().velocity) known_velocity_ = std::max(known_velocity_, std::abs(v));
+    fastest_ = known_velocity_;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (c_.kind_[i] == velocity) fastest_ = std::max(fastest_, std::abs(y_[i]));
+    }
+  }
+
+  void solve() {
+    if (rests()) return;
+    if (whole_steps(most_whole_steps, most_idle)) return finish();
+    if (dae_.rough()) {
+      y_ = before_;
+      const Secants secants(dae_);
+      if (whole_steps(most_secant_steps, most_idle_secants)) return finish();
+    }
+    y_ = before_;
+    damped_steps();
+    finish();
+  }
+
+ private:
+  enum Kind : std::size_t { velocity, deflection, force, position, block_state };
+
+  bool differential(std::size_t i) const { return dae_.differential(static_cast<int>(i)); }
+
+  void find_defects(const std::vector<double>& y) {
+    dae_.residual(t_, y.data(), c_.zero_.data(), defect_.data());
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (differential(i)) defect_[i] = 0;
+    }
+    const Pattern& pattern = dae_.pattern();
+    for (std::size_t column = 0; column < n_; ++column) {
+      for (int e = pattern.column_start[column]; e < pattern.column_start[column + 1]; ++e) {
+        const int row = pattern.row[at(e)];
+        if (dae_.differential(row)) defect_[at(row)] += c_.values_[at(e)] * (y[column] - before_[column]);
+      }
+    }
+  }
+
+  /// Nothing is left of the equations but what rounding leaves.
+  bool within_rounding(const std::vector<double>& y) {
+    find_defects(y);
+    dae_.magnitudes(magnitude_.data());
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (!differential(i) && std::abs(defect_[i]) > balance_rounding * magnitude_[i]) return false;
+    }
+    return true;
+  }
+
+  /// Newton's step for what is left of the equations.
+  void find_change(std::vector<double>& change) const {
+    for (std::size_t i = 0; i < n_; ++i) change[i] = -defect_[i];
+    c_.elimination_.solve(change);
+  }
+
+  /// At rest nothing but rest solves the equations, and that exactly.
+  bool rests() {
+    trial_ = y_;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (!dae_.differentiated(static_cast<int>(i)) && c_.kind_[i] != deflection) trial_[i] = 0;
+    }
+    c_.factorise(t_, trial_);
+    find_defects(trial_);
+    if (!std::all_of(defect_.begin(), defect_.end(), [](double d) { return d == 0; })) return false;
+    y_ = trial_;
+    return true;
+  }
+
+  /// False if they do not get there.
+  bool whole_steps(int most, int patience) {
+    std::vector<double> best = y_;
+    double least = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    for (int iteration = 0; iteration < most; ++iteration) {
+      c_.factorise(t_, y_);
+      if (within_rounding(y_)) return true;
+      double error = 0;
+      for (std::size_t i = 0; i < n_; ++i) {
+        if (!differential(i) && defect_[i] != 0) error = std::max(error, std::abs(defect_[i]) / magnitude_[i]);
+      }
+      // One balance may have got so small that its own rounding shows, while another gains much.
+      idle = error < least / 2 ? 0 : idle + 1;
+      if (error < least) {
+        least = error;
+        best = y_;
+      }
+      if (idle == patience || !std::isfinite(error)) break;
+      find_change(change_);
+      for (std::size_t i = 0; i < n_; ++i) y_[i] += change_[i];
+    }
+    y_ = best;
+    return least <= loose_balance;
+  }
+
+  /// Newton's method, damped by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3),
+  /// which does not depend on the units of the equations.
+  void damped_steps() {
+    double damping = 1;
+    for (int iteration = 0; iteration < most_damped_steps; ++iteration) {
+      c_.factorise(t_, y_);
+      if (within_rounding(y_)) return;
+      find_change(change_);
+      find_scales();
+      const double size = norm(change_);
+      if (!std::isfinite(size)) c_.report_unsolved(t_);
+      if (size <= change_rounding) return;
+      for (;; damping /= 2) {
+        for (std::size_t i = 0; i < n_; ++i) trial_[i] = y_[i] + damping * change_[i];
+        if (within_rounding(trial_)) {
+          y_ = trial_;
+          return;
+        }
+        find_change(next_);
+        if (norm(next_) <= (1 - damping / 4) * size || norm(next_) <= change_rounding) break;
+        if (damping < least_damping) {
+          if (size <= loose_change || within_rounding(y_)) return;
+          c_.report_unsolved(t_);
+        }
+      }
+      y_ = trial_;
+      if (damping == 1 && norm(next_) <= last_digits) return;
+      damping = std::min(1.0, 2 * damping);
+    }
+    c_.report_unsolved(t_);
+  }
+
+  /// What is small beside others of its kind is not small by itself: it may be their rounding.
+  void find_scales() {
+    std::array<double, kinds> largest{};
+    largest[velocity] = known_velocity_;
+    // A deflection counts by the force that it makes.
+    double largest_force = 0;
+    for (double r : magnitude_) largest_force = std::max(largest_force, r);
+    const std::vector<double>& slope = dae_.slopes();
+    const auto size_of = [&](std::size_t i) {
+      if (c_.kind_[i] >= position) return std::max(std::abs(before_[i]), std::abs(y_[i]));
+      if (c_.kind_[i] != deflection) return std::max({scale_[i], std::abs(y_[i]), std::abs(change_[i])});
+      const double stiffness = std::abs(slope[at(c_.branch_[i])]);
+      return std::max(std::abs(before_[i]), stiffness > 0 ? share_of_kind * largest_force / stiffness : 0);
+    };
+    for (std::size_t i = 0; i < n_; ++i) largest[c_.kind_[i]] = std::max(largest[c_.kind_[i]], size_of(i));
+    for (std::size_t i = 0; i < n_; ++i) scale_[i] = std::max(size_of(i), share_of_kind * largest[c_.kind_[i]]);
+  }
+
+  double norm(const std::vector<double>& x) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (!std::isfinite(x[i])) return std::numeric_limits<double>::infinity();
+      if (scale_[i] > 0) largest = std::max(largest, std::abs(x[i]) / scale_[i]);
+    }
+    return largest;
+  }
+
+  void finish() {
+    // What is left of a velocity by rounding on the way there is nothing.
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (c_.kind_[i] == velocity && std::abs(y_[i]) <= velocity_rounding * fastest_) y_[i] = 0;
+    }
+    // Integrals that nothing moves stay as they were to the last digit.
+    trial_ = y_;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (c_.kind_[i] == deflection || c_.kind_[i] >= position) y_[i] = before_[i];
+    }
+    if (!within_rounding(y_)) y_ = trial_;
+  }
+
+  Consistency& c_;
+  Dae& dae_;
+  double t_;
+  std::vector<double>& y_;
+  std::size_t n_;
+  const std::vector<double> before_;
+  std::vector<double>& defect_;     ///< what is left of each equation
+  std::vector<double>& magnitude_;  ///< of the terms of each
+  std::vector<double> change_, trial_, next_;
+  std::vector<double> scale_;                  ///< of each unknown
+  double known_velocity_ = 0, fastest_ = 0;  ///< the latter at first, of all nodes
+};
+
+void Consistency::project(double t, std::vector<double>& y) { Projection(*this, t, y).solve(); }
+
+}  // namespace rheonet

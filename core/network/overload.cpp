@@ -1,0 +1,22 @@
+#include "core/network/overload.hpp"
+
+#include <fmt/format.h>
+
+#include "core/network/listed.hpp"
+
+namespace rheonet {
+
+void report_overload(const Network& network, double t, const std::vector<NodeId>& nodes,
+                     const std::vector<int>& elements) {
+  std::vector<std::string> node_names, element_names;
+  for (NodeId n : nodes) node_names.push_back(network.node_name(n));
+  for (int e : elements) element_names.push_back(network.scene->elements[static_cast<std::size_t>(e)].name);
+  const bool several = elements.size() > 1;
+  throw SimulationError(fmt::format(
+      "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass or a "
+      "dashpot, or apply less force",
+      at_time(*network.scene, t), nodes.size() > 1 ? "s" : "", listed(node_names),
+      elements.empty() ? "what is there" : listed(element_names), several ? "are" : "is", several ? "they" : "it"));
+}
+
+}  // namespace rheonet
