@@ -77,7 +77,7 @@ class ConvexNetwork {
   void stick_at_first();
   void merge();
   bool balanced(std::vector<double>& gradient) const;
-  bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d);
+  bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants);
   Outcome search(const std::vector<double>& d);
   bool release();
   bool run_away();

@@ -139,7 +139,14 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
       parts.join(b.a, b.b);
     }
   }
-  std::vector<double> left(u_.size(), 0), forces(left);
+  std::vector<double> left(u_.size(), 0), forces(left), flat(left);
+  for (const Branch& b : branches_) {
+    const std::size_t from = at(parts.find(b.a)), to = at(parts.find(b.b));
+    if (from == to) continue;
+    const double f = force(b, difference(b), b.side);
+    flat[from] += f;
+    flat[to] -= f;
+  }
   std::vector<char> held(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (fixed_[k] || inertia_[k] > 0) held[at(parts.find(static_cast<int>(k)))] = 1;
@@ -149,7 +156,9 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const std::size_t part = at(parts.find(static_cast<int>(k)));
-    if (!held[part] && std::abs(left[part]) > flat_share * forces[part]) runaways_.push_back(static_cast<int>(k));
+    // Too little force, and not too much: a step may have gone too far.
+    const bool too_little = left[part] * flat[part] <= 0;
+    if (!held[part] && too_little && std::abs(left[part]) > flat_share * forces[part]) runaways_.push_back(static_cast<int>(k));
   }
   return !runaways_.empty();
 }

@@ -19,6 +19,8 @@ constexpr double largest_doubt = 1e-3;
 // What sticks moves in the reference by as much as the force on it is not balanced, in parts of the largest value of its
 // kind. A record of which that is all has no scale of its own.
 constexpr double unstretched = 3e-8, nothing = 1e-4;
+// The same of velocities, which are that over a short step.
+constexpr double creeping = 2e-6;
 // m | m/s | N: where nothing moves at all, what is little in the scenes of the catalogue.
 constexpr double least = 0.1;
 
@@ -53,16 +55,17 @@ Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceS
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
     const ReferenceSolution::Column& column = reference.columns[k];
     const std::vector<double>& found = rows[scene.records[k].path];
-    const double most = largest[kind_of(scene.records[k])], scale = std::max(column.scale, nothing * most);
+    const std::size_t kind = kind_of(scene.records[k]);
+    const double most = largest[kind], left = (kind == 0 ? creeping : unstretched) * most, scale = std::max(column.scale, nothing * most);
     std::size_t here = 0;
     for (std::size_t i = 0; i < count; ++i) {
       ++all;
-      const double allowed = of_error * column.error[i] + of_accuracy * scene.accuracy * scale + unstretched * most;
+      const double allowed = of_error * column.error[i] + of_accuracy * scene.accuracy * scale + left;
       if (!(allowed <= largest_doubt * scale)) continue;
       ++here;
       const double off = std::abs(found[i] - column.value[i]), before = std::abs(found[i] - column.coarse[i]);
-      fine += std::pow(std::max(0.0, off - unstretched * most) / scale, 2);
-      coarse += std::pow(std::max(0.0, before - unstretched * most) / scale, 2);
+      fine += std::pow(std::max(0.0, off - left) / scale, 2);
+      coarse += std::pow(std::max(0.0, before - left) / scale, 2);
       const double part = allowed > 0 ? off / allowed : off > 0 ? HUGE_VAL : 0;
       if (part <= result.worst) continue;
       result.worst = part;

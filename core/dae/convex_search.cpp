@@ -1,0 +1,141 @@
+// Steps of Newton's method, and the way along them.
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/dae/convex.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// A law with a slope this much smaller than its other one is flat to that side.
+constexpr double negligible = 1e-6;
+// A search along a line. Where the step to the end of a jump is rounded, and its product: twice the half unit each.
+constexpr double break_rounding = 4e-16;
+// To this side of a jump: so much less than the step that leads to it, more than its rounding.
+constexpr double short_of_break = 1e-14;
+// Of the slope where the stretch begins: less of it at its end may be what cancelling terms leave.
+constexpr double slope_rounding = 1e-12;
+// Of the slope where the search begins: less is the minimum, as the next direction takes what is left.
+constexpr double flat_enough = 1e-10;
+constexpr int most_sections = 100;  // of a stretch; every third halves it: ten digits at least
+
+}  // namespace
+
+/// With `secants`, laws that have got flat count by their slopes from where they began, or to the other side.
+bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Branch& b : branches_) {
+    const int a = column_[at(cluster_[at(b.a)])], c = column_[at(cluster_[at(b.b)])];
+    if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
+    const double w = difference(b);
+    double s = slope(b, w);
+    if (secants) {
+      if (w != 0) s = std::max(s, std::abs(force(b, w, b.side) / w));
+      const double steeper = std::max(b.law.forward, b.law.backward);
+      if (s <= negligible * steeper) s = steeper;
+    }
+    if (a >= 0) entries.emplace_back(a, a, s);
+    if (c >= 0) entries.emplace_back(c, c, s);
+    if (a >= 0 && c >= 0) {
+      entries.emplace_back(a, c, -s);
+      entries.emplace_back(c, a, -s);
+    }
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const int column = column_[at(cluster_[k])];
+    if (column >= 0 && inertia_[k] > 0) entries.emplace_back(column, column, inertia_[k]);
+  }
+  Eigen::SparseMatrix<double> matrix(columns_, columns_);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+  if (factor.info() != Eigen::Success) return false;
+  const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), columns_);
+  const Eigen::VectorXd step = factor.solve(-g);
+  d.assign(u_.size(), 0);
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    const int column = column_[at(cluster_[k])];
+    if (column >= 0) d[k] = step[column];
+    if (!std::isfinite(d[k])) return false;
+  }
+  return true;
+}
+
+/// Derivative of the convex function along d, at x + step d and to the far side of jumps there.
+double ConvexNetwork::slope_along(const std::vector<double>& d, double step) const {
+  double sum = 0;
+  for (const Branch& b : branches_) {
+    const double dw = d[at(b.a)] - d[at(b.b)];
+    if (dw == 0) continue;
+    double w = difference(b) + step * dw;
+    // The breakpoint of this branch itself, but for rounding.
+    if (std::abs(w) <= break_rounding * std::abs(step * dw)) w = 0;
+    sum += force(b, w, dw > 0 ? 1 : -1) * dw;
+  }
+  for (std::size_t k = 0; k < u_.size(); ++k) {
+    if (d[k] != 0) sum += (inertia_[k] * (u_[k] + step * d[k]) - applied_[k]) * d[k];
+  }
+  return sum;
+}
+
+/// Goes along d to the minimum; a branch whose jump is that minimum sticks from there on.
+ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
+  struct Break { double step; int branch; };
+  std::vector<Break> breaks;
+  bool linear = true;  // and no kink on the way
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    const Branch& b = branches_[k];
+    const double w = difference(b), dw = d[at(b.a)] - d[at(b.b)];
+    linear = linear && !b.law.beyond && (b.law.forward == b.law.backward || w * (w + dw) > 0);
+    if (b.jumps && w * dw < 0) breaks.push_back({-w / dw, static_cast<int>(k)});
+  }
+  std::sort(breaks.begin(), breaks.end(), [](const Break& p, const Break& q) { return p.step < q.step; });
+  const auto first = std::partition_point(breaks.begin(), breaks.end(),
+                                          [&](const Break& p) { return slope_along(d, p.step) < 0; });
+  double low = first == breaks.begin() ? 0 : (first - 1)->step, high;
+  const auto move = [&](double step) {
+    for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += step * d[k];
+  };
+  if (linear && breaks.empty()) {
+    move(1);
+    ++full_steps_;
+    return Outcome::solved;
+  }
+  full_steps_ = 0;
+  if (first != breaks.end()) {
+    high = first->step;
+    // This side of the jump: the far side says nothing of the stretch.
+    const double before = slope_along(d, high * (1 - short_of_break));
+    if (before < 0 || high == low) {
+      move(high);
+      branches_[at(first->branch)].stuck = true;
+      return Outcome::solved;
+    }
+    high *= 1 - short_of_break;
+  } else {
+    for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
+      // The last digits of the whole step may be rounding.
+      if (high == 1 && slope_along(d, 1) > -slope_rounding * std::abs(slope_along(d, low))) break;
+      if (high > 1e200) return Outcome::unbounded;
+    }
+  }
+  // Within one stretch: exact at once where all is linear.
+  const double descent = -slope_along(d, 0);
+  double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
+  for (int k = 0; k < most_sections && slope_high > 0; ++k) {
+    const double secant = low + (high - low) * slope_low / (slope_low - slope_high);
+    step = k % 3 == 2 ? (low + high) / 2 : std::min(std::max(secant, low), high);
+    const double slope = slope_along(d, step);
+    if (std::abs(slope) <= flat_enough * descent || step == low || step == high) break;
+    (slope < 0 ? low : high) = step;
+    (slope < 0 ? slope_low : slope_high) = slope;
+  }
+  move(step);
+  for (Branch& b : branches_) {
+    if (const double w = difference(b); w != 0 && d[at(b.a)] != d[at(b.b)]) b.side = w > 0 ? 1 : -1;
+  }
+  return Outcome::solved;
+}
+
+}  // namespace rheonet
