@@ -53,7 +53,7 @@ class Run {
         systems_(network, classified_, drive_, needed, modes_, tolerances_),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
-        softening_(network) {
+        softening_(network, classified_) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
   }

@@ -4,9 +4,49 @@
 #include <limits>
 
 #include "core/dae/rate_law.hpp"
+#include "core/network/sets.hpp"
 #include "core/network/index.hpp"
 
 namespace rheonet {
+
+Softening::Softening(const Network& network, const Structure& classified)
+    : network_(network), least_velocity_(network.rates.size(), 0), stops_(network.rates.size(), 0) {
+  find_stops(classified);
+}
+
+void Softening::find_stops(const Structure& classified) {
+  const auto heavy = [&](NodeId n) { return classified.kind[at(n)] == Kind::known || classified.kind[at(n)] == Kind::massive; };
+  const auto for_each_pseudoplastic = [&](auto visit) {
+    for (const Laws<RateBatch>& laws : network_.rate_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const std::size_t r = at(laws.first) + i;
+        if (laws.batch->growth(i).exponent < 1) visit(r, network_.rates[r]);
+      }
+    }
+  };
+  // Chains of them through massless nodes.
+  Sets chains(classified.kind.size());
+  for_each_pseudoplastic([&](std::size_t, const Branch& b) {
+    if (!heavy(b.a) && !heavy(b.b)) chains.join(b.a, b.b);
+  });
+  struct Ends { int heavy = 0; bool mass = false; };
+  std::vector<Ends> ends(classified.kind.size());
+  const auto ends_of = [&](const Branch& b) {
+    Ends direct;
+    Ends& sum = heavy(b.a) && heavy(b.b) ? direct : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
+    for (const NodeId n : {b.a, b.b}) {
+      sum.heavy += heavy(n) ? 1 : 0;
+      sum.mass = sum.mass || classified.kind[at(n)] == Kind::massive;
+    }
+    return sum;
+  };
+  for_each_pseudoplastic([&](std::size_t, const Branch& b) { ends_of(b); });
+  for_each_pseudoplastic([&](std::size_t r, const Branch& b) {
+    const bool direct = heavy(b.a) && heavy(b.b);
+    const Ends found = direct ? ends_of(b) : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
+    stops_[r] = found.heavy > 1 && (found.mass || !direct);
+  });
+}
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   const Drive::Reach reach = coming_reach(drive, velocity);
@@ -23,7 +63,9 @@ void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
 void Softening::apply(double unresolved_velocity) const {
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      laws.batch->soften(i, std::max(unresolved_velocity, least_velocity_[at(laws.first) + i]));
+      const std::size_t r = at(laws.first) + i;
+      const bool told = laws.batch->growth(i).exponent < 1 && !stops_[r];
+      laws.batch->soften(i, told ? 0 : std::max(unresolved_velocity, least_velocity_[r]));
     }
   }
 }

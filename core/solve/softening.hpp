@@ -4,14 +4,15 @@
 
 #include "core/dae/drive.hpp"
 #include "core/network/network.hpp"
+#include "core/network/structure.hpp"
 
 namespace rheonet {
 
 /// About how far power laws are taken as linear around rest, where their slope would be 0 or infinite.
 class Softening {
  public:
-  /// The network must outlive this.
-  explicit Softening(const Network& network) : network_(network), least_velocity_(network.rates.size(), 0) {}
+  /// `classified` is the network's structure with every slider slipping. The network must outlive this.
+  Softening(const Network& network, const Structure& classified);
 
   /// At the start, with the velocities of all nodes. Dilatant laws that start from rest would let their ends go there:
   /// rounding of the velocities that the drive comes to gives them some slope.
@@ -21,7 +22,12 @@ class Softening {
 
  private:
   const Network& network_;
+  void find_stops(const Structure& classified);
   std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
+  /// Of each rate branch: it may bring a mass to rest, or it is one of several in series that do, or that begin at rest
+  /// together. Elsewhere what a pseudoplastic law carries is told by its neighbours, and its velocity follows from that down
+  /// to nothing.
+  std::vector<char> stops_;
 };
 
 }  // namespace rheonet
