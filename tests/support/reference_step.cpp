@@ -107,7 +107,8 @@ double ReferenceNetwork::tolerance(double size) const { return balanced * (size 
 
 double ReferenceNetwork::slope_along(const Input& input, const std::vector<double>& direction) {
   evaluate(input);
-  return std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
+  const double slope = std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
+  return std::isfinite(slope) ? slope : HUGE_VAL;  // beyond all numbers it is uphill
 }
 
 /// Goes along `direction` from the point last evaluated to where the slope of the convex function has all but vanished,
@@ -127,6 +128,7 @@ bool ReferenceNetwork::search(const Input& input, const std::vector<double>& dir
   const double first = std::inner_product(gradient_.begin(), gradient_.end(), direction.begin(), 0.0);
   if (first >= 0) return true;  // rounding: no way down any more
   double low = 0, high = 1, at_low = first, at_high = go(1);
+  while (at_high == HUGE_VAL && high > 1e-300) at_high = go(high *= 1e-4);
   const bool close = blurred(-first);
   while (close && high > 1e-60 && blurred(-first)) at_high = go(high /= 16);
   while (at_high < 0.5 * first) {
@@ -176,7 +178,10 @@ bool ReferenceNetwork::newton(const Input& input) {
     evaluate(input);
     // By the measure that held before: far away any force is small beside the rounding there.
     double left = 0;
-    for (std::size_t i = 0; i < n; ++i) left = std::max(left, std::abs(gradient_[i]) / tolerance(size[i]));
+    for (std::size_t i = 0; i < n; ++i) {
+      left = std::isfinite(gradient_[i]) ? std::max(left, std::abs(gradient_[i]) / tolerance(size[i])) : HUGE_VAL;
+      if (left == HUGE_VAL) break;
+    }
     if (!(left <= 0.5 * worst)) {
       x_ = from;
       gradient_ = slope;
