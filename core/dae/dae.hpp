@@ -65,6 +65,8 @@ class Dae {
   /// Sums of the magnitudes of the terms of each algebraic equation at the last `residual`, as far as they are forces and
   /// velocities: what is lost by rounding is a share of them.
   void magnitudes(double* r) const;
+  /// That share.
+  static constexpr double rounding_share = 1e-14;
   /// dF/dt at constant y for algebraic equations, 0 for differential ones. Call after `consistency_matrix`.
   void time_derivative(double* r) const;
 

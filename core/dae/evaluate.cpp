@@ -124,6 +124,20 @@ void Dae::magnitudes(double* r) const {
     add(structure_->rigid[at(f.a)], drive_->force[k]);
     if (f.b >= 0) add(structure_->rigid[at(f.b)], drive_->force[k]);
   }
+  // The velocity of a dilatant law changes without bound with what rounding leaves of its force, where that is near 0.
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t k = at(laws.first) + i;
+      if (if_[k] < 0 || laws.batch->growth(i).exponent <= 1) continue;
+      const Branch& b = structure_->rates[k];
+      double forces = 0;
+      for (const NodeId n : {b.a, b.b}) {
+        if (iv_[at(n)] >= 0) forces = std::max(forces, r[iv_[at(n)]]);
+      }
+      const double f = std::abs(rate_in_[k]), lost = rounding_share * forces;
+      r[if_[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / rounding_share;
+    }
+  }
   for (const Row& row : rows_) {
     for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
       r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);

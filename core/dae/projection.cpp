@@ -12,8 +12,6 @@ namespace {
 
 // The least share of the largest of its kind that counts.
 constexpr double share_of_kind = 1e-6;
-// Terms of an equation that cancel leave this share of their magnitudes.
-constexpr double balance_rounding = 1e-14;
 // What Newton's method may leave where it gets no further.
 constexpr double loose_balance = 1e-10;
 constexpr int most_whole_steps = 20;
@@ -106,7 +104,7 @@ class Consistency::Projection {
     find_defects(y);
     dae_.magnitudes(magnitude_.data());
     for (std::size_t i = 0; i < n_; ++i) {
-      if (!differential(i) && std::abs(defect_[i]) > balance_rounding * magnitude_[i]) return false;
+      if (!differential(i) && std::abs(defect_[i]) > Dae::rounding_share * magnitude_[i]) return false;
     }
     return true;
   }
