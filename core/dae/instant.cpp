@@ -49,13 +49,15 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
-  take_delayed_steps(t, state, change);
+  const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
+  // A force that comes through a delay is no step of the drive, which does no work then.
+  if (take_delayed_steps(t, state, change) && !driven) stepped = false;
   change.heat += halt(fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
     came_to_rest_[k] = Modes::stuck;
-    if (event && !stepped) came_to_rest_[k] = modes.slider[k];
+    if (event && !stepped_) came_to_rest_[k] = modes.slider[k];
     slipping_[k] = event ? 0 : modes.slider[k];
   }
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
@@ -75,17 +77,25 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   return change;
 }
 
-/// Steps that come through a delay stretch what feels them, all at once.
-void Instant::take_delayed_steps(double t, State& state, Change& change) {
+/// Steps that come through a delay stretch what feels them, all at once. Nothing moves at its ends then: what it stores
+/// more by that counts as given back, against what it has taken up at the step itself and has not stored (see jump).
+bool Instant::take_delayed_steps(double t, State& state, Change& change) {
   Past& past = drive_.past();
+  bool any = false;
   for (std::size_t k = 0; k < past.delayed().size(); ++k) {
     const int branch = past.delayed()[k].branch;
     const double step = past.take_steps(k, t);
     if (step == 0) continue;
     std::size_t i = 0;
-    change.heat += network_.batch_of(branch, i).jump(i, state.p[at(branch)], step);
-    state.p[at(branch)] += step;
+    DeflectionBatch& batch = network_.batch_of(branch, i);
+    double& p = state.p[at(branch)];
+    change.heat += batch.stored_energy(i, p);
+    batch.jump(i, p, step);
+    p += step;
+    change.heat -= batch.stored_energy(i, p);
+    any = true;
   }
+  return any;
 }
 
 void Instant::check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const {

@@ -57,7 +57,8 @@ class Instant {
   /// Takes the state there; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
-  void take_delayed_steps(double t, State& state, Change& change);
+  /// Whether there are any.
+  bool take_delayed_steps(double t, State& state, Change& change);
   double halt(const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,

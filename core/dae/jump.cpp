@@ -147,12 +147,16 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
 
   const auto moved = [&](NodeId node) { return problem.value(slot(speaker(node))); };
-  double stored = 0, work = 0, heat = 0;
+  double stored = 0, work = 0, heat = 0, delayed = 0, slope;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
       const double step = moved(network_.deflections[j].a) - moved(network_.deflections[j].b);
-      if (step == 0 || laws.batch->delay(i) > 0) continue;
+      if (step == 0) continue;
+      if (laws.batch->delay(i) > 0) {
+        delayed += laws.batch->force_along(i, state.p[j], 0, slope) * step;  // as it does not know of the step yet
+        continue;
+      }
       stored -= laws.batch->stored_energy(i, state.p[j]);
       heat += laws.batch->jump(i, state.p[j], step);
       state.p[j] += step;
@@ -172,7 +176,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
     work += drive_.force[k] * (moved(load.a) - (load.b < 0 ? 0 : moved(load.b)));
   }
   // A step of the drive does what work it takes; without one, what is lost becomes heat.
-  change.heat += stepped ? heat : std::max(0.0, work - stored);
+  change.heat += delayed + (stepped ? heat : std::max(0.0, work - stored - delayed));
   std::vector<double> distance(state.position.size());
   for (std::size_t n = 0; n < distance.size(); ++n) state.position[n] += distance[n] = moved(static_cast<NodeId>(n));
   drive_.past().moved(t, distance);

@@ -7,6 +7,7 @@
 
 #include "core/dae/pair_start.hpp"
 #include "core/dae/start_balance.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -71,6 +72,45 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
   }
 }
 
+double initial_velocity(const Network::Motion& motion) {
+  return motion.position ? motion.signal.piece(0).rate(0) : motion.signal.value(0);
+}
+
+[[noreturn]] void refuse_velocity(const Network& network, const SceneNode& node, const std::string& why) {
+  throw SimulationError(node.spot, fmt::format("node `{}` cannot start with velocity {}: {}", node.name,
+                                               with_unit(*network.scene, node.velocity, Quantity::velocity), why));
+}
+
+bool contradicts(const SceneNode& node, double velocity) {
+  return !std::isnan(node.velocity) && std::abs(node.velocity - velocity) > same_value * std::abs(velocity);
+}
+
+/// What rigid links join to a motion or to the ground has no velocity of its own.
+void refuse_velocities_against_links(const Network& network) {
+  struct Leader {
+    double velocity = 0;
+    std::string words;  ///< "" for none
+  };
+  Sets linked(network.nodes());
+  for (const Network::Slider& s : network.sliders) {
+    if (std::isinf(s.law.breakaway)) linked.join(s.branch.a, s.branch.b);
+  }
+  std::vector<Leader> leader(network.nodes());
+  const auto leader_of = [&](NodeId node) -> Leader& { return leader[static_cast<std::size_t>(linked.find(node))]; };
+  leader_of(ground) = {0, "the ground"};
+  for (const Network::Motion& m : network.motions) {
+    const double velocity = initial_velocity(m);
+    leader_of(m.node) = {velocity, fmt::format("node `{}`, which motion `{}` gives {}", network.node_name(m.node),
+                                               network.scene->elements[static_cast<std::size_t>(m.element)].name,
+                                               with_unit(*network.scene, velocity, Quantity::velocity))};
+  }
+  for (NodeId n = 1; static_cast<std::size_t>(n) < network.nodes(); ++n) {
+    const auto& [velocity, words] = leader_of(n);
+    if (!words.empty() && contradicts(network.node(n), velocity))
+      refuse_velocity(network, network.node(n), "rigid links join it to " + words + "; leave out its velocity, or a link");
+  }
+}
+
 }  // namespace
 
 Start start(const Network& network, const Structure& classified) {
@@ -89,7 +129,7 @@ Start start(const Network& network, const Structure& classified) {
     const std::size_t n = static_cast<std::size_t>(m.node);
     const SceneNode& node = network.node(m.node);
     const std::string& name = scene.elements[static_cast<std::size_t>(m.element)].name;
-    const double velocity = m.position ? m.signal.piece(0).rate(0) : m.signal.value(0);
+    const double velocity = initial_velocity(m);
     if (m.position) {
       const double before = m.signal.before(0), after = m.signal.value(0);
       const double tolerance = same_value * (std::abs(before) + std::abs(after));
@@ -103,15 +143,14 @@ Start start(const Network& network, const Structure& classified) {
       }
       x[n] = there_already ? after : before;
     }
-    if (!std::isnan(node.velocity) && std::abs(node.velocity - velocity) > same_value * std::abs(velocity)) {
-      throw SimulationError(
-          node.spot,
-          fmt::format("node `{}` cannot start with velocity {}: motion `{}` gives it {}; leave out one of them",
-                      node.name, with_unit(scene, node.velocity, Quantity::velocity), name,
-                      with_unit(scene, velocity, Quantity::velocity)));
+    if (contradicts(node, velocity)) {
+      refuse_velocity(network, node,
+                      fmt::format("motion `{}` gives it {}; leave out one of them", name,
+                                  with_unit(scene, velocity, Quantity::velocity)));
     }
     fixed[n] = 1;
   }
+  refuse_velocities_against_links(network);
   follow_displacements(network, x, fixed);
 
   Start result{.state = {}, .drive = Drive(network, classified, 0, x), .chosen = {}};

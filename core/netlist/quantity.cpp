@@ -65,15 +65,28 @@ Result quantity(const Leading& leading, std::string_view unit_text, const Enviro
   return error;
 }
 
-/// The hint for "1/3 m": an expression that would be one but for the unit at its end.
-std::string with_unit_at_end(std::string_view text, const Environment& environment) {
+/// Says of "1/3 m", an expression that would be one but for the unit at its end, and of "2N/m", a number without a space
+/// before its unit, what is wrong with them.
+void explain_unit(std::string_view text, const std::optional<Leading>& leading, const Environment& environment,
+                  TextError& error) {
+  const auto is_unit = [](std::string_view unit) {
+    return begins_unit(unit) && std::holds_alternative<Unit>(parse_unit(unit));
+  };
+  if (leading && is_unit(leading->rest)) {
+    error.hint = fmt::format("between a number and its unit stands a space: \"{} {}\"", leading->number, leading->rest);
+    // "2m" may be meant as 2*m where there is a parameter m.
+    if (!environment.find(leading->rest.substr(0, leading->rest.find_first_of(" */^()+-"))))
+      error.message = fmt::format("a space is missing between `{}` and its unit `{}`", leading->number, leading->rest);
+    return;
+  }
   const std::size_t space = text.find_last_of(" \t");
-  if (space == text.npos) return "";
-  const std::string_view unit = text.substr(space + 1);
-  const auto value = evaluate_expression(text.substr(0, space), environment);
+  if (space == text.npos || !is_unit(text.substr(space + 1))) return;
+  const std::string_view expression = text.substr(0, space), unit = text.substr(space + 1);
+  const auto value = evaluate_expression(expression, environment);
   const auto* number = std::get_if<Number>(&value);
-  if (!number || !number->plain || !begins_unit(unit) || !std::holds_alternative<Unit>(parse_unit(unit))) return "";
-  return fmt::format("a quantity is one number, a space and a unit: \"{:.15g} {}\"", number->value, unit);
+  if (!number || !number->plain) return;
+  error.message = fmt::format("`{}` is an expression, and no unit can follow that", expression);
+  error.hint = fmt::format("a quantity is one number, a space and a unit: \"{:.15g} {}\"", number->value, unit);
 }
 
 Result evaluate_trimmed(std::string_view text, const Environment& environment) {
@@ -99,13 +112,7 @@ Result evaluate_trimmed(std::string_view text, const Environment& environment) {
     }
   }
   Result result = evaluate_expression(text, environment);
-  if (auto* error = std::get_if<TextError>(&result)) {
-    std::string hint = with_unit_at_end(text, environment);
-    if (hint.empty() && leading && begins_unit(leading->rest) &&
-        std::holds_alternative<Unit>(parse_unit(leading->rest)))
-      hint = fmt::format("between a number and its unit stands a space: \"{} {}\"", leading->number, leading->rest);
-    if (!hint.empty()) error->hint = std::move(hint);
-  }
+  if (auto* error = std::get_if<TextError>(&result)) explain_unit(text, leading, environment, *error);
   return result;
 }
 

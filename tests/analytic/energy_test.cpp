@@ -1,5 +1,6 @@
 // The energy account of a run: what was supplied is stored or dissipated, and each is what the closed form says.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +95,28 @@ wired1 = { type = "spring", between = ["end", "mid"], stiffness = "k" }
 wired2 = { type = "dashpot", between = ["mid", "ground"], damping = "B" }
 )"),
                 exact);
+}
+
+TEST_CASE("Energy of a step that comes through a delay: work is done when an end moves, by the force then") {
+  constexpr double step = 0.037, begin = 0.1, delay = 0.11, width = 0.17, end = 0.3;
+  const auto force = [](double t) { return k * step * std::exp(-k / B * (t - begin - delay)); };
+  const double stored = 0.5 * force(end) * force(end) / k, work = -step * force(begin + width);
+  const auto vfm = [&](const char* node) {
+    return fmt::format("vfm = {{ type = \"vfm\", between = [\"{}\", \"ground\"], damping = \"B\", stiffness = \"k\", delay = {} }}\n",
+                       node, delay);
+  };
+  const auto drive = [&](const std::string& signal) {
+    return fmt::format("drive = {{ type = \"motion\", at = \"end\", position = {{ {} = {}, time = {} }} }}\n", signal, step, begin);
+  };
+  check_account(scene(drive("step") + vfm("end"), end), {0, stored, -stored});
+  // It goes back before that is felt.
+  check_account(scene(drive(fmt::format("width = {}, pulse", width)) + vfm("end"), end), {work, stored, work - stored});
+  // The node behind a spring jumps when the force comes.
+  const double of_spring = 0.5 * force(end) * force(end) / (0.7 * k);
+  check_account(scene(drive("step") + vfm("mid") +
+                          "spring = { type = \"spring\", between = [\"end\", \"mid\"], stiffness = \"0.7*k\" }\n",
+                      end),
+                {0, stored + of_spring, -stored - of_spring});
 }
 
 TEST_CASE("Energy of a mass on an undamped spring") {

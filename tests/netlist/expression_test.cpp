@@ -183,6 +183,10 @@ TEST_CASE("what is neither a quantity nor an expression is refused with a way ou
   CHECK(error.hint == "for a product with a parameter: `2*B`");
   CHECK(refusal("1/3 m", {}).hint == "a quantity is one number, a space and a unit: \"0.333333333333333 m\"");
   CHECK(refusal("1/3 m").hint == "a quantity is one number, a space and a unit: \"0.333333333333333 m\"");
+  CHECK(refusal("1/3 m").message == "`1/3` is an expression, and no unit can follow that");
+  CHECK(refusal("1/3 m").offset == 4);
+  CHECK(refusal("-2N/mm").message == "a space is missing between `-2` and its unit `N/mm`");
+  CHECK(refusal("-2N/mm").hint == "between a number and its unit stands a space: \"-2 N/mm\"");
   CHECK(refusal("2mm").hint == "between a number and its unit stands a space: \"2 mm\"");
   CHECK(refusal("2k").hint == "`2*k` for a parameter, `2 k` for a unit");
   CHECK(refusal("3 N*mx").offset == 4);

@@ -59,6 +59,29 @@ TEST_CASE("masses that a rigid link joins go on with their common momentum; what
   CHECK(notes_of(linked(v1, v1)).empty());
 }
 
+TEST_CASE("a velocity given to what rigid links join to a motion or to the ground is refused unless it is theirs") {
+  const auto refusal_of = [](bool driven, double given, bool heavy) {
+    SceneBuilder b;
+    if (driven) b.motion("drive", "a", "velocity", Signal(Signal::Constant{0.7}));
+    b.between("first", "slider", driven ? "a" : "ground", "b", {{"coulomb", INFINITY}, {"breakaway", INFINITY}});
+    b.between("second", "slider", "c", "b", {{"coulomb", INFINITY}, {"breakaway", INFINITY}});
+    if (heavy) b.at("m", "mass", "c", {{"mass", 1.3}});
+    b.between("k", "spring", "c", "ground", {{"stiffness", 71}});
+    b.start("c", 0, given);
+    return attempt(b.finish(1, 10, 1e-6)).refusal;
+  };
+  for (const bool heavy : {true, false}) {
+    CHECK_EQ(refusal_of(true, 0.6, heavy),
+             "node `c` cannot start with velocity 0.6 m/s: rigid links join it to node `a`, which motion `drive` gives 0.7 "
+             "m/s; leave out its velocity, or a link");
+    CHECK_EQ(refusal_of(true, 0.7, heavy), "");
+    CHECK_EQ(refusal_of(false, 0.6, heavy),
+             "node `c` cannot start with velocity 0.6 m/s: rigid links join it to the ground; leave out its velocity, or a "
+             "link");
+    CHECK_EQ(refusal_of(false, 0, heavy), "");
+  }
+}
+
 TEST_CASE("a rigid link takes a mass along with a step in position, and dashpots beyond it; the impulse is told") {
   constexpr double dx = 0.31, m2 = 1.7, B = 2.9;
   SceneBuilder b;

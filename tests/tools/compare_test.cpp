@@ -214,3 +214,32 @@ TEST_CASE("compare: a scene that cannot be simulated has status 1, and its place
   CHECK(contains(result.err, "bad.toml cannot be simulated"));
   CHECK_FALSE(folder.has("out.csv"));
 }
+
+TEST_CASE("compare: interrupted, it says so, leaves an earlier file alone and keeps the values that are done") {
+  const Folder folder(endless);
+  folder.write("out.csv", "earlier results\n");
+  for (const std::string signal : {"INT", "TERM"}) {
+    CAPTURE(signal);
+    const auto interrupted = [&](const std::string& words) {
+      return folder.shell("timeout --foreground --preserve-status -s " + signal +
+                              " 1 rheonet compare scene.toml scene.toml " + words, 1);
+    };
+    const Finished once = interrupted("-o out.csv");
+    CHECK(once.out == "");
+    CHECK(contains(once.err, "error: interrupted at t = "));
+    CHECK(contains(once.err, "\n  scene.toml was being simulated\n  no row was written to `out.csv`\n"));
+    CHECK(folder.read("out.csv") == "earlier results\n");
+    interrupted("-o new.csv");
+    CHECK_FALSE(folder.has("new.csv"));
+
+    const Finished varied = interrupted("-o table.csv --within 0 --vary simulate.stop=1,2,9e6");
+    CHECK(contains(varied.err, "\n  scene.toml with simulate.stop=9e6 was being simulated\n"));
+    CHECK(contains(varied.err, "the 2 values up to there are in `table.csv`\n"));
+    CHECK(line_of(varied.out, "2").size() > 1);
+    CHECK_FALSE(contains(varied.out, "within 0"));
+    const std::string table = folder.read("table.csv");
+    CHECK(contains(table, "\n1,0,"));
+    CHECK(contains(table, "\n2,0,"));
+    CHECK_FALSE(contains(table, "9e6"));
+  }
+}

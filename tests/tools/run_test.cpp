@@ -199,6 +199,21 @@ TEST_CASE("a full disk and a reader that goes away stop the run") {
   CHECK(folder.shell("rheonet run short.toml -o /dev/full").status == 1);
 }
 
+TEST_CASE("what a full disk cuts off ends with a whole row, and its rows are those that are told") {
+  const Folder folder(endless);
+  // A limit on the size of files ends a write in the middle, as a full disk does.
+  for (const std::string output : {"-o out.csv", "-q > out.csv"}) {
+    CAPTURE(output);
+    const Finished full = folder.shell("ulimit -f 70; timeout 60 rheonet run scene.toml " + output, 1);
+    const std::string rows = folder.read("out.csv");
+    CHECK(contains(full.err, "File too large"));
+    CHECK(rows.size() > 64 * 1024);
+    CHECK(rows.size() < 70 * 1024);
+    CHECK(rows.ends_with("\n"));
+    CHECK(contains(full.err, "the " + std::to_string(lines(rows) - 1) + " rows up to there are in"));
+  }
+}
+
 TEST_CASE("an interrupted run keeps its rows and says so") {
   const Folder folder(endless);
   for (const std::string signal : {"INT", "TERM"}) {

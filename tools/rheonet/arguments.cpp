@@ -43,7 +43,8 @@ constexpr const char* of_compare =
     "scene, up to the end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with it\n"
     "-o writes the table instead of the rows.\n\n"
     "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
-    "the output not be written; 2 a scene or the command line is wrong.";
+    "the comparison was interrupted (the values of RANGE up to there are kept), or the output not be written;\n"
+    "2 a scene or the command line is wrong.";
 
 constexpr const char* of_plot =
     "For instance:\n"

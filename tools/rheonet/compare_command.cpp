@@ -7,6 +7,7 @@
 #include "core/netlist/characters.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/compare_report.hpp"
+#include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
@@ -87,14 +88,14 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
 }
 
 /// Runs the scenes and takes the differences.
-void run_all(Compared& compared, const std::string& override) {
+void run_all(Compared& compared, const std::string& override, const std::atomic<bool>& interrupted) {
   for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
     try {
-      compared.courses.push_back(run_to_memory(compared.scenes[i]));
+      compared.courses.push_back(run_to_memory(compared.scenes[i], interrupted));
     } catch (const SimulationError& error) {
       report(error, compared.sources[i]);
-      say("  {}{}{} cannot be simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ",
-          printable(override));
+      say("  {}{}{}{} simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ", printable(override),
+          interrupted ? " was being" : " cannot be");
       throw Ended{not_simulated};
     }
   }
@@ -116,12 +117,53 @@ void look(const Compared& compared, const std::string& value, Furthest& furthest
     }
 }
 
-void write(Output& output, const std::string& text) {
+/// `row`: what a line of it is called.
+void write(Output& output, const std::string& text, const char* row) {
   std::fwrite(text.data(), 1, text.size(), output.file());
   if (const int error = output.close(); error != 0) {
-    say("error: cannot write to {}: {}\n", output.name(), std::strerror(error));
+    say("error: cannot write to {}: {}\n{}", output.name(), std::strerror(error), output.kept(row));
     throw Ended{not_simulated};
   }
+}
+
+/// What there is to say and to write.
+struct Findings {
+  std::string text, data;
+  Furthest furthest;
+  std::optional<Ended> ended;  ///< before the last value of a variation
+};
+
+Findings compare_once(Compared compared, const std::atomic<bool>& interrupted) {
+  Findings found;
+  run_all(compared, "", interrupted);
+  look(compared, "", found.furthest);
+  found.text = describe(compared);
+  found.data = overlay(compared);
+  return found;
+}
+
+/// `compared` are the scenes with the first value. Where one cannot be simulated the values before it are kept.
+Findings compare_over(const Variation& variation, Compared compared, const Arguments& arguments,
+                      const std::atomic<bool>& interrupted) {
+  Findings found;
+  std::vector<Varied> rows;
+  for (const std::string& value : variation.values) {
+    const std::string override = variation.path + '=' + value;
+    if (!rows.empty()) compared = read_all(arguments, override);
+    try {
+      run_all(compared, override, interrupted);
+    } catch (const Ended& ended) {
+      if (rows.empty()) throw;
+      found.ended = ended;
+      break;
+    }
+    look(compared, value, found.furthest);
+    rows.push_back({value, compared.differences, {}});
+    for (const Course& course : compared.courses) rows.back().dissipated.push_back(course.summary.dissipated);
+  }
+  found.text = describe(variation.path, rows, compared);
+  found.data = table(variation.path, rows, compared);
+  return found;
 }
 
 ExitStatus compare(const Arguments& arguments) {
@@ -139,31 +181,26 @@ ExitStatus compare(const Arguments& arguments) {
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
 
-  Furthest furthest;
-  std::string text, data;
-  if (!variation) {
-    run_all(compared, "");
-    look(compared, "", furthest);
-    text = describe(compared);
-    if (output) data = overlay(compared);
-  } else {
-    std::vector<Varied> rows;
-    for (const std::string& value : variation->values) {
-      const std::string override = variation->path + '=' + value;
-      if (!rows.empty()) compared = read_all(arguments, override);
-      run_all(compared, override);
-      look(compared, value, furthest);
-      rows.push_back({value, compared.differences, {}});
-      for (const Course& course : compared.courses) rows.back().dissipated.push_back(course.summary.dissipated);
-    }
-    text = describe(variation->path, rows, compared);
-    if (output) data = table(variation->path, rows, compared);
+  const std::atomic<bool>& interrupted = end_on_signals();
+  const char* const row = variation ? "value" : "row";
+  Findings found;
+  try {
+    found = variation ? compare_over(*variation, std::move(compared), arguments, interrupted)
+                      : compare_once(std::move(compared), interrupted);
+  } catch (const Ended&) {
+    if (output) say("{}", output->kept(row));
+    throw;
   }
-  if (arguments.within) text += '\n' + verdict(*arguments.within, furthest, variation ? variation->path : "");
+  const bool judged = arguments.within && !found.ended;
+  if (judged) found.text += '\n' + verdict(*arguments.within, found.furthest, variation ? variation->path : "");
   // Data on standard output are for a program to read: the report is then a message beside them.
-  arguments.overlay == "-" ? say("{}", text) : fmt::print("{}", text);
-  if (output) write(*output, data);
-  return !arguments.within || furthest.difference.relative() <= *arguments.within ? done : not_as_claimed;
+  arguments.overlay == "-" ? say("{}", found.text) : fmt::print("{}", found.text);
+  if (output) write(*output, found.data, row);
+  if (found.ended) {
+    if (output) say("{}", output->kept(row));
+    return found.ended->status;
+  }
+  return !judged || found.furthest.difference.relative() <= *arguments.within ? done : not_as_claimed;
 }
 
 }  // namespace

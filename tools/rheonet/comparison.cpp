@@ -56,12 +56,13 @@ std::vector<Pairing> shared_records(const Scene& first, const std::vector<Column
   return pairings;
 }
 
-Course run_to_memory(const Scene& scene) {
+Course run_to_memory(const Scene& scene, const std::atomic<bool>& interrupted) {
   Course course;
-  course.summary = run(scene, {.row = [&course](double time, const std::vector<double>& values) {
-                         course.times.push_back(time);
-                         course.rows.push_back(values);
-                       }});
+  const auto keep = [&course](double time, const std::vector<double>& values) {
+    course.times.push_back(time);
+    course.rows.push_back(values);
+  };
+  course.summary = run(scene, {.row = keep, .interrupt = &interrupted});
   return course;
 }
 

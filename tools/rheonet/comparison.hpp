@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -44,8 +45,8 @@ Columns columns_of(const Scene& scene);
 /// The paths that all scenes record, in the order of the first; `columns` are those of each.
 std::vector<Pairing> shared_records(const Scene& first, const std::vector<Columns>& columns);
 
-/// Simulates. Throws SimulationError.
-Course run_to_memory(const Scene& scene);
+/// Simulates. Throws SimulationError, also when `interrupted` becomes true.
+Course run_to_memory(const Scene& scene, const std::atomic<bool>& interrupted);
 
 Difference difference(const Course& first, std::size_t first_column, const Course& second, std::size_t second_column);
 

@@ -9,6 +9,7 @@
 #include "core/network/component.hpp"
 #include "tools/rheonet/arguments.hpp"
 #include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace {
@@ -38,6 +39,7 @@ ExitStatus carry_out(const Arguments& arguments) {
 }  // namespace
 
 int main(int count, char** words) {
+  fail_writes_with_errors();
   try {
     const std::variant<Arguments, ExitStatus> read = read_arguments({words + 1, words + count});
     if (const ExitStatus* status = std::get_if<ExitStatus>(&read)) return *status;

@@ -1,11 +1,13 @@
 #include "tools/rheonet/output.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
@@ -40,6 +42,12 @@ Output::~Output() { close(); }
 
 bool Output::is_terminal() const { return ::isatty(descriptor_) != 0; }
 
+std::string Output::kept(const char* row) const {
+  if (rows() == 0) return fmt::format("  no {} was written to {}\n", row, name_);
+  if (rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, name_);
+  return fmt::format("  the {} {}s up to there are in {}\n", rows(), row, name_);
+}
+
 long Output::write(const char* text, std::size_t size) {
   if (error_ != 0) return 0;
   if (!touched_) {
@@ -60,7 +68,19 @@ long Output::write(const char* text, std::size_t size) {
     }
   }
   lines_ += std::count(text, text + written, '\n');
+  const std::size_t whole = std::string_view(text, written).rfind('\n') + 1;  // 0 for none
+  begun_ = whole > 0 ? written - whole : begun_ + written;
+  if (error_ != 0) drop_begun_row();
   return static_cast<long>(written);
+}
+
+// Half a number reads as another one.
+void Output::drop_begun_row() {
+  struct stat status {};
+  if (begun_ == 0 || ::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
+  const off_t whole = ::lseek(descriptor_, 0, SEEK_CUR) - static_cast<off_t>(begun_);
+  if (::ftruncate(descriptor_, whole) == 0) ::lseek(descriptor_, whole, SEEK_SET);
+  begun_ = 0;
 }
 
 int Output::close() {

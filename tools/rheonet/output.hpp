@@ -8,7 +8,7 @@ namespace rheonet::tool {
 
 /// Where the rows of a run go. Nothing of an existing file is lost before the first row comes, so a scene that cannot
 /// be started leaves earlier results alone. It counts the rows,
-/// and remembers why a write failed (disk full, reader gone).
+/// and remembers why a write failed (disk full, reader gone); a file ends with a whole row also then.
 class Output {
  public:
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
@@ -21,12 +21,15 @@ class Output {
   bool is_terminal() const;
   const std::string& name() const { return name_; }          ///< for messages: "`out.csv`"
   long rows() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< written so far, without the header
+  /// What of a task that ended early is in it, in words: "  the 3 rows up to there are in `out.csv`\n".
+  std::string kept(const char* row) const;
 
   /// Closes. The error of this or any earlier write (errno), 0 if all is written.
   int close();
 
  private:
   long write(const char* text, std::size_t size);
+  void drop_begun_row();
 
   std::string path_;
   std::string name_;
@@ -34,6 +37,7 @@ class Output {
   int descriptor_ = -1;
   int error_ = 0;
   long lines_ = 0;
+  std::size_t begun_ = 0;  ///< bytes written since the last whole row
   bool created_ = false;
   bool touched_ = false;
 };

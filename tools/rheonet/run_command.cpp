@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
@@ -14,6 +13,7 @@
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/figure_file.hpp"
+#include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
@@ -24,20 +24,6 @@ namespace rheonet::tool {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::atomic<bool> stop = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
-
-// The first signal asks the run to end; the handler is then gone, so that a second one ends the process.
-void stop_on_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stop = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-  // A reader that goes away is then an error of write, with a message, instead of a silent death.
-  std::signal(SIGPIPE, SIG_IGN);
-}
 
 // Two streams into one file would overwrite each other.
 bool same_file(const std::string& path, const std::string& other) {
@@ -61,17 +47,11 @@ bool write_to_one_file(const Arguments& arguments) {
   return false;
 }
 
-std::string kept(const Output& output, const char* row) {
-  if (output.rows() == 0) return fmt::format("  no {} was written to {}\n", row, output.name());
-  if (output.rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, output.name());
-  return fmt::format("  the {} {}s up to there are in {}\n", output.rows(), row, output.name());
-}
-
 /// Where a run writes to.
 struct Outputs {
   std::unique_ptr<Output> rows, events;  ///< events: nullptr if nobody asks for them
 
-  std::string kept() const { return tool::kept(*rows, "row") + (events ? tool::kept(*events, "event") : ""); }
+  std::string kept() const { return rows->kept("row") + (events ? events->kept("event") : ""); }
 
   /// Closes both; false, and an error message, if not all is written.
   bool close() const {
@@ -93,7 +73,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources))
     return wrong_input;
 
-  stop_on_signals();
+  const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
   outputs.rows = open_output(arguments.output);
   if (!outputs.rows) return wrong_input;
@@ -116,7 +96,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     const Summary summary = run(*read.scene, {.csv = outputs.rows->file(),
                                               .events = outputs.events ? outputs.events->file() : nullptr,
                                               .row = on_row,
-                                              .interrupt = &stop,
+                                              .interrupt = &interrupted,
                                               .progress = on_progress});
     progress.erase();
     if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
