@@ -170,6 +170,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   for (int k : let_slip(problem, deflection_branch, slider_branch, bound_side, at_rest, fired, modes, change)) {
     if (bound(at(k), modes.slider[at(k)]) > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
   }
+  rest_beside_sliders(fired, state, modes);
   return broken;
 }
 
@@ -234,6 +235,22 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
         laws.batch->set_direction(i, state.p[at(j)], w, direction);
       }
     }
+  }
+}
+
+/// What was about to start beside a slider that sticks rests after all.
+void Instant::rest_beside_sliders(const Fired& fired, const State& state, const Modes& modes) const {
+  if (fired.starts.empty()) return;
+  Sets together(structure_.kind.size());
+  for (std::size_t k = 0; k < modes.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (modes.slider[k] == Modes::stuck) together.join(b.a, b.b);
+  }
+  for (const int j : fired.starts) {
+    const Branch& b = network_.deflections[at(j)];
+    if (together.find(b.a) != together.find(b.b)) continue;
+    std::size_t i = 0;
+    network_.batch_of(j, i).set_direction(i, state.p[at(j)], 0, 0);
   }
 }
 
