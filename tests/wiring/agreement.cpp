@@ -60,8 +60,9 @@ Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceS
     std::size_t here = 0;
     for (std::size_t i = 0; i < count; ++i) {
       ++all;
-      const double allowed = of_error * column.error[i] + of_accuracy * scene.accuracy * scale + left;
-      if (!(allowed <= largest_doubt * scale)) continue;
+      const double doubt = of_error * column.error[i] + of_accuracy * scene.accuracy * scale + unstretched * most;
+      if (!(doubt <= largest_doubt * scale)) continue;
+      const double allowed = std::max(doubt, left);
       ++here;
       const double off = std::abs(found[i] - column.value[i]), before = std::abs(found[i] - column.coarse[i]);
       fine += std::pow(std::max(0.0, off - left) / scale, 2);
