@@ -16,6 +16,8 @@ namespace {
 
 // A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
 constexpr double floor_of_kind = 1e-4;
+// The least deflection that counts, of the way that nodes go.
+constexpr double least_share_of_way = 1e-12;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
@@ -240,7 +242,7 @@ bool Tolerances::blind() const {
 
 void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                          const std::vector<double>& ypp) {
-  if (std::isnan(begin_)) begin_ = t;
+  if (std::isnan(begin_)) begin_ = reached_ = t;
   // What was foreseen a moment ago, before an event perhaps, still holds.
   if (t > forget_) forget();
   if (ahead > 0) {
@@ -286,6 +288,10 @@ double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowanc
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
+  double fastest = 0;
+  for (const double v : view.velocity) fastest = std::max(fastest, std::abs(v));
+  way_ += fastest * (t - reached_);
+  reached_ = t;
   find_rounding_now(view);
   watch_kinks(view);
   update(t, yp);
@@ -342,6 +348,8 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       const double own = std::max(force_seen_[j], stiffness * foreseen_of(quantity_[i]));
       const double by_force = std::max(own, floor_of_kind * force);
       if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
+      // What is this much less than what the nodes move has no force but by rounding: the end of a branch hangs free, say.
+      scale = std::max(scale, least_share_of_way * way_);
     }
     if (scale == 0) {
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);

@@ -68,6 +68,8 @@ class Tolerances {
   Dae* dae_ = nullptr;
   double relative_;
   double begin_ = not_given;  ///< of the run [s]
+  double reached_ = 0;        ///< the end of the last step [s]
+  double way_ = 0;            ///< of the fastest node at each time [m]
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown

@@ -73,8 +73,8 @@ TEST_CASE("what is wrong with a network has its place in the netlist, and what w
   const std::string inertia = "m = { type = \"mass\", at = \"a\", mass = 1 }\n";
   struct Case { std::string elements, start; };
   const Case cases[] = {
-      {spring + "d = { type = \"motion\", at = \"ground\", velocity = 1 }\n",
-       "scene.toml:3:1: error: motion `d` moves `ground`, which never moves; prescribe another node\n"},
+      {spring + inertia + "d = { type = \"motion\", at = \"ground\", velocity = 1 }\n",
+       "scene.toml:4:1: error: motion `d` moves `ground`, which never moves; prescribe another node\n"},
       {spring + inertia + "k2 = { type = \"spring\", between = [\"b\", \"c\"], stiffness = 3 }\n",
        "scene.toml:4:36: error: nothing determines the motion of nodes `b`, `c`: "},
       {spring + inertia + "push = { type = \"force\", at = \"b\", force = 1 }\n",
@@ -98,6 +98,29 @@ TEST_CASE("what is wrong with a network has its place in the netlist, and what w
     CHECK(contains(result.err, "| "));  // the line itself
     CHECK(contains(folder.shell("rheonet run scene.toml").err, start));
   }
+}
+
+TEST_CASE("a node at which a single element ends is told, with the name that may be meant") {
+  const Folder folder;
+  const auto warnings = [&](const std::string& from, const std::string& to) {
+    folder.write("scene.toml", "[elements]\nm = { type = \"mass\", at = \"seat\", mass = 1 }\n"
+                               "k = { type = \"spring\", between = [\"" + from + "\", \"" + to + "\"], stiffness = 3 }\n"
+                               "c = { type = \"dashpot\", between = [\"seat\", \"ground\"], damping = 2 }\n"
+                               "[simulate]\nstop = 1\n");
+    const Finished result = folder.shell("rheonet run scene.toml -q -o rows.csv");
+    CHECK(result.status == 0);
+    return result.err;
+  };
+  CHECK(warnings("seat", "ground") == "");
+  CHECK(warnings("sat", "ground") == R"(scene.toml:3:35: warning: nothing but `k` is at node `sat`: it carries no force
+    3 | k = { type = "spring", between = ["sat", "ground"], stiffness = 3 }
+      |                                   ^
+  did you mean `seat`?
+)");
+  CHECK(warnings("seat", "elsewhere") == R"(scene.toml:3:43: warning: nothing but `k` is at node `elsewhere`: it carries no force
+    3 | k = { type = "spring", between = ["seat", "elsewhere"], stiffness = 3 }
+      |                                           ^
+)");
 }
 
 TEST_CASE("check -v lists what was not given and had to be chosen") {

@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
+#include "core/netlist/loose_nodes.hpp"
 #include "core/network/component.hpp"
 #include "tools/rheonet/library.hpp"
 #include "tools/rheonet/say.hpp"
@@ -16,6 +17,10 @@ ReadOptions options_of(const Arguments& arguments) {
 
 ReadResult read_and_report(const std::string& scene, const ReadOptions& options) {
   ReadResult result = read_scene(scene, declarations(), options);
+  if (result.scene) {
+    const std::vector<Diagnostic> loose = loose_nodes(*result.scene);
+    result.diagnostics.insert(result.diagnostics.end(), loose.begin(), loose.end());
+  }
   int errors = 0;
   for (const Diagnostic& diagnostic : result.diagnostics) {
     std::string text = format(diagnostic, result.sources);
