@@ -138,10 +138,12 @@ void ReferenceLaw::accept(double step, double force, double h) {
   const int sign = step > 0 ? 1 : step < 0 ? -1 : 0;
   if (type_ == Type::slider) slip_ = sign;
   // What moves by no more than rounding has not turned; a slider that sticks does not move at all.
-  const bool moves = type_ == Type::slider || step == 0 || stiffness_ * std::abs(step) > 1e-10 * coulomb_;
+  const auto tells = [&](double way) { return type_ == Type::slider || stiffness_ * std::abs(way) > 1e-10 * coulomb_; };
+  const bool moves = step == 0 || tells(step);
   const int direction = moves ? sign : piece_.direction;
-  const double velocity = step / h, change = (velocity - velocity_) * h / (h + h_);
-  const bool turning = moves && direction != 0 && direction == piece_.direction && direction * (velocity + change) < 0;
+  const double velocity = step / h, leaving = velocity + (velocity - velocity_) * h / (h + h_);
+  // A step with its turn in the middle ends near where it began, but not at rest.
+  const bool turning = direction != 0 && direction == piece_.direction && direction * leaving < 0 && (moves || tells(leaving * h));
   piece_ = {direction, turning ? -direction : direction, type_ != Type::slider && std::abs(force) >= coulomb_};
   velocity_ = velocity;
   h_ = h;

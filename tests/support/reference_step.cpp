@@ -136,11 +136,14 @@ bool ReferenceNetwork::search(const Input& input, const std::vector<double>& dir
     if (close || (high *= 4) > 1e12) return false;
     at_high = go(high);
   }
-  for (int iteration = 0; iteration < 100 && at_high > -0.5 * first; ++iteration) {
+  // The function is convex: beyond its lowest point only these bounds on it tell that it is lower there than at the start,
+  // and without that two points may lead to each other for ever.
+  const auto lower = [&](double t, double slope) { return slope <= 0 || at_low * low + slope * (t - low) < 0; };
+  for (int iteration = 0; iteration < 100 && !(at_high <= -0.5 * first && lower(high, at_high)); ++iteration) {
     // Regula falsi, kept off the ends.
     const double share = std::clamp(at_low / (at_low - at_high), 0.05, 0.95), middle = low + share * (high - low);
     const double value = go(middle);
-    if (std::abs(value) <= -0.5 * first) return true;
+    if (std::abs(value) <= -0.5 * first && lower(middle, value)) return true;
     if (high - low <= 1e-15 * high) return true;
     (value < 0 ? low : high) = middle;
     (value < 0 ? at_low : at_high) = value;
@@ -177,12 +180,13 @@ bool ReferenceNetwork::newton(const Input& input) {
     for (std::size_t i = 0; i < n; ++i) x_[at(node_of_[i])] += direction[i];
     evaluate(input);
     // By the measure that held before: far away any force is small beside the rounding there.
-    double left = 0;
+    double left = 0, uphill = 0;
     for (std::size_t i = 0; i < n; ++i) {
+      uphill += (gradient_[i] + 0.5 * slope[i]) * direction[i] - tolerance(size[i]) * std::abs(direction[i]);
       left = std::isfinite(gradient_[i]) ? std::max(left, std::abs(gradient_[i]) / tolerance(size[i])) : HUGE_VAL;
       if (left == HUGE_VAL) break;
     }
-    if (!(left <= 0.5 * worst)) {
+    if (!(left <= 0.5 * worst && uphill <= 0)) {
       x_ = from;
       gradient_ = slope;
       if (!search(input, direction)) return false;
