@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dae/past.hpp"
+#include "core/network/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
@@ -91,7 +92,6 @@ class BlockSignals {
 
  private:
   struct Stretch { double t; Piece piece; bool by_position; double anchor; };
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   static const Stretch* current(const std::deque<Stretch>& stretches, double t);
   void refuse_loops(const Network& network, const Structure& classified) const;
   void check_sensors(const Network& network, const Structure& classified) const;

@@ -4,6 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 /// A network of set-valued monotone laws, and the values x of its nodes at which everything balances:
@@ -64,7 +66,6 @@ class ConvexNetwork {
     bool apart = false;  ///< before the last step
     int side = 1;  ///< where it is free and w is 0
   };
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   double difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }

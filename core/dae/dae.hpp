@@ -7,6 +7,7 @@
 #include "core/dae/drive.hpp"
 #include "core/dae/matrix.hpp"
 #include "core/dae/state.hpp"
+#include "core/network/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
@@ -141,7 +142,6 @@ class Dae {
   double applied_force(int index) const { return drive_->force[at(index)]; }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   enum class Source : char { force, creep, rate };
   struct Scatter { int entry; Source source; int index; double sign; };
   /// A loop or a position: terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_, and

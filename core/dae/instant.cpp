@@ -23,8 +23,6 @@ constexpr double link_rounding = 1e-9;
 // Jumps in a row that refine each other.
 constexpr int most_jumps = 3;
 
-bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
-
 }  // namespace
 
 Instant::Instant(const Network& network, const Structure& classified, Drive& drive)

@@ -6,13 +6,12 @@
 
 #include "core/dae/instant.hpp"
 #include "core/dae/rate_law.hpp"
+#include "core/network/index.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Forces that balance but for this share of their magnitudes balance.
 constexpr double balance_rounding = 1e-12;
@@ -26,8 +25,6 @@ constexpr double difference_limit = 1e-6;
 // this share of the others.
 constexpr double rigid_ratio = 1e12;
 constexpr double rigid_share = 1e-6;
-
-bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
 }  // namespace
 
@@ -46,6 +43,13 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   const std::vector<double> velocity = drive_.velocity, load = drive_.force, load_rate = drive_.force_rate;
   for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = velocity[m];
   const Nodal now = nodal(state, force, true);
+  // What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
+  // within h.
+  for (const int j : fired.turns) {
+    if (!may_stand(j)) continue;
+    const Branch& b = network_.deflections[at(j)];
+    massless(b.a) ? state.velocity[at(b.a)] = state.velocity[at(b.b)] : state.velocity[at(b.b)] = state.velocity[at(b.a)];
+  }
   for (std::size_t n = 0; n < nodes; ++n) {
     const int node = slot(static_cast<NodeId>(n));
     problem.start(node, state.velocity[n]);

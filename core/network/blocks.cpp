@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/network/index.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 class Finder {
  public:

@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "core/network/index.hpp"
+
 namespace rheonet {
 
 namespace {
 
 using Figure = Claim::Figure;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Lobatto's rule on [-1, 1], exact to degree 5.
 const double inner = 1 / std::sqrt(5.0);

@@ -100,6 +100,17 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   for (std::size_t k = 0; k < limit_margin_.size(); ++k) limit_margin_[k] = margin(at_begin_[first + k]);
 }
 
+std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::vector<double>& y,
+                                                         const std::vector<double>& yp) {
+  const Dae::View& view = resolved(t, y.data(), yp.data());
+  std::vector<Turned> laws;
+  for (const Watched& law : watched_) {
+    const double against = -law.batch->direction(law.i) * view.flow[at(law.branch)];
+    if (!law.batch->holds(law.i) && against > 0) laws.push_back({law.branch, against});
+  }
+  return laws;
+}
+
 bool NetworkEvents::sticks() const {
   return !limit_margin_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
@@ -156,7 +167,8 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
   return first;
 }
 
-void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {
+/// The state as the events see it.
+const Dae::View& NetworkEvents::resolved(double t, const double* y, const double* yp) {
   // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of the
   // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
   // The same of a velocity that goes like a power of time: no polynomial follows it.
@@ -170,7 +182,11 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
     } catch (const SimulationError&) {  // the step itself will tell
     }
   }
-  const Dae::View& view = dae_.view(t, y, yp);
+  return dae_.view(t, y, yp);
+}
+
+void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {
+  const Dae::View& view = resolved(t, y, yp);
   const double* margin = law_margin_.data();
   for (const Watched& w : watched_) {
     const std::size_t j = at(w.branch);

@@ -26,6 +26,10 @@ class NetworkEvents final : public EventFunctions {
   /// SimulationError where it is not.
   void begin(double t, const double* y, const double* yp);
 
+  /// A law that moves against its direction, at this speed [m/s].
+  struct Turned { int branch; double speed; };
+  std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
+
   /// Sliders stick here that may break away, or blocks limit what they take in.
   bool sticks() const;
   /// A force may go beyond a bound and come back within one step: the first such instant in the last step, and the event
@@ -45,6 +49,7 @@ class NetworkEvents final : public EventFunctions {
     std::size_t i;
     int branch;
   };
+  const Dae::View& resolved(double t, const double* y, const double* yp);
   void all_at_time(const Integrator& integrator, double t, std::vector<double>& g);
   double at_time(const Integrator& integrator, double t, std::size_t sudden);
   double slider_function(int slider, const Dae::View& view) const;

@@ -12,6 +12,7 @@
 #include "core/dae/steady.hpp"
 #include "core/dae/time_grain.hpp"
 #include "core/network/index.hpp"
+#include "core/solve/fired.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
@@ -251,40 +252,10 @@ class Run {
     y_ = system_->integrator.y();
     yp_ = system_->integrator.yp();
     leave(t);
-    Dae& dae = system_->dae;
-    const Dae::View view = dae.view(t, y_.data(), yp_.data());
-    const std::vector<int> fired = system_->integrator.events();
-    std::vector<int> switched, limits;
-    fired_.clear();
-    Instant::Fired sudden;
-    for (std::size_t k = 0; k < fired.size(); ++k) {
-      if (fired[k] == 0) continue;
-      const auto [branch, which] = system_->events[k];
-      if (which < 0) {
-        (which == NetworkEvents::of_slider ? sudden.sliders : limits).push_back(branch);
-        fired_.push_back(system_->events.element(k));
-        continue;
-      }
-      // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
-      if (std::find(switched.begin(), switched.end(), branch) != switched.end()) continue;
-      std::size_t i = 0;
-      DeflectionBatch& batch = dae.batch_of(branch, i);
-      const bool held = batch.holds(i);
-      const int direction = batch.direction(i);
-      switched.push_back(branch);
-      fired_.push_back(system_->events.element(k));
-      batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
-      if (!held && batch.direction(i) == -direction) sudden.turns.push_back(branch);
-      if (held) {
-        const std::vector<int> released = dae.release_parallel(branch, view.flow[at(branch)]);
-        switched.insert(switched.end(), released.begin(), released.end());
-        std::vector<int>& list = batch.direction(i) == 0 ? sudden.rests : sudden.starts;
-        list.push_back(branch);
-        list.insert(list.end(), released.begin(), released.end());
-      }
-    }
-    drive_.blocks().fire(limits);
-    cross(t, false, sudden);
+    Fired fired = take_events(*system_, t, y_, yp_);
+    fired_ = std::move(fired.elements);
+    drive_.blocks().fire(fired.limits);
+    cross(t, false, fired.sudden);
   }
 
   void soften_laws() {

@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::array<const char*, 5> verdict_names = {"agrees", "refused", "open", "undecided", "wrong"};
 
-// A scene takes a fraction of a second; the slowest, a few.
-constexpr int most_seconds = 60;
-
 // As a process sends it: numbers, then the text.
 std::string packed(const Judgement& j, double seconds) {
   return fmt::format("{} {:.17g} {:.17g} {} {:.3f} {}", static_cast<int>(j.verdict), j.deviation, j.judged,
@@ -52,7 +49,6 @@ Tally judge_all(const std::vector<int>& numbers, int jobs, const Judge& judge, s
   };
   Apart apart;
   apart.jobs = jobs;
-  apart.seconds = most_seconds;
   apart.work = [&](int number) {
     const Judgement j = judge(catalogue()[static_cast<std::size_t>(number)]);
     return packed(j, double(std::clock()) / CLOCKS_PER_SEC);

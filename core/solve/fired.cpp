@@ -1,0 +1,76 @@
+#include "core/solve/fired.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/network/index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// What moves at this share of the speed of what has just turned has turned too.
+constexpr double as_surely = 0.5;
+
+/// What may be kept together with a branch by what rests between them: the event of the first must not leave the others
+/// behind. Those not `switched` that move against their direction as fast as the slowest of `turns`.
+std::vector<int> turning_along(const std::vector<NetworkEvents::Turned>& all, const std::vector<int>& switched,
+                               const std::vector<int>& turns) {
+  double speed = std::numeric_limits<double>::infinity();
+  for (const NetworkEvents::Turned& law : all) {
+    if (contains(turns, law.branch)) speed = std::min(speed, law.speed);
+  }
+  std::vector<int> along;
+  for (const NetworkEvents::Turned& law : all) {
+    if (law.speed >= as_surely * speed && !contains(switched, law.branch)) along.push_back(law.branch);
+  }
+  return along;
+}
+
+}  // namespace
+
+Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
+  Dae& dae = system.dae;
+  // As the events saw it: what is switched changes the velocities.
+  const std::vector<NetworkEvents::Turned> turned = system.events.turned(t, y, yp);
+  const Dae::View view = dae.view(t, y.data(), yp.data());
+  const std::vector<int>& events = system.integrator.events();
+  Fired fired;
+  std::vector<int> switched;
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    if (events[k] == 0) continue;
+    const auto [branch, which] = system.events[k];
+    if (which < 0) {
+      (which == NetworkEvents::of_slider ? fired.sudden.sliders : fired.limits).push_back(branch);
+      fired.elements.push_back(system.events.element(k));
+      continue;
+    }
+    // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
+    if (contains(switched, branch)) continue;
+    std::size_t i = 0;
+    DeflectionBatch& batch = dae.batch_of(branch, i);
+    const bool held = batch.holds(i);
+    const int direction = batch.direction(i);
+    switched.push_back(branch);
+    fired.elements.push_back(system.events.element(k));
+    batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
+    if (!held && batch.direction(i) == -direction) fired.sudden.turns.push_back(branch);
+    if (held) {
+      const std::vector<int> released = dae.release_parallel(branch, view.flow[at(branch)]);
+      switched.insert(switched.end(), released.begin(), released.end());
+      std::vector<int>& list = batch.direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
+      list.push_back(branch);
+      list.insert(list.end(), released.begin(), released.end());
+    }
+  }
+  for (const int branch : turning_along(turned, switched, fired.sudden.turns)) {
+    std::size_t i = 0;
+    DeflectionBatch& batch = dae.batch_of(branch, i);
+    batch.set_direction(i, view.p[at(branch)], view.flow[at(branch)], -batch.direction(i));
+    fired.sudden.turns.push_back(branch);
+    fired.elements.push_back(dae.network().deflections[at(branch)].element);
+  }
+  return fired;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,58 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet;
+
+// `e5` and `e8` go between the same two points while `e9` rests. Each had a reversal of its own, and the first to turn was
+// turned back by the second, without end.
+TEST_CASE("laws that friction at rest keeps together turn together") {
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(accuracy);
+    const Scene scene = test::scene_of(R"([elements]
+drive = { type = "force", at = "end", force = { cosine = 1.0656, frequency = 2.1173 } }
+e1 = { type = "cfm", between = ["n3", "n4"], stiffness = 16.94, damping = 1.136, coulomb = 0.4656, exponent = 2 }
+e3 = { type = "spring", between = ["n2", "n4"], stiffness = 44.09 }
+e4 = { type = "vfm", between = ["n2", "n1"], stiffness = 33.5, damping = 1.457 }
+e5 = { type = "sfm", between = ["n1", "n3"], stiffness = 12.62, coulomb = 0.442, exponent = 1.5 }
+e6 = { type = "sfm", between = ["ground", "n2"], stiffness = 51.86, coulomb = 0.6967, exponent = 0 }
+e7 = { type = "cfm", between = ["end", "ground"], stiffness = 21.29, damping = 2.907, coulomb = 2.389, exponent = 1.5 }
+e8 = { type = "sfm", between = ["n3", "end"], stiffness = 7.151, coulomb = 1.526, exponent = 0.5 }
+e9 = { type = "cfm", between = ["n1", "end"], stiffness = 26.73, damping = 2.445, coulomb = 0.4044, exponent = 0.5 }
+[simulate]
+stop = 1.005
+output = { points = 61 }
+)",
+                                       accuracy);
+    Summary summary;
+    test::simulate(scene, &summary);
+    CHECK(summary.events < 100);
+    CHECK(std::abs(summary.missing) <= 10 * accuracy * summary.largest);
+  }
+}
+
+// What was left of the velocity at the event, within its margin, outweighed all that a pseudoplastic dashpot lets change in
+// a moment: instead of resting the friction turned to and fro thousands of times.
+TEST_CASE("friction rests beside a pseudoplastic dashpot") {
+  for (const double n : {0.7, 0.8, 1.0}) {
+    CAPTURE(n);
+    const Scene scene = test::scene_of(R"([elements]
+drive = { type = "force", at = "end", force = { table = [[0, -0.5277], [0.1222, 0.815], [0.3385, -1.4187], [0.5819, -0.486]] } }
+e1 = { type = "dashpot", between = ["end", "ground"], damping = 0.695, flow_index = )" + std::to_string(n) + R"( }
+e2 = { type = "sfm", between = ["ground", "end"], stiffness = 9.615, coulomb = 0.8038, exponent = 1.5 }
+e3 = { type = "cfm", between = ["ground", "end"], stiffness = 11.53, damping = 1.375, coulomb = 0.4831, exponent = 0.5 }
+[simulate]
+stop = 0.58
+output = { points = 581 }
+)",
+                                       1e-6);
+    Summary summary;
+    const test::Trajectory run = test::simulate(scene, &summary);
+    CHECK(summary.events < 20);
+    const auto& v = run["end.velocity"];
+    CHECK(std::count(v.begin(), v.end(), 0.0) >= 5);
+  }
+}
