@@ -63,6 +63,14 @@ class Instant {
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
+  /// The convex problem that decides, and what it is made from.
+  struct Onset;
+  void stop_at_turns(const Fired& fired, State& state) const;
+  void add_nodes(Onset& onset, const State& state) const;
+  void add_drive(Onset& onset);
+  void add_deflection_laws(Onset& onset, const State& state) const;
+  void add_rate_laws(Onset& onset, const State& state) const;
+  void add_sliders(Onset& onset) const;
   static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest);
   /// Sliders that slip no way: what stands beside them takes up all that they cannot.

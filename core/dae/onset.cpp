@@ -35,125 +35,43 @@ constexpr double rigid_share = 1e-6;
 //
 // Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level at which the velocity of
 // each slider lives.
+struct Instant::Onset {
+  double t, h;
+  const Fired& fired;
+  const Modes& modes;
+  const std::vector<double>& force;  // of the sliders
+  Nodal now;                         // forces and their rounding
+  ConvexNetwork problem;
+  std::vector<double> slope_around;  // of each node that can move, of what is neither a slider nor a power law
+  std::vector<int> law;              // of each deflection branch, in the problem; -1: a load, which has no direction to choose
+  std::vector<double> creep, at_rest;  // of each deflection branch
+  std::vector<int> slider, bound_side;
+
+  void meet(const Structure& structure, const Branch& b, double slope) {
+    for (const NodeId n : {b.a, b.b}) {
+      if (structure.kind[at(n)] != Kind::known) slope_around[at(n)] = std::max(slope_around[at(n)], slope);
+    }
+  }
+};
+
 std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& state, Modes& modes,
                                 std::vector<double>& force, Change& change) {
   const std::size_t nodes = structure_.kind.size();
-  ConvexNetwork problem(static_cast<int>(nodes));
   drive_.sense(t, state);
-  const std::vector<double> velocity = drive_.velocity, load = drive_.force, load_rate = drive_.force_rate;
-  for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = velocity[m];
-  const Nodal now = nodal(state, force, true);
-  // What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
-  // within h.
-  for (const int j : fired.turns) {
-    if (!may_stand(j)) continue;
-    const Branch& b = network_.deflections[at(j)];
-    massless(b.a) ? state.velocity[at(b.a)] = state.velocity[at(b.b)] : state.velocity[at(b.b)] = state.velocity[at(b.a)];
-  }
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const int node = slot(static_cast<NodeId>(n));
-    problem.start(node, state.velocity[n]);
-    if (structure_.kind[n] == Kind::massive) problem.set_inertia(node, structure_.mass[n] / h);
-    if (std::abs(now.sum[n]) > balance_rounding * now.magnitude[n]) problem.load(node, -now.sum[n]);
-  }
-  problem.fix(slot(ground), 0);
-  drive_.evaluate(t + h);
-  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
-    // A difference of two near velocities says nothing. The acceleration is that of the end, as of everything else here:
-    // how it changes may be all that changes the force of a slider that sticks.
-    problem.fix(slot(network_.motions[m].node), h * drive_.acceleration[m]);
-  }
-  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
-    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
-                                      ? load_rate[k] * h
-                                      : drive_.force[k] - load[k];
-    problem.load(slot(network_.forces[k].a), change_of_load);
-    if (network_.forces[k].b >= 0) problem.load(slot(network_.forces[k].b), -change_of_load);
-  }
-  drive_.evaluate(t);
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = drive_.velocity[m];
+  Onset onset{.t = t, .h = h, .fired = fired, .modes = modes, .force = force, .now = nodal(state, force, true),
+              .problem = ConvexNetwork(static_cast<int>(nodes)), .slope_around = std::vector<double>(nodes, 0),
+              .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
+              .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
+              .bound_side = std::vector<int>(network_.sliders.size())};
+  stop_at_turns(fired, state);
+  add_nodes(onset, state);
+  add_drive(onset);
+  add_deflection_laws(onset, state);
+  add_rate_laws(onset, state);
+  add_sliders(onset);
 
-  std::vector<double> f(state.p.size()), c(f), at_rest(f);
-  std::vector<double> slope_around(nodes, 0);  // of each node that can move, of what is neither a slider nor a power law
-  const auto meet = [&](const Branch& b, double slope) {
-    for (const NodeId n : {b.a, b.b}) {
-      if (structure_.kind[at(n)] != Kind::known) slope_around[at(n)] = std::max(slope_around[at(n)], slope);
-    }
-  };
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (structure_.kind[n] == Kind::massive) slope_around[n] = structure_.mass[n] / h;
-  }
-  std::vector<int> deflection_branch(state.p.size(), -1);  // -1: a load, which has no direction to choose
-  std::vector<int> slider_branch(network_.sliders.size()), bound_side(slider_branch);
-  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-    const std::size_t k = at(laws.first);
-    laws.batch->evaluate(&state.p[k], &f[k], &c[k]);
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network_.deflections[k + i];
-      if (laws.batch->delay(i) > 0) continue;  // a load: see below
-      double forward = h * laws.batch->slope(i, state.p[k + i], 1);
-      double backward = h * laws.batch->slope(i, state.p[k + i], -1);
-      // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
-      // look at both sides.
-      if (contains(fired.starts, static_cast<int>(k + i)) || reversed(fired, static_cast<int>(k + i))) {
-        (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
-      }
-      at_rest[k + i] = -h * laws.batch->slope(i, state.p[k + i], 0) * c[k + i];
-      meet(b, std::max(forward, backward));
-      double high = -forward * c[k + i], low = std::min(high, -backward * c[k + i]);
-      // What has stopped does not go on as before: again the event knows better.
-      if (contains(fired.turns, static_cast<int>(k + i)) && may_stand(static_cast<int>(k + i))) {
-        (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
-      }
-      ConvexNetwork::Law law{.low = low, .high = high, .backward = backward, .forward = forward};
-      if (const double slope = h * laws.batch->release_slope(i, state.p[k + i]); slope > 0) law = released(law, slope, c[k + i]);
-      deflection_branch[k + i] = problem.add(slot(b.a), slot(b.b), law);
-    }
-  }
-  // What feels velocities later is a load that changes as it will, whatever moves now.
-  for (std::size_t d = 0; d < drive_.felt.size(); ++d) {
-    const Past::Delayed& delayed = drive_.past().delayed()[d];
-    const double df = h * delayed_slope(delayed.branch, state) * (drive_.felt[d] - c[at(delayed.branch)]);
-    problem.load(slot(delayed.a), -df);
-    problem.load(slot(delayed.b), df);
-  }
-  const double largest = *std::max_element(now.magnitude.begin(), now.magnitude.end());
-  const Drive::Reach reach = coming_reach(drive_, state.velocity);
-  const auto scale = [&](const RateBatch& batch, std::size_t i) {
-    return largest > 0 ? largest : coming_force(batch, i, reach);
-  };
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const double impulse = laws.batch->impulse(i);
-      if (impulse > 0 && std::isfinite(impulse)) meet(network_.rates[at(laws.first) + i], impulse);
-    }
-  }
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network_.rates[at(laws.first) + i];
-      const double around = std::max(slope_around[at(b.a)], slope_around[at(b.b)]);
-      const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
-      const double force_scale = scale(*laws.batch, i), least_force = rigid_share * force_scale;
-      const double steepest = around > 0 ? std::max(rigid_ratio * around, least_force / laws.batch->velocity_at(i, least_force))
-                                         : std::numeric_limits<double>::infinity();
-      problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, w, force_scale, steepest));
-    }
-  }
-  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
-    const Branch& b = network_.sliders[k].branch;
-    ConvexNetwork::Law law{.low = -bound(k, -1) - force[k], .high = bound(k, 1) - force[k]};
-    // At its bound the rate alone decides, not the rounding of the event.
-    const double limit = bound(k, force[k] > 0 ? 1 : -1);
-    const bool at_bound = std::abs(std::abs(force[k]) - limit) <= balance_rounding * limit;
-    if (modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || contains(fired.sliders, static_cast<int>(k)))) {
-      (force[k] > 0 ? law.high : law.low) = 0;
-    } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
-      // How the velocity of a massless node goes on this first-order look does not see: the event knows better.
-      (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
-    }
-    slider_branch[k] = problem.add(slot(b.a), slot(b.b), law);
-    bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
-  }
-
+  ConvexNetwork& problem = onset.problem;
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
     throw SimulationError(fmt::format(
@@ -163,19 +81,143 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
-  take_directions(problem, deflection_branch, fired, state, change);
+  take_directions(problem, onset.law, fired, state, change);
   std::vector<int> broken;
-  for (std::size_t k = 0; k < slider_branch.size(); ++k) {
-    const int direction = problem.direction(slider_branch[k]);
+  for (std::size_t k = 0; k < onset.slider.size(); ++k) {
+    const int direction = problem.direction(onset.slider[k]);
     modes.slider[k] = static_cast<signed char>(direction);
-    const Slip& law = network_.sliders[k].law;
-    if (direction != 0 && bound(k, direction) > law.coulomb) broken.push_back(static_cast<int>(k));
+    if (direction != 0 && bound(k, direction) > network_.sliders[k].law.coulomb) broken.push_back(static_cast<int>(k));
   }
-  for (int k : let_slip(problem, deflection_branch, slider_branch, bound_side, at_rest, fired, modes, change)) {
+  for (int k : let_slip(problem, onset.law, onset.slider, onset.bound_side, onset.at_rest, fired, modes, change)) {
     if (bound(at(k), modes.slider[at(k)]) > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
   }
   rest_beside_sliders(fired, state, modes);
   return broken;
+}
+
+/// What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
+/// within the time looked ahead.
+void Instant::stop_at_turns(const Fired& fired, State& state) const {
+  for (const int j : fired.turns) {
+    if (!may_stand(j)) continue;
+    const Branch& b = network_.deflections[at(j)];
+    massless(b.a) ? state.velocity[at(b.a)] = state.velocity[at(b.b)] : state.velocity[at(b.b)] = state.velocity[at(b.a)];
+  }
+}
+
+void Instant::add_nodes(Onset& onset, const State& state) const {
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    const int node = slot(static_cast<NodeId>(n));
+    onset.problem.start(node, state.velocity[n]);
+    if (structure_.kind[n] == Kind::massive) {
+      onset.problem.set_inertia(node, structure_.mass[n] / onset.h);
+      onset.slope_around[n] = structure_.mass[n] / onset.h;
+    }
+    const bool balanced = std::abs(onset.now.sum[n]) <= balance_rounding * onset.now.magnitude[n];
+    if (!balanced) onset.problem.load(node, -onset.now.sum[n]);
+  }
+  onset.problem.fix(slot(ground), 0);
+}
+
+/// How the motions and the loads change.
+void Instant::add_drive(Onset& onset) {
+  const double h = onset.h;
+  const std::vector<double> load = drive_.force, load_rate = drive_.force_rate;
+  drive_.evaluate(onset.t + h);
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
+    // A difference of two near velocities says nothing. The acceleration is that of the end, as of everything else here:
+    // how it changes may be all that changes the force of a slider that sticks.
+    onset.problem.fix(slot(network_.motions[m].node), h * drive_.acceleration[m]);
+  }
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
+                                      ? load_rate[k] * h
+                                      : drive_.force[k] - load[k];
+    onset.problem.load(slot(network_.forces[k].a), change_of_load);
+    if (network_.forces[k].b >= 0) onset.problem.load(slot(network_.forces[k].b), -change_of_load);
+  }
+  drive_.evaluate(onset.t);
+}
+
+void Instant::add_deflection_laws(Onset& onset, const State& state) const {
+  const double h = onset.h;
+  std::vector<double> f(state.p.size());
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&state.p[k], &f[k], &onset.creep[k]);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->delay(i) > 0) continue;  // a load: see below
+      const Branch& b = network_.deflections[k + i];
+      const int branch = static_cast<int>(k + i);
+      const double p = state.p[k + i], creep = onset.creep[k + i];
+      double forward = h * laws.batch->slope(i, p, 1);
+      double backward = h * laws.batch->slope(i, p, -1);
+      // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
+      // look at both sides.
+      if (contains(onset.fired.starts, branch) || reversed(onset.fired, branch)) {
+        (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
+      }
+      onset.at_rest[k + i] = -h * laws.batch->slope(i, p, 0) * creep;
+      onset.meet(structure_, b, std::max(forward, backward));
+      double high = -forward * creep, low = std::min(high, -backward * creep);
+      // What has stopped does not go on as before: again the event knows better.
+      if (contains(onset.fired.turns, branch) && may_stand(branch)) {
+        (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
+      }
+      ConvexNetwork::Law law{.low = low, .high = high, .backward = backward, .forward = forward};
+      if (const double slope = h * laws.batch->release_slope(i, p); slope > 0) law = released(law, slope, creep);
+      onset.law[k + i] = onset.problem.add(slot(b.a), slot(b.b), law);
+    }
+  }
+  // What feels velocities later is a load that changes as it will, whatever moves now.
+  for (std::size_t d = 0; d < drive_.felt.size(); ++d) {
+    const Past::Delayed& delayed = drive_.past().delayed()[d];
+    const double df = h * delayed_slope(delayed.branch, state) * (drive_.felt[d] - onset.creep[at(delayed.branch)]);
+    onset.problem.load(slot(delayed.a), -df);
+    onset.problem.load(slot(delayed.b), df);
+  }
+}
+
+void Instant::add_rate_laws(Onset& onset, const State& state) const {
+  const double largest = *std::max_element(onset.now.magnitude.begin(), onset.now.magnitude.end());
+  const Drive::Reach reach = coming_reach(drive_, state.velocity);
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const double impulse = laws.batch->impulse(i);
+      if (impulse > 0 && std::isfinite(impulse)) onset.meet(structure_, network_.rates[at(laws.first) + i], impulse);
+    }
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double around = std::max(onset.slope_around[at(b.a)], onset.slope_around[at(b.b)]);
+      const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      const double scale = largest > 0 ? largest : coming_force(*laws.batch, i, reach), least_force = rigid_share * scale;
+      const double steepest = around > 0 ? std::max(rigid_ratio * around, least_force / laws.batch->velocity_at(i, least_force))
+                                         : std::numeric_limits<double>::infinity();
+      onset.problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, w, scale, steepest));
+    }
+  }
+}
+
+void Instant::add_sliders(Onset& onset) const {
+  for (std::size_t k = 0; k < onset.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const double force = onset.force[k];
+    ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
+    // At its bound the rate alone decides, not the rounding of the event.
+    const double limit = bound(k, force > 0 ? 1 : -1);
+    const bool at_bound = std::abs(std::abs(force) - limit) <= balance_rounding * limit;
+    const bool fired = contains(onset.fired.sliders, static_cast<int>(k));
+    if (onset.modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
+      (force > 0 ? law.high : law.low) = 0;
+    } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
+      // How the velocity of a massless node goes on this first-order look does not see: the event knows better.
+      (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
+    }
+    onset.slider[k] = onset.problem.add(slot(b.a), slot(b.b), law);
+    onset.bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
+  }
 }
 
 /// Friction at its bound, which it leaves with this slope where the velocity is below that of its creep, and keeps above.
