@@ -53,6 +53,8 @@ class ConvexNetwork {
   Bounds bounds(int branch) const { return {branches_[at(branch)].law.low, branches_[at(branch)].law.high}; }
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound where others keep its ends together.
   int direction(int branch) const;
+  /// After `solve`: branches that join their ends hold these nodes together.
+  bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
   /// Nodes that ran away, if the outcome is `unbounded`.
   const std::vector<int>& runaways() const { return runaways_; }
 

@@ -267,8 +267,13 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       if (index[at(j)] < 0 || laws.batch->events(i) == 0 || contains(fired.starts, j) || reversed(fired, j)) continue;
       const Branch& b = network_.deflections[at(j)];
       const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = problem.difference(slot(b.a), slot(b.b));
-      const int direction =
-          std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb)) ? 0 : problem.direction(index[at(j)]);
+      // Where a law could stand the balance has decided, and the least velocity counts: beside a pseudoplastic dashpot it
+      // comes with a force.
+      const auto [low, high] = problem.bounds(index[at(j)]);
+      const bool at_rest = low < high && may_stand(j)
+                               ? problem.joined(slot(b.a), slot(b.b))
+                               : std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb));
+      const int direction = at_rest ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
         if (may_stand(j) && relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
           laws.batch->set_direction(i, state.p[at(j)], 0, laws.batch->direction(i));

@@ -118,14 +118,23 @@ void tie_up_pairs(Network& network) {
 
 }  // namespace
 
-DeflectionBatch& Network::batch_of(int branch, std::size_t& i) const {
-  for (const Laws<DeflectionBatch>& laws : deflection_laws) {
+namespace {
+
+template <class Batch>
+Batch& batch_with(const std::vector<Laws<Batch>>& all, int branch, std::size_t& i) {
+  for (const Laws<Batch>& laws : all) {
     if (branch >= laws.first + static_cast<int>(laws.batch->size())) continue;
     i = static_cast<std::size_t>(branch - laws.first);
     return *laws.batch;
   }
   throw std::out_of_range("no such branch");
 }
+
+}  // namespace
+
+DeflectionBatch& Network::batch_of(int branch, std::size_t& i) const { return batch_with(deflection_laws, branch, i); }
+
+RateBatch& Network::rate_of(int branch, std::size_t& i) const { return batch_with(rate_laws, branch, i); }
 
 std::string at_time(const Scene& scene, double t) {
   // A late start leaves fewer digits to what has passed since: more are shown.

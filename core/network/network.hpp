@@ -68,6 +68,7 @@ struct Network {
   }
   /// The batch that holds deflection branch number `branch`, and its index there.
   DeflectionBatch& batch_of(int branch, std::size_t& i) const;
+  RateBatch& rate_of(int branch, std::size_t& i) const;
   /// Where an element and a node stand in the netlist.
   const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }
   const Spot& spot_of_node(NodeId n) const { return node(n).spot; }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "core/network/index.hpp"
 
@@ -16,6 +18,8 @@ namespace {
 constexpr double force_rounding = 1e-12;
 // A slider slips against its own force by no more than this share of the largest velocity: more is no rounding.
 constexpr double slip_rounding = 1e-2;
+// A velocity of so many times its noise is resolved.
+constexpr double noises_resolved = 1e3;
 
 }  // namespace
 
@@ -34,6 +38,7 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
       for (int k = 0; k < laws.batch->events(i); ++k) events_.push_back({branch, k});
     }
   }
+  find_pseudoplastic();
   law_margin_.assign(events_.size(), 0);
   margin_.assign(structure.sliders.size(), 0);
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
@@ -47,6 +52,38 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
   const std::size_t limits = dae.drive().blocks().limits().size();
   limit_margin_.assign(limits, 0);
   for (std::size_t k = 0; k < limits; ++k) events_.push_back({static_cast<int>(k), of_limit});
+}
+
+void NetworkEvents::find_pseudoplastic() {
+  const Structure& structure = dae_.structure();
+  std::map<std::pair<NodeId, NodeId>, int> between;
+  for (const Laws<RateBatch>& laws : dae_.network().rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const int r = laws.first + static_cast<int>(i);
+      if (laws.batch->by_force(i)) between[std::minmax(structure.rates[at(r)].a, structure.rates[at(r)].b)] = r;
+    }
+  }
+  if (between.empty()) return;
+  for (Watched& law : watched_) {
+    const Branch& b = structure.deflections[at(law.branch)];
+    const auto found = between.find(std::minmax(b.a, b.b));
+    if (found == between.end()) continue;
+    law.beside = found->second;
+    law.sign = structure.rates[at(law.beside)].a == b.a ? 1 : -1;
+  }
+}
+
+// Beside a pseudoplastic dashpot what is left of a velocity at the end of its margin still goes with a force that is felt.
+// There it is the force that tells of a velocity below what is resolved, and a margin of force that is left.
+NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& view) const {
+  const Flow plain{view.flow[at(law.branch)], tolerances_.noise(law.branch)};
+  if (law.beside < 0) return plain;
+  std::size_t i = 0;
+  const RateBatch& dashpot = dae_.network().rate_of(law.beside, i);
+  const double resolved = noises_resolved * plain.noise, most = dashpot.force_at(i, resolved);
+  const double force = law.sign * view.rate_force[at(law.beside)];
+  return {std::abs(force) < most ? resolved * (force / most) : plain.velocity,
+          std::min(plain.noise, resolved * (tolerances_.force_noise(law.beside) / most))};
 }
 
 int NetworkEvents::element(std::size_t k) const {
@@ -105,7 +142,7 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
   const Dae::View& view = resolved(t, y.data(), yp.data());
   std::vector<Turned> laws;
   for (const Watched& law : watched_) {
-    const double against = -law.batch->direction(law.i) * view.flow[at(law.branch)];
+    const double against = -law.batch->direction(law.i) * flow(law, view).velocity;
     if (!law.batch->holds(law.i) && against > 0) laws.push_back({law.branch, against});
   }
   return laws;
@@ -190,7 +227,8 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
   const double* margin = law_margin_.data();
   for (const Watched& w : watched_) {
     const std::size_t j = at(w.branch);
-    w.batch->event_functions(w.i, view.p[j], view.dp[j], view.flow[j], tolerances_.noise(w.branch), g);
+    const auto [velocity, noise] = flow(w, view);
+    w.batch->event_functions(w.i, view.p[j], view.dp[j], velocity, noise, g);
     for (int k = 0; k < w.batch->events(w.i); ++k) *g++ += *margin++;
   }
   for (std::size_t k = 0; k < suddens(); ++k) *g++ = sudden_function(k, view);

@@ -48,7 +48,13 @@ class NetworkEvents final : public EventFunctions {
     DeflectionBatch* batch;
     std::size_t i;
     int branch;
+    int beside = -1;  ///< rate branch between the same ends, of infinite slope at rest
+    double sign = 1;  ///< -1: that goes the other way
   };
+  /// A velocity as an event function takes it, and what of it is noise [m/s].
+  struct Flow { double velocity, noise; };
+  Flow flow(const Watched& law, const Dae::View& view) const;
+  void find_pseudoplastic();
   const Dae::View& resolved(double t, const double* y, const double* yp);
   void all_at_time(const Integrator& integrator, double t, std::vector<double>& g);
   double at_time(const Integrator& integrator, double t, std::size_t sudden);

@@ -8,7 +8,6 @@
 
 #include "core/dae/rate_law.hpp"
 #include "core/network/index.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -16,23 +15,19 @@ namespace {
 
 // A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
 constexpr double floor_of_kind = 1e-4;
-// The least deflection that counts, of the way that nodes go.
-constexpr double least_share_of_way = 1e-12;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
 // prediction is made of are each rounded by one. (Fewer than in time_grain.hpp, within which two times are one: what
 // changes faster is to be seen.)
 constexpr double time_grains = 8;
-// Roundings of a deflection that a step may be off by (its sum of two), and of forces that balance (a sum of a few).
+// Roundings of a deflection that a step may be off by (its sum of two).
 constexpr double value_grains = 4;
-constexpr double force_grains = 16;
 // Small kinks one after the other, as a bundle of many pairs makes them, upset the error test more than the solution: their
 // errors have either sign, and add up like the root of their number where those of a method add up like the number itself.
 // So they may be larger where at least one step in five goes over one; what follows each kink by itself needs every digit.
-// (Of 1000 pairs on a mass at accuracy 1e-6 that
-// takes a seventh of the steps, with errors of 1e-8. Where a mass is not there to smooth it a kink is one of a velocity or
-// of its slope, and nothing is gained.)
+// (Of 1000 pairs on a mass at accuracy 1e-6 that takes a seventh of the steps, with errors of 1e-8. Where a mass is not
+// there to smooth it a kink is one of a velocity or of its slope, and nothing is gained.)
 constexpr double kink_allowance = 10;
 constexpr double kink_rate = 0.2, kink_memory = 8;  // the latter in steps
 // Rounding of a velocity that is a given function of time.
@@ -54,6 +49,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
   slider_noise_ = slide_seen_;
+  difference_rounding_ = force_seen_;
 }
 
 void Tolerances::attach(Dae& dae) {
@@ -86,133 +82,6 @@ void Tolerances::attach(Dae& dae) {
   rounding_.assign(n, 0);
   drift_.assign(n, {});
   find_parts();
-}
-
-/// The parts of the network that known nodes keep from each other: the noise of one does not reach the others.
-void Tolerances::find_parts() {
-  const Structure& structure = dae_->structure();
-  Sets parts(structure.kind.size());
-  const auto join = [&](const Branch& b) {
-    if (structure.kind[at(b.a)] != Kind::known && structure.kind[at(b.b)] != Kind::known) parts.join(b.a, b.b);
-  };
-  for (const Branch& b : structure.deflections) join(b);
-  for (const Branch& b : structure.rates) join(b);
-  for (const Branch& b : structure.sliders) join(b);
-  part_.clear();
-  for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
-}
-
-/// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
-/// eps (V + F/sqrt(k m)) at a mass, eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and what comes of
-/// eps V until it has crept away. Without this a network in equilibrium would be followed into its rounding.
-void Tolerances::find_rounding(const Dae::View& view) {
-  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
-  const Structure& structure = dae_->structure();
-  const std::size_t nodes = structure.kind.size();
-  std::vector<double> force(nodes, 0), speed(nodes, 0), stiffness(nodes, 0), damping(nodes, 0);
-  const auto add = [](std::vector<double>& sum, const Branch& b, double x) {
-    sum[at(b.a)] += x;
-    sum[at(b.b)] += x;
-  };
-  const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
-  const auto speed_of = [&](const Branch& b) {
-    return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
-  };
-  const auto meet = [&](const Branch& b, double f) {
-    if (known(b.a) && known(b.b)) return;
-    const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
-    force[part] = std::max(force[part], std::abs(f));
-    speed[part] = std::max(speed[part], speed_of(b));
-  };
-  const std::size_t count = structure.deflections.size();
-  std::vector<double> f(count), df(count), c(count), dc(count);
-  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-    const std::size_t k = at(laws.first);
-    laws.batch->linearise(&view.p[k], &f[k], &df[k], &c[k], &dc[k]);
-  }
-  for (std::size_t j = 0; j < count; ++j) {
-    add(stiffness, structure.deflections[j], std::abs(df[j]));
-    meet(structure.deflections[j], f[j]);
-  }
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const std::size_t r = at(laws.first) + i;
-      meet(structure.rates[r], view.rate_force[r]);
-      if (const double B = laws.batch->impulse(i); std::isfinite(B)) add(damping, structure.rates[r], B);
-    }
-  }
-  for (std::size_t k = 0; k < structure.sliders.size(); ++k) meet(structure.sliders[k], view.slider_force[k]);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    double& largest = force[at(part_[n])];
-    largest = std::max(largest, std::abs(view.applied[n]));
-  }
-  plain_rounding_.assign(nodes, 0);
-  for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    const auto [sort, k] = quantity_[i];
-    rounding_[i] = 0;
-    drift_[i] = {};
-    if (sort == Sort::velocity) {
-      const double impedance = std::sqrt(stiffness[k] * structure.mass[k]) + damping[k];
-      const std::size_t part = at(part_[k]);
-      rounding_[i] = eps * (speed[part] + (impedance > 0 ? force[part] / impedance : 0));
-      plain_rounding_[part] = std::max(plain_rounding_[part], rounding_[i]);
-    } else if (sort == Sort::deflection) {
-      const Branch& b = structure.deflections[k];
-      const bool alone = known(b.a) && known(b.b);
-      const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
-      if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / std::abs(df[k]);
-      drift_[i] = {eps * (alone ? speed_of(b) : speed[part]),
-                   dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
-    } else if (sort == Sort::force) {
-      const Branch& b = structure.rates[k];
-      rounding_[i] = eps * force[at(part_[at(known(b.a) ? b.b : b.a)])];
-    }
-  }
-  rounding_at_rest_ = plain_rounding_;
-  find_force_rounding(view, df, force);
-  find_rounding_now(view);
-}
-
-int Tolerances::part_of(const Branch& b) const {
-  return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
-}
-
-/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, at
-/// rest the most.
-void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<double>& df,
-                                     const std::vector<double>& force) {
-  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
-  const Structure& structure = dae_->structure();
-  force_rounding_ = force;
-  for (std::size_t j = 0; j < df.size(); ++j) {
-    double& largest = force_rounding_[at(part_of(structure.deflections[j]))];
-    largest = std::max(largest, std::abs(df[j] * view.p[j]));
-  }
-  for (double& rounding : force_rounding_) rounding *= eps;
-  for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
-    double& largest = rounding_at_rest_[at(part)];
-    largest = std::max(largest, law.velocity_at(i, force_rounding_[at(part)]));
-  });
-}
-
-/// What it is of the velocity at present.
-void Tolerances::find_rounding_now(const Dae::View& view) {
-  rounding_now_ = plain_rounding_;
-  for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
-    const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
-    double& largest = rounding_now_[at(part)];
-    largest = std::max(largest, law.velocity_at(i, f + rounding) - law.velocity_at(i, f));
-  });
-}
-
-template <class Visit>
-void Tolerances::for_each_dilatant(Visit visit) const {
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const std::size_t r = at(laws.first) + i;
-      if (laws.batch->growth(i).exponent > 1) visit(*laws.batch, i, r, part_of(dae_->structure().rates[r]));
-    }
-  }
 }
 
 void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
@@ -283,15 +152,17 @@ void Tolerances::watch_kinks(const Dae::View& view) {
   kink_pace_ += ((crossed ? 1 : 0) - kink_pace_) / kink_memory;
 }
 
+double Tolerances::force_noise(int rate) const {
+  const double noise = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
+  return std::max(noise, std::numeric_limits<double>::min());
+}
+
 double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowance * relative_ : relative_; }
 
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
-  double fastest = 0;
-  for (const double v : view.velocity) fastest = std::max(fastest, std::abs(v));
-  way_ += fastest * (t - reached_);
-  reached_ = t;
+  find_difference_rounding(t, view);
   find_rounding_now(view);
   watch_kinks(view);
   update(t, yp);
@@ -348,8 +219,6 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       const double own = std::max(force_seen_[j], stiffness * foreseen_of(quantity_[i]));
       const double by_force = std::max(own, floor_of_kind * force);
       if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
-      // What is this much less than what the nodes move has no force but by rounding: the end of a branch hangs free, say.
-      scale = std::max(scale, least_share_of_way * way_);
     }
     if (scale == 0) {
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
@@ -357,7 +226,8 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     }
     tolerance_[i] = std::max({local() * scale, grain * std::abs(yp[i]), rounding_[i]});
     if (q.sort == Sort::deflection) {
-      tolerance_[i] = std::max(tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q));
+      tolerance_[i] = std::max({tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q),
+                                difference_rounding_[q.index]});
     }
     if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
       tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);

@@ -35,6 +35,8 @@ class Tolerances {
   double unresolved_velocity() const { return unresolved_velocity_; }
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
+  /// Of the force of a rate branch that is solved for it.
+  double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
 
  private:
@@ -59,6 +61,7 @@ class Tolerances {
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
   void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
+  void find_difference_rounding(double t, const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
   /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
   template <class Visit>
@@ -69,7 +72,6 @@ class Tolerances {
   double relative_;
   double begin_ = not_given;  ///< of the run [s]
   double reached_ = 0;        ///< the end of the last step [s]
-  double way_ = 0;            ///< of the fastest node at each time [m]
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown
@@ -89,6 +91,7 @@ class Tolerances {
   std::vector<double> plain_rounding_;    ///< but for dilatant laws
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
+  std::vector<double> difference_rounding_;  ///< of each deflection, in a step [m]
   /// How far each bundle has yielded, and on which of its branches.
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;

@@ -1,0 +1,40 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet;
+
+// The gel starts by 1e-26 m while the oil under it moves 1e-9 m: its velocity was the rounding of theirs, and the run
+// followed it. And where the gel turns its force goes steeply through 0: the event came when the velocity was noise, the
+// force still was not, and friction beside it was given a force that it could not have.
+TEST_CASE("a pseudoplastic gel with friction beside it, on oil, starts from rest and turns") {
+  const std::string friction[] = {R"(type = "vfm", stiffness = 92, damping = 8.2)", R"(type = "sfm", stiffness = 92, coulomb = 0.17)",
+                                  R"(type = "cfm", stiffness = 92, coulomb = 0.17, damping = 8.2)"};
+  for (const std::string& beside : friction) {
+    for (const double flow_index : {1.0, 1.75}) {
+      for (const char* drive : {"sine", "cosine"}) {
+        const std::string netlist = std::string("[elements]\ndrive = { type = \"motion\", at = \"top\", velocity = { ") + drive +
+                                    " = 2, frequency = 0.5 } }\n"
+                                    "gel = { type = \"dashpot\", between = [\"top\", \"mid\"], damping = 3.5, flow_index = 0.3 }\n"
+                                    "dry = { between = [\"top\", \"mid\"], " + beside + " }\n"
+                                    "oil = { type = \"dashpot\", between = [\"mid\", \"ground\"], damping = 1.4, flow_index = " +
+                                    std::to_string(flow_index) + " }\n[simulate]\nstop = 3\noutput = { points = 151 }\n";
+        CAPTURE(netlist);
+        const test::Trajectory fine = test::simulate(netlist, 1e-9);
+        for (const double accuracy : {1e-3, 1e-6}) {
+          CAPTURE(accuracy);
+          const test::Trajectory run = test::simulate(netlist, accuracy);
+          for (const char* record : {"oil.force", "mid.velocity", "dry.force"}) {
+            CAPTURE(record);
+            double worst = 0;
+            for (std::size_t i = 0; i < run.time().size(); ++i) worst = std::max(worst, std::abs(run[record][i] - fine[record][i]));
+            CHECK(worst <= 10 * accuracy * fine.scale(record));
+          }
+        }
+      }
+    }
+  }
+}
