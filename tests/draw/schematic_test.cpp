@@ -237,6 +237,22 @@ push = { type = "force", at = "b", force = "2 N" })");
   REQUIRE(picture.walls.size() == 3);
 }
 
+TEST_CASE("what is at ground, or between ground and ground, has a wall of its own") {
+  const Scene scene = scene_from(R"([elements]
+f = { type = "force", at = "ground", force = "1 N" }
+m = { type = "mass", at = "ground", mass = "1 kg" }
+thing = { type = "thing", between = ["ground", "x"] }
+mx = { type = "mass", at = "x", mass = "1 kg" }
+[models.thing]
+ports = ["a", "b"]
+[models.thing.elements]
+k = { type = "spring", between = ["a", "ground"], stiffness = "3 N/m" }
+k2 = { type = "spring", between = ["a", "b"], stiffness = "4 N/m" })");
+  const Picture picture = drawn(scene);
+  CHECK(faults_of(picture, scene) == "");
+  CHECK(picture.walls.size() == 4);
+}
+
 TEST_CASE("what is not series-parallel is drawn between bars, crossing wires hop") {
   std::string five = "[elements]\n";
   for (int a = 0; a < 5; ++a)

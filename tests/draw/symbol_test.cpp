@@ -104,6 +104,7 @@ TEST_CASE("a path is mapped to a box, mirrored or not; arcs turn the other way i
   CHECK(fitted("M0 0 A.1 .5 0 0 1 1 1", box, false) == "M100 10A20 20 0 0 1 300 50");
   CHECK(fitted("M0 0 A.1 .5 0 0 1 1 1", box, true) == "M300 10A20 20 0 0 0 100 50");
   CHECK(fitted("M0 0 C.1 0 .2 .5 1 1 Q.5 .5 0 1", box, false) == "M100 10C120 10 140 30 300 50Q200 30 100 50");
+  CHECK(fitted("M.1 .5 L0 .9 H1", {0, 0, 200, 60}, false, 50) == "M5 30L0 55H200");  // near an edge it stays so
   CHECK_THROWS_AS(fitted("m0 0", box, false), std::invalid_argument);
   CHECK_THROWS_AS(fitted("M0 0 L1", box, false), std::invalid_argument);
 }

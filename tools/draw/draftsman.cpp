@@ -182,14 +182,34 @@ double Draftsman::body(Stand& stand, NodeId node, int element, const Place& plac
     each.at = {middle, each.at.y + (top + bottom) / 2};
     stand.ink.labels.push_back(std::move(each));
   }
-  stand.ink.marks.push_back({element, {stand.width, top, stand.width + width, bottom}, false, {{node, {middle, 0}}}});
+  stand.ink.marks.push_back({element, {stand.width, top, stand.width + width, bottom}, false, {{node, {middle, 0}}}, least});
   stand.width += width;
   stand.up = std::max(stand.up, -top);
   stand.down = std::max(stand.down, bottom);
   return middle;
 }
 
+// Ground stands wherever it is met. What has no effect because it is at ground is beside a wall of its own.
+Draftsman::Stand Draftsman::wall(const Place& place) const {
+  Stand stand;
+  const bool right = !place.first;
+  stand.bar = right ? 2 : wall_depth;
+  stand.width = wall_depth + 2;
+  stand.ink.walls.push_back({stand.bar, place.low - wall_margin, place.high + wall_margin, right});
+  stand.up = wall_margin - place.low;
+  stand.down = wall_margin + place.high;
+  stand.wire(ground, {{stand.bar, place.low}, {stand.bar, place.high}});
+  if (!place.first || !place.last) return stand;
+  for (const int element : bodies_[ground]) {
+    const double middle = body(stand, ground, element, place);
+    stand.wire(ground, {{stand.bar, 0}, {middle, 0}});
+  }
+  for (const int element : drives_[ground]) drive(stand, element, false);
+  return stand;
+}
+
 Draftsman::Stand Draftsman::stand(NodeId node, const Place& place) const {
+  if (node == ground) return wall(place);
   std::vector<int> drives = drives_[static_cast<std::size_t>(node)];
   const std::vector<int>& bodies = bodies_[static_cast<std::size_t>(node)];
   Stand stand;
@@ -201,9 +221,9 @@ Draftsman::Stand Draftsman::stand(NodeId node, const Place& place) const {
     return first;
   };
   const std::string& name = scene_.nodes[static_cast<std::size_t>(node)].name;
-  const bool named = detail_.nodes && node != ground && !is_unnamed(name);
+  const bool named = detail_.nodes && !is_unnamed(name);
   const double half = named ? width_of(label(name, {}, Label::Kind::node)) / 2 + 2 : 2;
-  const bool driven_from_left = place.first && !drives.empty() && node != ground;
+  const bool driven_from_left = place.first && !drives.empty();
   if (driven_from_left) drive(stand, next_drive(), true);
   const double edge = stand.width;
   double foot = place.high, from = bodies.empty() ? stand.width + half : 0;
@@ -217,15 +237,7 @@ Draftsman::Stand Draftsman::stand(NodeId node, const Place& place) const {
   stand.bar = from;
   stand.width = std::max(stand.width, from + half);
   if (driven_from_left) stand.wire(node, {{edge, 0}, {stand.bar, 0}});
-  if (node == ground) {
-    const bool right = !place.first;
-    stand.bar += right ? 0 : wall_depth;
-    stand.width += wall_depth;
-    stand.ink.walls.push_back({stand.bar, place.low - wall_margin, place.high + wall_margin, right});
-    stand.up = std::max(stand.up, wall_margin - place.low);
-    stand.down = std::max(stand.down, wall_margin + place.high);
-  }
-  if (place.low < place.high) stand.wire(node, {{stand.bar, place.low}, {stand.bar, place.high}});
+  stand.wire(node, {{stand.bar, place.low}, {stand.bar, place.high}});
   if (place.last && !place.first && !drives.empty()) drive(stand, next_drive(), false);
   double top = bodies.empty() ? place.low : -stand.up;
   while (!drives.empty()) drive_above(stand, next_drive(), top);

@@ -57,6 +57,7 @@ class Draftsman {
 
  private:
   Piece element(const Block& block) const;
+  Stand wall(const Place& place) const;
   void drive(Stand& stand, int element, bool from_left) const;
   void drive_above(Stand& stand, int element, double& top) const;
   double body(Stand& stand, NodeId node, int element, const Place& place) const;

@@ -44,7 +44,9 @@ void Layers::arrange() {
   }
   order();
   find_heights();
-  straighten();
+  straighten(true);
+  level_long_lines();
+  straighten(false);
 }
 
 // By depth first from what nothing comes into: a line to an item whose own lines are being followed closes a loop.
@@ -174,22 +176,44 @@ void Layers::find_heights() {
   }
 }
 
+std::pair<double, double> Layers::room(int item) const {
+  const std::vector<int>& layer = layers[at(items[at(item)].layer)];
+  const auto here = std::find(layer.begin(), layer.end(), item);
+  double low = std::numeric_limits<double>::lowest(), high = std::numeric_limits<double>::max();
+  if (here != layer.begin()) low = items[at(here[-1])].y + items[at(here[-1])].down + apart + items[at(item)].up;
+  if (here + 1 != layer.end()) high = items[at(here[1])].y - items[at(here[1])].up - apart - items[at(item)].down;
+  return {low, high};
+}
+
 // What a single line comes into goes to its height, where there is room.
-void Layers::straighten() {
+void Layers::straighten(bool passing_too) {
   const std::vector<Step> steps = steps_of(*this);
   std::vector<int> ins(items.size());
+  if (!passing_too)
+    for (const Line& line : lines)
+      for (const int item : line.through) ++ins[at(item)];
   for (const Step& step : steps) ++ins[at(step.to)];
-  for (const auto& layer : layers)
+  for (std::size_t layer = 0; layer < layers.size(); ++layer)
     for (const Step& step : steps) {
-      const auto here = std::find(layer.begin(), layer.end(), step.to);
-      if (here == layer.end() || ins[at(step.to)] != 1) continue;
+      if (at(items[at(step.to)].layer) != layer || ins[at(step.to)] != 1) continue;
       const double wish = items[at(step.from)].y - step.in;
-      const bool above = here == layer.begin() ||
-                         wish - items[at(*here)].up >= items[at(here[-1])].y + items[at(here[-1])].down + apart;
-      const bool below = here + 1 == layer.end() ||
-                         wish + items[at(*here)].down + apart <= items[at(here[1])].y - items[at(here[1])].up;
-      if (above && below) items[at(*here)].y = wish;
+      const auto [low, high] = room(step.to);
+      if (low <= wish && wish <= high) items[at(step.to)].y = wish;
     }
+}
+
+// A line through several layers goes through all of them at one height, if there is one: near its end.
+void Layers::level_long_lines() {
+  for (const Line& line : lines) {
+    double low = std::numeric_limits<double>::lowest(), high = std::numeric_limits<double>::max();
+    for (const int item : line.through) {
+      const auto [above, below] = room(item);
+      low = std::max(low, above);
+      high = std::min(high, below);
+    }
+    if (low > high) continue;
+    for (const int item : line.through) items[at(item)].y = std::clamp(items[at(line.to)].y + line.in, low, high);
+  }
 }
 
 }  // namespace rheonet::draw

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace rheonet::draw {
@@ -32,7 +33,10 @@ struct Layers {
   void split_long_lines();
   void order();
   void find_heights();
-  void straighten();
+  void straighten(bool passing_too);
+  void level_long_lines();
+  /// Between which heights an item can go without coming too close to its neighbours.
+  std::pair<double, double> room(int item) const;
 };
 
 }  // namespace rheonet::draw

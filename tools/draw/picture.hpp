@@ -31,6 +31,7 @@ struct Mark {
   Box box;                ///< that the symbol's box of 1 x 1 is mapped to
   bool mirrored = false;  ///< left and right are exchanged
   std::vector<End> ends;  ///< none of a block
+  double unit = 0;        ///< of a box that is stretched: see `fitted` [px]
 };
 
 /// What joins symbols to each other: a rigid rod, all of which is one node.

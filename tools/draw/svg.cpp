@@ -35,7 +35,7 @@ std::string path_of(const Wire& wire) {
 
 std::string part(const std::string& path, const Mark& mark, const char* attributes) {
   if (path.empty()) return "";
-  return fmt::format("<path d=\"{}\"{}/>", fitted(path, mark.box, mark.mirrored), attributes);
+  return fmt::format("<path d=\"{}\"{}/>", fitted(path, mark.box, mark.mirrored, mark.unit), attributes);
 }
 
 std::string symbol(const Mark& mark, const Scene& scene) {

@@ -82,13 +82,18 @@ Reach reach_of(const Symbol& symbol) {
   return {0.5 - top, bottom - 0.5};
 }
 
-std::string fitted(const std::string& path, const Box& box, bool mirrored) {
+std::string fitted(const std::string& path, const Box& box, bool mirrored, double unit) {
   const double width = box.right - box.left, height = box.bottom - box.top;
+  const auto along = [unit](double low, double high, double value) {
+    if (unit <= 0) return low + (high - low) * value;
+    const double size = std::min(unit, high - low);
+    return value < 0.5 ? low + size * value : value > 0.5 ? high - size * (1 - value) : (low + high) / 2;
+  };
   std::string result;
   const auto begin = [&](char command) { result += command; };
   const auto number = [&](char what, double value) {
-    if (what == 'x') value = box.left + width * (mirrored ? 1 - value : value);
-    if (what == 'y') value = box.top + height * value;
+    if (what == 'x') value = along(box.left, box.right, mirrored ? 1 - value : value);
+    if (what == 'y') value = along(box.top, box.bottom, value);
     if (what == 'w') value *= width;
     if (what == 'h') value *= height;
     if (what == 's' && mirrored) value = 1 - value;
