@@ -17,7 +17,7 @@ std::vector<std::string> scene_files();
 
 /// What is wrong with a drawing of a scene, each in a line; "" if nothing is:
 ///
-/// * every element has one symbol, with its ends at its nodes;
+/// * every element has one symbol, with its ends at its nodes, but for as many as the picture says are left out;
 /// * the wires of a node are one piece that all its ends touch; those of ground may be several, each with a wall;
 /// * wires of different nodes do not meet, unless one hops over the other;
 /// * no symbol or label overlaps another, and no wire runs through a label or through a symbol that is not its own;

@@ -113,6 +113,25 @@ std::string random_blocks(std::uint64_t seed, int count) {
   return text;
 }
 
+/// A row of masses and springs, driven by nothing.
+std::string chain(int count) {
+  return fmt::format(R"([elements]
+chain = {{ type = "cell", between = ["a", "ground"], repeat = {{ count = {} }} }}
+[models.cell]
+ports = ["a", "b"]
+[models.cell.elements]
+m = {{ type = "mass", at = "a", mass = "1 kg" }}
+k = {{ type = "spring", between = ["a", "b"], stiffness = "100 N/m" }}
+)",
+                     count);
+}
+
+std::string bundle(int count) {
+  return fmt::format(R"([elements]
+k = {{ type = "spring", between = ["a", "ground"], stiffness = "100 N/m", repeat = {{ count = {}, arrange = "parallel" }} }})",
+                     count);
+}
+
 }  // namespace
 
 TEST_CASE("every scene that comes with the project is drawn without a fault") {
@@ -121,6 +140,7 @@ TEST_CASE("every scene that comes with the project is drawn without a fault") {
     CAPTURE(file);
     const Scene scene = scene_from_file(file);
     CHECK(faults_of(drawn(scene), scene) == "");
+    CHECK(faults_of(schematic(scene, {.title = "", .all = true}), scene) == "");
   }
 }
 
@@ -273,37 +293,83 @@ TEST_CASE("what is not series-parallel is drawn between bars, crossing wires hop
 }
 
 TEST_CASE("a long row goes on below, and hundreds of elements are an overview") {
-  const auto chain = [](int count) {
-    return fmt::format("{}chain = {{ type = \"cell\", between = [\"a\", \"ground\"], repeat = {{ count = {} }} }}\n{}",
-                       "[elements]\n", count, R"([models.cell]
-ports = ["a", "b"]
-[models.cell.elements]
-m = { type = "mass", at = "a", mass = "1 kg" }
-k = { type = "spring", between = ["a", "b"], stiffness = "100 N/m" }
-)");
-  };
   const Scene fifty = scene_from(chain(50));
-  const Picture named = drawn(fifty);
+  const Picture named = schematic(fifty, {.title = "", .all = true});
   CHECK(faults_of(named, fifty) == "");
   CHECK(named.labels.size() == 100);
   CHECK(named.width < 2000);
   CHECK(named.width > named.height);
 
   const Scene many = scene_from(chain(250));
-  const Picture overview = drawn(many);
+  const Picture overview = schematic(many, {.title = "", .all = true});
   CHECK(faults_of(overview, many) == "");
   CHECK(overview.labels.empty());
   CHECK(overview.width < 2000);
   CHECK(overview.marks[2].box.right - overview.marks[2].box.left <
         0.6 * (named.marks[2].box.right - named.marks[2].box.left));
 
-  const Scene bundle = scene_from(R"([elements]
-k = { type = "spring", between = ["a", "ground"], stiffness = "100 N/m", repeat = { count = 300, arrange = "parallel" } })");
-  const Picture columns = drawn(bundle);
-  CHECK(faults_of(columns, bundle) == "");
+  const Scene several = scene_from(bundle(300));
+  const Picture columns = schematic(several, {.title = "", .all = true});
+  CHECK(faults_of(columns, several) == "");
   CHECK(columns.height < 2 * columns.width);
 
-  CHECK_THROWS_AS(drawn(scene_from(chain(2501))), plot::Mistake);
+  CHECK_THROWS_AS(schematic(scene_from(chain(2501)), {.title = "", .all = true}), plot::Mistake);
+}
+
+TEST_CASE("any wiring of hundreds of elements is drawn without a fault, with names and without") {
+  for (const int branches : {70, 110, 300})
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const Scene scene = scene_from(random_network(seed, branches / 2, branches));
+      CAPTURE(seed);
+      CHECK(faults_of(schematic(scene, {.title = "", .all = true}), scene) == "");
+      CHECK(faults_of(drawn(scene), scene) == "");
+    }
+}
+
+TEST_CASE("beyond 45 elements what repeats itself is drawn twice, and its last time") {
+  const auto names = [](const Picture& picture, const Scene& scene) {
+    std::string all;
+    for (const Mark& mark : picture.marks) all += scene.elements[static_cast<std::size_t>(mark.element)].name + '|';
+    return all;
+  };
+  const Scene row = scene_from(chain(40));
+  const Picture abridged = drawn(row);
+  CHECK(faults_of(abridged, row) == "");
+  // The mass at which what is left out begins is drawn, and so is what is behind it.
+  for (const char* kept : {"chain.0.k|", "chain.0.m|", "chain.1.k|", "chain.2.m|", "chain.39.m|", "chain.39.k|"})
+    CHECK_MESSAGE(contains(names(abridged, row), kept), kept);
+  CHECK(abridged.marks.size() == 7);
+  CHECK(abridged.omitted == 73);
+  const auto says = [](const Picture& picture, const std::string& text) {
+    return std::any_of(picture.labels.begin(), picture.labels.end(), [&](const Label& l) { return l.text == text; });
+  };
+  CHECK(says(abridged, "37 more"));
+  CHECK(says(abridged, "100 N/m"));  // what remains has room for its values
+
+  const Scene parallel = scene_from(bundle(100));
+  const Picture few = drawn(parallel);
+  CHECK(faults_of(few, parallel) == "");
+  CHECK(names(few, parallel) == "k.0|k.1|k.99|");
+  CHECK(says(few, "97 more"));
+
+  const Scene small = scene_from(chain(22));
+  CHECK(drawn(small).omitted == 0);
+  const Scene large = scene_from(chain(50000));
+  CHECK(drawn(large).omitted == 100000 - 7);
+
+  // Where something else stands between them they are not the same.
+  std::string wired = "[elements]\nf = { type = \"force\", at = \"n20\", force = 1 }\n";
+  for (int i = 0; i < 40; ++i)
+    wired += fmt::format(R"(k{0} = {{ type = "spring", between = ["n{0}", "n{1}"], stiffness = {1} }}
+m{0} = {{ type = "mass", at = "n{0}", mass = 1 }}
+)",
+                         i, i + 1);
+  const Scene pushed = scene_from(wired);
+  const Picture two = drawn(pushed);
+  CHECK(faults_of(two, pushed) == "");
+  CHECK(contains(names(two, pushed), "f|"));
+  CHECK(contains(names(two, pushed), "m20|"));
+  CHECK(two.omitted == 81 - (7 + 3 + 7));
 }
 
 TEST_CASE("a drawing has values up to 45 elements, unless they are not wanted; node names that somebody gave") {

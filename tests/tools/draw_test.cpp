@@ -51,8 +51,10 @@ m = { type = "mass", at = "a", mass = 1 }
 [simulate]
 stop = 1
 )");
-  CHECK(folder.shell("rheonet draw long.toml -o net.svg", 2).err ==
-        "error: the scene has 5002 elements; a drawing shows at most 5000\n"
+  CHECK(folder.shell("rheonet draw long.toml -o net.svg", 0).err ==
+        "note: 4997 elements that repeat those beside them are not drawn; --all draws them\n");
+  CHECK(folder.shell("rheonet draw long.toml --all -o net.svg", 2).err ==
+        "error: a drawing of 5002 elements would show nothing; it may have 5000\n"
         "  fewer of a `repeat` show its structure as well: --set PATH.repeat.count=5\n");
   folder.shell("rheonet draw long.toml -o net.svg --set chain.repeat.count=5", 0);
 }

@@ -64,16 +64,18 @@ Draftsman::Draftsman(const Scene& scene, const Detail& detail)
   }
 }
 
-Piece Draftsman::draw(const Block& block) const {
+Piece Draftsman::draw(const Block& block, double line) const {
   switch (block.kind) {
     case Block::Kind::element:
       return element(block);
     case Block::Kind::parallel:
-      return draw_parallel(*this, block);
+      return draw_parallel(*this, block, line);
+    case Block::Kind::omitted:
+      return omission_in_row(block);
     case Block::Kind::series:
       break;
   }
-  return draw_row(*this, block);
+  return draw_row(*this, block, line);
 }
 
 Piece Draftsman::element(const Block& block) const {
@@ -102,6 +104,24 @@ Piece Draftsman::element(const Block& block) const {
                              .ends = {{block.left, {left, 0}}, {block.right, {right, 0}}}});
   piece.wire(block.left, {{0, 0}, {left, 0}});
   piece.wire(block.right, {{right, 0}, {piece.width, 0}});
+  return piece;
+}
+
+Label omission_label(int times, Point middle) {
+  return {std::to_string(times) + " more", middle, true, value_size, Label::Kind::value};
+}
+
+Piece Draftsman::omission_in_row(const Block& block) const {
+  constexpr double stub = 14, room = 62;
+  Piece piece;
+  piece.width = room + 2 * stub;
+  piece.up = line_height + 4;
+  piece.down = 6;
+  piece.wire(block.left, {{0, 0}, {stub, 0}});
+  piece.wire(block.right, {{piece.width - stub, 0}, {piece.width, 0}});
+  const double middle = piece.width / 2;
+  for (const double x : {-12.0, 0.0, 12.0}) piece.ink.joints.push_back({middle + x, 0});
+  piece.ink.labels.push_back(omission_label(block.times, {middle, -8}));
   return piece;
 }
 
@@ -182,7 +202,8 @@ double Draftsman::body(Stand& stand, NodeId node, int element, const Place& plac
     each.at = {middle, each.at.y + (top + bottom) / 2};
     stand.ink.labels.push_back(std::move(each));
   }
-  stand.ink.marks.push_back({element, {stand.width, top, stand.width + width, bottom}, false, {{node, {middle, 0}}}, least});
+  stand.ink.marks.push_back(
+      {element, {stand.width, top, stand.width + width, bottom}, false, {{node, {middle, 0}}}, least});
   stand.width += width;
   stand.up = std::max(stand.up, -top);
   stand.down = std::max(stand.down, bottom);

@@ -39,7 +39,9 @@ class Draftsman {
  public:
   Draftsman(const Scene& scene, const Detail& detail);
 
-  Piece draw(const Block& block) const;
+  /// A row in it that is wider than `line` goes on below.
+  Piece draw(const Block& block, double line) const;
+  Piece draw(const Block& block) const { return draw(block, detail_.line); }
 
   /// What a node looks like, and where it stands: `bar` is where everything is joined to it.
   struct Stand : Piece {
@@ -57,6 +59,7 @@ class Draftsman {
 
  private:
   Piece element(const Block& block) const;
+  Piece omission_in_row(const Block& block) const;
   Stand wall(const Place& place) const;
   void drive(Stand& stand, int element, bool from_left) const;
   void drive_above(Stand& stand, int element, double& top) const;
@@ -67,10 +70,13 @@ class Draftsman {
   std::vector<std::vector<int>> bodies_, drives_;  ///< elements at each node
 };
 
-/// A row, broken into lines where it is too wide.
-Piece draw_row(const Draftsman& draftsman, const Block& row);
+/// A row, broken into lines where it is wider than `line`.
+Piece draw_row(const Draftsman& draftsman, const Block& row, double line);
+/// What is left out, in words: "96 more".
+Label omission_label(int times, Point middle);
+
 /// Parts in parallel below each other; in columns, where they are very many.
-Piece draw_parallel(const Draftsman& draftsman, const Block& block);
+Piece draw_parallel(const Draftsman& draftsman, const Block& block, double line);
 /// A mesh.
 Piece draw_mesh(const Draftsman& draftsman, const Mesh& mesh);
 

@@ -162,13 +162,21 @@ class Reduction {
     return joined(std::move(row), std::move(way));
   }
 
+  /// Which nodes may become stations of a row: others only where these do not help. What is driven is rather an end.
+  enum Stage { plain, with_branches, driven_too };
+
   /// A node that two edges meet at becomes a station of a row.
-  bool in_series(NodeId n, bool with_branches) {
+  bool in_series(NodeId n, Stage stage) {
     Vertex& v = vertex(n);
-    if (v.edges.size() != 2 || (!with_branches && !(v.grounded.empty() && v.tails.empty()))) return false;
-    const NodeId from = other_end(v.edges[0], n), to = other_end(v.edges[1], n);
-    if (from == to) return merge_parallel(n);
-    Block second = take_edge(v.edges[1], n), first = take_edge(v.edges[0], from);
+    const bool branches = !v.grounded.empty() || !v.tails.empty();
+    if (v.edges.size() != 2 || (branches && stage < with_branches) || (v.driven && stage < driven_too)) return false;
+    int before = v.edges[0], behind = v.edges[1];
+    if (other_end(before, n) == other_end(behind, n)) return merge_parallel(n);
+    // A long row grows at its end, which costs least.
+    if (edge(behind).to == n && edge(behind).block.parts.size() > edge(before).block.parts.size())
+      std::swap(before, behind);
+    const NodeId from = other_end(before, n), to = other_end(behind, n);
+    Block second = take_edge(behind, n), first = take_edge(before, from);
     add_edge({from, to, Block::in_series(std::move(first), station(n), std::move(second))});
     return true;
   }
@@ -189,16 +197,16 @@ class Reduction {
   }
 
   void reduce(std::vector<NodeId>& nodes, NodeId start) {
-    bool with_branches = false;
-    for (bool changed = true; changed || !with_branches;) {
-      with_branches = !changed;  // only where nothing else helps
-      changed = false;
+    for (Stage stage = plain;;) {
+      bool changed = false;
       for (const NodeId n : nodes) {
         if (!vertex(n).there) continue;
         changed = merge_parallel(n) || changed;
-        if (n != start && (in_series_with_ground(n, false) || in_series(n, with_branches))) changed = true;
+        if (n != start && (in_series_with_ground(n, false) || in_series(n, stage))) changed = true;
       }
       std::erase_if(nodes, [this](NodeId n) { return !vertex(n).there; });
+      if (!changed && stage == driven_too) return;
+      stage = changed ? plain : stage == plain ? with_branches : driven_too;
     }
   }
 

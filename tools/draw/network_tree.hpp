@@ -14,13 +14,15 @@ struct Station {
   std::vector<Block> hanging;  ///< ways that begin here and lead nowhere else
 };
 
-/// A part of a network between two nodes: one element, several parts in parallel, or several in a row.
+/// A part of a network between two nodes: one element, several parts in parallel or in a row, or what
+/// is left out because it repeats what is beside it.
 struct Block {
-  enum class Kind { element, parallel, series };
+  enum class Kind { element, parallel, series, omitted };
 
   Kind kind = Kind::element;
   NodeId left = ground, right = ground;
   int element = -1;
+  int times = 0;                       ///< of what is omitted: how often it is the same as what is beside it
   std::vector<Block> parts;            ///< in parallel from top to bottom, in a row from left to right
   std::vector<Station> stations;       ///< of a row: one before each part, and one behind the last
   bool opens = false, closes = false;  ///< its first, its last station belongs to it; else to what it is part of

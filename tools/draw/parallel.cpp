@@ -6,6 +6,18 @@
 namespace rheonet::draw {
 namespace {
 
+/// Beside bars that go on: dots below each other.
+Piece omission(const Block& block) {
+  Piece piece;
+  piece.up = piece.down = 14;
+  piece.width = 120;
+  piece.entries.clear();
+  piece.exits.clear();
+  for (const double y : {-8.0, 0.0, 8.0}) piece.ink.joints.push_back({piece.width / 2 - 36, y});
+  piece.ink.labels.push_back(omission_label(block.times, {piece.width / 2 + 6, 4}));
+  return piece;
+}
+
 /// Parts below each other.
 Piece column(const std::vector<Piece>& parts, NodeId left, NodeId right, double gap) {
   Piece all;
@@ -32,6 +44,7 @@ Piece column(const std::vector<Piece>& parts, NodeId left, NodeId right, double 
       for (const double exit : part.exits) all.exits.push_back(y + exit);
       continue;
     }
+    if (part.entries.empty()) continue;
     const auto joined = [&](NodeId node, double from, double to, double axis_of, std::vector<double> ends) {
       all.wire(node, {{from, axis_of}, {to, axis_of}});
       std::sort(ends.begin(), ends.end());
@@ -87,12 +100,14 @@ Piece columns_of(const std::vector<Piece>& columns, NodeId left, NodeId right) {
 
 }  // namespace
 
-Piece draw_parallel(const Draftsman& draftsman, const Block& block) {
+Piece draw_parallel(const Draftsman& draftsman, const Block& block, double line) {
   const Detail& detail = draftsman.detail();
   std::vector<Piece> parts;
   double height = 0;
+  // What is before and behind the parallel parts is to have room as well.
+  const double inner = std::max(0.65 * line, 0.4 * detail.line);
   for (const Block& part : block.parts) {
-    parts.push_back(draftsman.draw(part));
+    parts.push_back(part.kind == Block::Kind::omitted ? omission(part) : draftsman.draw(part, inner));
     height += parts.back().up + parts.back().down + detail.gap;
   }
   const auto count = static_cast<std::size_t>(std::ceil(height / detail.column));

@@ -68,7 +68,8 @@ struct Label {
 struct Picture {
   double width = 0, height = 0;
   std::string title;
-  double stroke = 1.4;  ///< width of the lines [px]
+  std::size_t omitted = 0;  ///< elements that repeat what is beside them, and are left out
+  double stroke = 1.4;      ///< width of the lines [px]
   std::vector<Mark> marks;
   std::vector<Wire> wires;
   std::vector<Wall> walls;

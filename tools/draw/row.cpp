@@ -20,18 +20,18 @@ struct Section {
 
 class Row {
  public:
-  Row(const Draftsman& draftsman, const Block& block) : draftsman_(draftsman), block_(block) {
+  Row(const Draftsman& draftsman, const Block& block, double line) : draftsman_(draftsman), block_(block), most_(line) {
     for (std::size_t k = 0; k < block.stations.size(); ++k) {
       Section section;
       section.station = &block.stations[k];
       section.drawn = (k > 0 || block.opens) && (k + 1 < block.stations.size() || block.closes);
       if (k < block.parts.size()) {
-        section.part = draftsman.draw(block.parts[k]);
+        section.part = draftsman.draw(block.parts[k], line);
         section.behind = block.stations[k + 1].node;
         section.beside = section.part->width;
       }
       for (const Block& way : block.stations[k].hanging) {
-        section.hanging.push_back(draftsman.draw(way));
+        section.hanging.push_back(draftsman.draw(way, line));
         section.beside = std::max(section.beside, section.hanging.back().width);
       }
       sections_.push_back(std::move(section));
@@ -39,22 +39,22 @@ class Row {
   }
 
   Piece draw() {
-    const double most = draftsman_.detail().line;
-    double all = 0;
-    for (std::size_t k = 0; k < sections_.size(); ++k) all += width(k);
-    if (all <= most) return line(0, sections_.size());
-    std::vector<Piece> lines;
-    for (std::size_t begin = 0; begin < sections_.size();) {
-      std::size_t end = begin;
-      double wide = 0;
-      do wide += width(end++);
-      while (end < sections_.size() && wide + width(end) <= most);
-      // The last station stays with what leads to it.
-      if (end + 1 == sections_.size()) ++end;
-      lines.push_back(line(begin, end));
-      begins_.push_back(begin);
-      begin = end;
+    double all = 0, widest = 0;
+    for (std::size_t k = 0; k < sections_.size(); ++k) {
+      widths_.push_back(width(k));
+      all += widths_.back();
+      widest = std::max(widest, widths_.back());
     }
+    constexpr double a_little_more = 1.1;  // is better than a line with hardly anything on it
+    if (all <= a_little_more * most_) return line(0, sections_.size());
+    // As few lines as there must be, all about as long.
+    const std::size_t count = begins_of(most_).size();
+    double length = std::max(all / static_cast<double>(count), widest);
+    while (length < most_ && begins_of(length).size() > count) length *= 1.02;
+    begins_ = begins_of(std::min(length, most_));
+    std::vector<Piece> lines;
+    for (std::size_t i = 0; i < begins_.size(); ++i)
+      lines.push_back(line(begins_[i], i + 1 < begins_.size() ? begins_[i + 1] : sections_.size()));
     return stacked(lines);
   }
 
@@ -66,6 +66,20 @@ class Row {
     const Section& section = sections_[k];
     const double stand = section.drawn ? draftsman_.stand(section.station->node, {0, 0, first(k), last(k)}).width : 0;
     return stand + section.beside;
+  }
+
+  /// Where lines begin that are no longer than that, unless a single section is.
+  std::vector<std::size_t> begins_of(double length) const {
+    std::vector<std::size_t> begins{0};
+    double wide = 0;
+    for (std::size_t k = 0; k < sections_.size(); ++k) {
+      wide += widths_[k];
+      // The last station stays with what leads to it.
+      if (k == begins.back() || wide <= length || last(k)) continue;
+      begins.push_back(k);
+      wide = widths_[k];
+    }
+    return begins;
   }
 
   /// Sections one after the other; what the first and the last are joined to is left open.
@@ -177,12 +191,14 @@ class Row {
 
   const Draftsman& draftsman_;
   const Block& block_;
+  double most_;  ///< width of a line
   std::vector<Section> sections_;
+  std::vector<double> widths_;
   std::vector<std::size_t> begins_;  ///< first sections of the lines
 };
 
 }  // namespace
 
-Piece draw_row(const Draftsman& draftsman, const Block& row) { return Row(draftsman, row).draw(); }
+Piece draw_row(const Draftsman& draftsman, const Block& row, double line) { return Row(draftsman, row, line).draw(); }
 
 }  // namespace rheonet::draw

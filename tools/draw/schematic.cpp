@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/draw/abridge.hpp"
 #include "tools/draw/diagram.hpp"
 #include "tools/draw/draftsman.hpp"
 #include "tools/plot/mistake.hpp"
@@ -13,11 +14,12 @@
 namespace rheonet::draw {
 namespace {
 
+constexpr std::size_t few = 45;  // elements: names and values fit on a page
 constexpr double margin = 16, between = 26, title_size = 15;
 
 /// Of so many elements as are drawn.
 Detail detail_of(std::size_t count, const Look& look) {
-  constexpr std::size_t few = 45, many = 120;
+  constexpr std::size_t many = 120;
   Detail detail;
   detail.values = look.values && count <= few;
   detail.nodes = count <= few;
@@ -79,16 +81,28 @@ class Page {
   Picture picture_;
 };
 
+/// The network in the order in which it is drawn; `drawn` is how many elements that is.
+Forest drawn_part(const Scene& scene, const Look& look, std::size_t& drawn) {
+  drawn = scene.elements.size() - scene.blocks.size();
+  const auto limit = [&](std::size_t most) {
+    if (drawn > most)
+      throw plot::Mistake(fmt::format("a drawing of {} elements would show nothing; it may have {}", drawn, most),
+                          "fewer of a `repeat` show its structure as well: --set PATH.repeat.count=5");
+  };
+  limit(look.all ? most_drawn : most_elements);
+  Forest forest = forest_of(scene);
+  if (!look.all && drawn > few) drawn -= abridge(forest, scene);
+  limit(most_drawn);
+  return forest;
+}
+
 }  // namespace
 
 Picture schematic(const Scene& scene, const Look& look) {
-  if (scene.elements.size() > most_elements)
-    throw plot::Mistake(
-        fmt::format("the scene has {} elements; a drawing shows at most {}", scene.elements.size(), most_elements),
-        "fewer of a `repeat` show its structure as well: --set PATH.repeat.count=5");
-  const Detail detail = detail_of(scene.elements.size() - scene.blocks.size(), look);
+  std::size_t drawn = 0;
+  const Forest forest = drawn_part(scene, look, drawn);
+  const Detail detail = detail_of(drawn, look);
   const Draftsman draftsman(scene, detail);
-  const Forest forest = forest_of(scene);
   Page page(detail.line);
   const double title_height = 1.3 * title_size;
   const std::vector<std::string> title = plot::lines_of(look.title, title_size, detail.line);
@@ -100,6 +114,7 @@ Picture schematic(const Scene& scene, const Look& look) {
     for (const Piece& piece : draw_blocks(scene, detail_of(scene.blocks.size(), look))) page.add(piece);
   }
   Picture picture = page.finish(look.title);
+  picture.omitted = scene.elements.size() - scene.blocks.size() - drawn;
   picture.stroke = detail.names ? 1.4 : 1;
   for (std::size_t i = 0; i < title.size(); ++i) {
     picture.labels.push_back({title[i],

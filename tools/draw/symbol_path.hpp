@@ -18,9 +18,9 @@ struct Reach {
 Reach reach_of(const Symbol& symbol);
 
 /// A path of a component's symbol, mapped from its box of 1 x 1 to `box`; `mirrored` exchanges left and right. Lines
-/// keep their width, because coordinates are mapped and not the drawing. With a `unit` [px] above 0 what is near an edge of
-/// the box stays as far from it as in a box of that size. Throws std::invalid_argument for what is none
-/// of a symbol's commands.
+/// keep their width, because coordinates are mapped and not the drawing. With a `unit` [px] above 0 what is near an
+/// edge of the box stays as far from it as in a box of that size. Throws std::invalid_argument for what is none of a
+/// symbol's commands.
 std::string fitted(const std::string& path, const Box& box, bool mirrored, double unit = 0);
 
 }  // namespace rheonet::draw

@@ -60,7 +60,7 @@ constexpr const char* of_plot =
 constexpr const char* of_draw =
     "For instance:\n"
     "  rheonet draw scene.toml -o network.svg\n"
-    "  rheonet draw scene.toml -o network.png --set chain.repeat.count=4\n\n"
+    "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
     "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
 
 bool is_override(const std::string& word) {
@@ -256,6 +256,7 @@ struct CommandLine {
         ->required()
         ->type_name("FILE");
     draw->add_option("--title", arguments.title, "above the figure, in place of that of the scene")->type_name("TEXT");
+    draw->add_flag("--all", arguments.all, "of more than 45 elements also those that repeat what is beside them");
     draw->add_flag("--no-values", arguments.no_values, "names alone");
   }
   void add_compare() {

@@ -46,6 +46,7 @@ struct Arguments {
   Plot plot;
   std::string title;    ///< of `draw`; "": that of the scene
   bool no_values = false;  ///< of `draw`
+  bool all = false;        ///< of `draw`
   std::string domain;  ///< of CSV files: "translation", "rotation"; "": not said
 };
 

@@ -3,6 +3,7 @@
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/figure_file.hpp"
 #include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
 
@@ -11,9 +12,13 @@ ExitStatus draw_network(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene || is_source(arguments.output, "--output", read.sources)) return wrong_input;
   const draw::Look look{.title = arguments.title.empty() ? read.scene->title : arguments.title,
-                        .values = !arguments.no_values};
+                        .values = !arguments.no_values,
+                        .all = arguments.all};
   try {
-    return write_figure(draw::svg(draw::schematic(*read.scene, look), *read.scene), arguments.output);
+    const draw::Picture picture = draw::schematic(*read.scene, look);
+    if (picture.omitted > 0)
+      say("note: {} elements that repeat those beside them are not drawn; --all draws them\n", picture.omitted);
+    return write_figure(draw::svg(picture, *read.scene), arguments.output);
   } catch (const plot::Mistake& mistake) {
     report(mistake);
     return wrong_input;
