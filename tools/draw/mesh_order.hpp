@@ -14,11 +14,13 @@ void put_in_order(Mesh& mesh, int start, bool grounded);
 /// stations, which reach from the first to the last row of their links. Found by local search.
 std::vector<int> rows_of(const Mesh& mesh);
 
-/// Whether a link in `row` leads over the bar of a station.
+/// The first and the last row that the bar of a station reaches.
 struct BarSpan {
   int top, bottom;
 };
 std::vector<BarSpan> bars_of(const Mesh& mesh, const std::vector<int>& rows);
+
+/// Whether a link in `row` leads over the bar of a station.
 bool crosses(const Mesh::Link& link, int row, int station, const std::vector<BarSpan>& bars);
 
 }  // namespace rheonet::draw

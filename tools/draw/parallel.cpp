@@ -104,14 +104,13 @@ Piece draw_parallel(const Draftsman& draftsman, const Block& block, double line)
   const Detail& detail = draftsman.detail();
   std::vector<Piece> parts;
   double height = 0;
-  // What is before and behind the parallel parts is to have room as well.
-  const double inner = std::max(0.65 * line, 0.4 * detail.line);
   for (const Block& part : block.parts) {
-    parts.push_back(part.kind == Block::Kind::omitted ? omission(part) : draftsman.draw(part, inner));
+    parts.push_back(part.kind == Block::Kind::omitted ? omission(part) : draftsman.draw(part, line));
     height += parts.back().up + parts.back().down + detail.gap;
   }
+  constexpr std::size_t least = 8;  // parts to a column: fewer are easier to follow below each other
   const auto count = static_cast<std::size_t>(std::ceil(height / detail.column));
-  if (count <= 1 || parts.size() < 2 * count) return column(parts, block.left, block.right, detail.gap);
+  if (count <= 1 || parts.size() < least * count) return column(parts, block.left, block.right, detail.gap);
   std::vector<Piece> columns;
   for (std::size_t k = 0; k < count; ++k) {
     const auto from = parts.begin() + static_cast<std::ptrdiff_t>(k * parts.size() / count);

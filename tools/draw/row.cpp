@@ -21,12 +21,14 @@ struct Section {
 class Row {
  public:
   Row(const Draftsman& draftsman, const Block& block, double line) : draftsman_(draftsman), block_(block), most_(line) {
+    // What is before and behind parallel parts is to have room as well.
+    const double inner = block.parts.size() > 1 ? std::max(0.65 * line, 0.4 * draftsman.detail().line) : line;
     for (std::size_t k = 0; k < block.stations.size(); ++k) {
       Section section;
       section.station = &block.stations[k];
       section.drawn = (k > 0 || block.opens) && (k + 1 < block.stations.size() || block.closes);
       if (k < block.parts.size()) {
-        section.part = draftsman.draw(block.parts[k], line);
+        section.part = draftsman.draw(block.parts[k], inner);
         section.behind = block.stations[k + 1].node;
         section.beside = section.part->width;
       }
