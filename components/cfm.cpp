@@ -193,7 +193,9 @@ const RegisterComponent registered({
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[2], v[0], 0, v[4]}; }}},
     .deflection = deflection_batch<Cfm>,
-    .drawing = "M0 .5 H.1 M.1 .25 H.9 V.75 H.1 Z M.2 .7 C.35 .35 .5 .35 .8 .35 M.3 .2 H.7 M.9 .5 H1",
+    .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.66 H.27 M.12 .8 H.88 V.5 H1 "
+                         "M.48 .35 L.55 .39 L.45 .45 L.55 .5 L.45 .55 L.55 .6 L.48 .63",
+                .thin = "M.3 .66 L.36 .8 M.38 .66 L.44 .8 M.46 .66 L.52 .8 M.54 .66 L.6 .8 M.62 .66 L.68 .8"},
 });
 
 }  // namespace

@@ -76,7 +76,7 @@ const RegisterComponent registered({
                 .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .rate = rate_batch<Dashpot>,
-    .drawing = "M0 .5 H.45 M.45 .3 V.7 M.3 .2 H.65 V.8 H.3 M.65 .5 H1",
+    .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.68 H.27 M.7 .5 H1", .solid = "M.47 .37 H.53 V.63 H.47 Z"},
 });
 
 }  // namespace

@@ -240,7 +240,9 @@ const RegisterComponent registered({
                                    return std::vector<double>{v[0], v[1], 0, v[3]};
                                  }}}),
     .deflection = deflection_batch<Davidenkov>,
-    .drawing = "M0 .5 H.15 M.15 .8 C.25 .4 .5 .2 .85 .2 M.85 .2 C.75 .6 .5 .8 .15 .8 M.85 .5 H1",
+    .drawing = {.outline = "M.14 .24 H.86 V.76 H.14 Z",
+                .lines = "M0 .5 H.14 M.86 .5 H1 M.26 .68 C.3 .42 .46 .34 .74 .32 C.7 .58 .54 .66 .26 .68 Z",
+                .thin = "M.5 .29 V.71 M.22 .5 H.78"},
 });
 
 }  // namespace

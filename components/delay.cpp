@@ -21,7 +21,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.delay = v[0], .initial = v[1]}; },
-    .drawing = "M.1 .2 H.9 V.8 H.1 Z M0 .5 H.1 M.9 .5 H1 M.2 .7 H.35 V.35 H.5 M.5 .7 H.65 V.35 H.8",
+    .drawing = {.outline = "M0 .1 H1 V.9 H0 Z", .lines = "M.14 .7 H.3 V.32 H.44 M.52 .7 H.68 V.32 H.86", .thin = "M.46 .5 H.64"},
 });
 
 }  // namespace

@@ -19,7 +19,8 @@ const RegisterComponent registered({
             .notes = "Its force is the one applied, F(t).",
         },
     .role = Role::force,
-    .drawing = "M.1 .5 H.9 M.7 .3 L.9 .5 L.7 .7",
+    .drawing = {.lines = "M0 .5 H.8", .solid = "M1 .5 L.72 .36 V.64 Z"},
+    .rotational_drawing = {.lines = "M0 .5 H1 M.62 .14 A.17 .38 0 1 0 .62 .86", .solid = "M.8 .8 L.64 .99 L.56 .77 Z"},
 });
 
 }  // namespace

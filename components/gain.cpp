@@ -20,7 +20,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.gain = v[0]}; },
-    .drawing = "M.2 .2 V.8 L.8 .5 Z M0 .5 H.2 M.8 .5 H1",
+    .drawing = {.outline = "M0 .05 L1 .5 L0 .95 Z"},
 });
 
 }  // namespace

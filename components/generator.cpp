@@ -21,7 +21,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double>) { return BlockLaw{}; },
-    .drawing = "M.1 .2 H.9 V.8 H.1 Z M.2 .6 V.35 H.4 V.65 H.6 V.35 H.8 V.6 M.9 .5 H1",
+    .drawing = {.outline = "M0 .1 H1 V.9 H0 Z", .lines = "M.14 .5 V.3 H.38 V.7 H.62 V.3 H.86 V.5"},
 });
 
 }  // namespace

@@ -23,7 +23,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.gain = v[0], .state = true, .initial = v[1]}; },
-    .drawing = "M.1 .2 H.9 V.8 H.1 Z M0 .5 H.1 M.9 .5 H1 M.6 .3 Q.5 .2 .5 .5 Q.5 .8 .4 .7",
+    .drawing = {.outline = "M0 .1 H1 V.9 H0 Z", .lines = "M.62 .3 Q.53 .18 .52 .4 L.48 .6 Q.47 .82 .38 .7"},
 });
 
 }  // namespace

@@ -23,7 +23,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.gain = v[1] / v[0], .state = true, .leak = 1 / v[0], .initial = v[2]}; },
-    .drawing = "M.1 .2 H.9 V.8 H.1 Z M0 .5 H.1 M.9 .5 H1 M.2 .7 C.35 .3 .5 .3 .8 .3",
+    .drawing = {.outline = "M0 .1 H1 V.9 H0 Z", .lines = "M.16 .74 C.34 .3 .5 .28 .86 .27", .thin = "M.16 .22 V.78 M.12 .74 H.88"},
 });
 
 }  // namespace

@@ -28,7 +28,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.lower = v[1], .upper = v[0]}; },
-    .drawing = "M.1 .2 H.9 V.8 H.1 Z M0 .5 H.1 M.9 .5 H1 M.2 .7 H.4 L.6 .3 H.8",
+    .drawing = {.outline = "M0 .1 H1 V.9 H0 Z", .lines = "M.14 .7 H.36 L.64 .3 H.86", .thin = "M.5 .2 V.8 M.12 .5 H.88"},
 });
 
 }  // namespace

@@ -20,7 +20,8 @@ const RegisterComponent registered({
         },
     .role = Role::mass,
     .limits = {{.when = "mass = 0", .becomes = "", .applies = massless, .values = {}}},
-    .drawing = "M.2 .2 H.8 V.8 H.2 Z M0 .5 H.2",
+    .drawing = {.outline = "M0 0 H1 V1 H0 Z"},
+    .rotational_drawing = {.outline = "M0 0 H1 V1 H0 Z", .thin = "M0 .06 H1 M0 .15 H1 M0 .85 H1 M0 .94 H1"},
 });
 
 }  // namespace

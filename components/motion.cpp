@@ -22,7 +22,8 @@ const RegisterComponent registered({
             .notes = "Its force is what it applies to the node; the power that it supplies is that force times the velocity.",
         },
     .role = Role::motion,
-    .drawing = "M.3 .2 V.8 M.3 .5 H.9 M.75 .35 L.9 .5 L.75 .65",
+    .drawing = {.lines = "M0 .22 V.78 M0 .5 H.8", .solid = "M1 .5 L.72 .36 V.64 Z"},
+    .rotational_drawing = {.lines = "M0 .22 V.78 M0 .5 H1 M.62 .14 A.17 .38 0 1 0 .62 .86", .solid = "M.8 .8 L.64 .99 L.56 .77 Z"},
 });
 
 }  // namespace

@@ -85,7 +85,9 @@ const RegisterComponent registered({
     .role = Role::deflection,
     .limits = spring_to_slider(),
     .deflection = deflection_batch<Sfm>,
-    .drawing = "M0 .5 H.15 M.15 .3 V.7 M.15 .7 C.3 .3 .5 .3 .85 .3 M.85 .3 C.7 .7 .5 .7 .15 .7 M.85 .3 V.7 M.85 .5 H1",
+    .drawing = {.outline = "M.24 .32 H.68 V.54 H.24 Z",
+                .lines = "M0 .5 H.24 M.12 .7 H.88 V.5 H1",
+                .thin = "M.28 .54 L.34 .7 M.36 .54 L.42 .7 M.44 .54 L.5 .7 M.52 .54 L.58 .7 M.6 .54 L.66 .7"},
 });
 
 }  // namespace

@@ -32,7 +32,10 @@ const RegisterComponent registered({
     .limits = {{.when = "breakaway = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[1] == 0; },
                 .values = {}}},
     .slip = coulomb,
-    .drawing = "M0 .5 H.2 M.2 .3 H.8 V.7 H.2 Z M.1 .75 H.9 M.8 .5 H1",
+    .drawing = {.outline = "M.24 .34 H.68 V.6 H.24 Z",
+                .lines = "M0 .5 H.24 M.12 .62 H.88 V.5 H1",
+                .thin = "M.2 .62 L.14 .7 M.3 .62 L.24 .7 M.4 .62 L.34 .7 M.5 .62 L.44 .7 M.6 .62 L.54 .7 M.7 .62 L.64 .7 "
+                        "M.8 .62 L.74 .7"},
 });
 
 }  // namespace

@@ -55,7 +55,7 @@ const RegisterComponent registered({
     .limits = {{.when = "stiffness = 0", .becomes = "", .applies = no_stiffness, .values = {}}},
     .deflection = deflection_batch<Spring>,
     .spring = linear,
-    .drawing = "M0 .5 H.2 L.25 .3 L.35 .7 L.45 .3 L.55 .7 L.65 .3 L.75 .7 L.8 .5 H1",
+    .drawing = {.lines = "M0 .5 H.14 L.19 .34 L.29 .66 L.39 .34 L.49 .66 L.59 .34 L.69 .66 L.79 .34 L.84 .5 H1"},
 });
 
 }  // namespace

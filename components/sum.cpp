@@ -18,7 +18,7 @@ const RegisterComponent registered({
         },
     .role = Role::block,
     .block = [](std::span<const double>) { return BlockLaw{}; },
-    .drawing = "M.5 .2 A.3 .3 0 1 0 .5 .8 A.3 .3 0 1 0 .5 .2 M.5 .35 V.65 M.35 .5 H.65 M0 .5 H.2 M.8 .5 H1",
+    .drawing = {.outline = "M.5 0 A.5 .5 0 1 1 .5 1 A.5 .5 0 1 1 .5 0 Z", .lines = "M.5 .3 V.7 M.3 .5 H.7"},
 });
 
 }  // namespace

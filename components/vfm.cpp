@@ -82,7 +82,8 @@ const RegisterComponent registered({
                 .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
                 .values = [](std::span<const double> v) { return as_spring(v[1], v[3]); }}},
     .deflection = deflection_batch<Vfm>,
-    .drawing = "M0 .5 H.1 M.1 .3 H.9 V.7 H.1 Z M.2 .6 C.4 .6 .4 .4 .8 .4 M.9 .5 H1",
+    .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.68 H.27 M.7 .5 H1 "
+                         "M.48 .35 L.55 .39 L.45 .45 L.55 .5 L.45 .55 L.55 .61 L.48 .65"},
 });
 
 }  // namespace

@@ -177,6 +177,19 @@ struct Limit {
   std::function<std::vector<double>(std::span<const double>)> values = {};  ///< parameters of the law that it becomes
 };
 
+/// How a type is drawn: paths in a box of 1 x 1, y downwards, in SVG's notation with absolute coordinates (M, L, H, V, C, Q,
+/// A, Z). What joins two nodes has them at (0, 0.5) and (1, 0.5), and keeps its proportions; so do the arrow of a motion
+/// or force, which leads from (0, 0.5) to (1, 0.5), and a block, which takes its inputs at x = 0 and puts out at (1, 0.5).
+/// The box of a mass is stretched to what is written in it, and over all that it carries.
+struct Symbol {
+  std::string outline = {};  ///< closed: hides what is behind it
+  std::string lines = {};
+  std::string thin = {};     ///< hatching and shading
+  std::string solid = {};    ///< filled
+
+  bool empty() const { return outline.empty() && lines.empty() && thin.empty() && solid.empty(); }
+};
+
 using Values = std::vector<std::span<const double>>;  ///< for each element of a batch its declared parameters
 
 /// Everything that the simulator knows of an element type. One file in components/ makes one, and registers it.
@@ -189,7 +202,12 @@ struct Component {
   std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
   std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is one
-  std::string drawing = {};  ///< the symbol: a path in a box of 1 x 1 with the ports at (0, 0.5) and (1, 0.5)
+  Symbol drawing = {};             ///< a plain box if it is empty
+  Symbol rotational_drawing = {};  ///< in a rotational scene, if that is another one
+
+  const Symbol& drawn_in(Domain domain) const {
+    return domain == Domain::rotation && !rotational_drawing.empty() ? rotational_drawing : drawing;
+  }
 };
 
 /// The components in alphabetical order of their types.

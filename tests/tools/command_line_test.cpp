@@ -8,7 +8,7 @@ using namespace rheonet::test;
 TEST_CASE("help and version go to standard output with status 0") {
   const Folder folder;
   for (const std::string words :
-       {"--help", "-h", "run --help", "check --help", "compare --help", "components --help", "schema --help"}) {
+       {"--help", "-h", "run --help", "check --help", "compare --help", "components --help", "schema --help", "draw --help"}) {
     CAPTURE(words);
     const Finished help = folder.shell(std::string("rheonet ") + words);
     CHECK(help.status == 0);

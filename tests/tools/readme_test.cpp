@@ -79,7 +79,7 @@ TEST_CASE("every example of README.md does what it says") {
     CAPTURE(i);
     CHECK(std::abs(found[i] - expected[i]) < 5e-6);
   }
-  for (const std::string file : {"stiff.csv", "fine.csv", "rheonet.schema.json", "both.svg", "loop.png", "home/.local/bin/rheonet"}) {
+  for (const std::string file : {"stiff.csv", "fine.csv", "rheonet.schema.json", "both.svg", "loop.png", "first.svg", "creep.png", "servo.svg", "home/.local/bin/rheonet"}) {
     CHECK(folder.has(file));
   }
 }

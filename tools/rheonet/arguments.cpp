@@ -57,6 +57,12 @@ constexpr const char* of_plot =
     "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
     "line is wrong.";
 
+constexpr const char* of_draw =
+    "For instance:\n"
+    "  rheonet draw scene.toml -o network.svg\n"
+    "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
+    "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
+
 bool is_override(const std::string& word) {
   const std::size_t equals = word.find('=');
   return equals != std::string::npos && equals > 0 && word[0] != '-' && word.find('/') > equals;
@@ -200,6 +206,7 @@ struct CommandLine {
     add_plot(plot, arguments);
     add_overrides(plot);
     add_accuracy(plot);
+    add_draw();
     CLI::App* components = add_command("components", "describe the element types");
     components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
     components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
@@ -241,6 +248,16 @@ struct CommandLine {
     CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
     add_scene(check);
     check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
+  }
+  void add_draw() {
+    CLI::App* draw = add_command("draw", "draw the network of a scene as an engineer does", of_draw);
+    add_scene(draw);
+    draw->add_option("-o,--output", arguments.output, "the figure: an .svg or a .png; `-` is an SVG on standard output")
+        ->required()
+        ->type_name("FILE");
+    draw->add_option("--title", arguments.title, "above the figure, in place of that of the scene")->type_name("TEXT");
+    draw->add_flag("--all", arguments.all, "of more than 45 elements also those that repeat what is beside them");
+    draw->add_flag("--no-values", arguments.no_values, "names alone");
   }
   void add_compare() {
     CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
@@ -297,6 +314,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
                                                    {"check", Command::check},
                                                    {"compare", Command::compare},
                                                    {"plot", Command::plot},
+                                                   {"draw", Command::draw},
                                                    {"components", Command::components},
                                                    {"schema", Command::schema}};
   arguments.command = commands.at(app.get_subcommands().front()->get_name());

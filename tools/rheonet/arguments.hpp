@@ -12,7 +12,7 @@ enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input =
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, plot, components, schema };
+  enum class Command { run, check, compare, plot, draw, components, schema };
 
   Command command = Command::run;
   std::string scene;
@@ -44,6 +44,9 @@ struct Arguments {
     bool magnitudes = false, marks = false;
   };
   Plot plot;
+  std::string title;    ///< of `draw`; "": that of the scene
+  bool no_values = false;  ///< of `draw`
+  bool all = false;        ///< of `draw`
   std::string domain;  ///< of CSV files: "translation", "rotation"; "": not said
 };
 

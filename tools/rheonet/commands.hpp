@@ -16,6 +16,9 @@ ExitStatus compare_scenes(const Arguments& arguments);
 /// `rheonet plot`: draws curves of scenes and of CSV files.
 ExitStatus plot_results(const Arguments& arguments);
 
+/// `rheonet draw`: draws the network of a scene.
+ExitStatus draw_network(const Arguments& arguments);
+
 /// `rheonet components`: prints the reference.
 ExitStatus print_components(const Arguments& arguments);
 

@@ -38,14 +38,18 @@ void report(const plot::Mistake& mistake) {
   if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
 }
 
+ExitStatus write_figure(const std::string& svg, const std::string& path) {
+  if (!path.ends_with(".png")) return write_svg(svg, path);
+  const std::optional<std::string> failed = plot::write_png(svg, path);
+  if (failed) say("error: `{}`: {}\n", printable(path), printable(*failed));
+  return failed ? not_simulated : done;
+}
+
 ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path) {
   std::vector<std::string> notes;
   const std::string text = plot::svg(plot::compose(std::move(curves), look, notes));
   for (const std::string& note : notes) say("note: {}\n", printable(note));
-  if (!path.ends_with(".png")) return write_svg(text, path);
-  const std::optional<std::string> failed = plot::write_png(text, path);
-  if (failed) say("error: `{}`: {}\n", printable(path), printable(*failed));
-  return failed ? not_simulated : done;
+  return write_figure(text, path);
 }
 
 std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x) {

@@ -15,6 +15,9 @@ bool is_figure_file(const std::string& path, const char* option);
 /// Says why a figure cannot be drawn.
 void report(const plot::Mistake& mistake);
 
+/// Writes an SVG document to a file, or the .png made of it.
+ExitStatus write_figure(const std::string& svg, const std::string& path);
+
 /// Composes and writes a figure, and says what was left out of it. Throws plot::Mistake.
 ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path);
 

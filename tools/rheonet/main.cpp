@@ -27,6 +27,8 @@ ExitStatus carry_out(const Arguments& arguments) {
       return compare_scenes(arguments);
     case Command::plot:
       return plot_results(arguments);
+    case Command::draw:
+      return draw_network(arguments);
     case Command::components:
       return print_components(arguments);
     case Command::schema:

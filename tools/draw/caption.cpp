@@ -1,0 +1,187 @@
+#include "tools/draw/caption.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/network/component.hpp"
+#include "tools/plot/units.hpp"
+
+namespace rheonet::draw {
+namespace {
+
+const Declaration& declaration_of(const SceneElement& element) {
+  return *declarations()[static_cast<std::size_t>(element.declaration)];
+}
+
+/// A whole number as raised digits.
+std::string superscript(int number) {
+  static const char* const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = number < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(number))) text += digits[digit - '0'];
+  return text;
+}
+
+/// Units that take a prefix: those that begin with a newton or a metre, and those of time. N·m/rad is said in mN·m/rad.
+bool takes_prefix(const std::string& unit) {
+  return unit.starts_with("N") || unit == "m" || unit == "m/s" || unit == "s" || unit == "Hz";
+}
+
+std::string number(double value) { return fmt::format("{:.4g}", value); }
+
+/// A unit as people say it in a domain: that of a quantity or of its inverse, if it has one. `radian` tells N·m from
+/// N·m/rad (it may be above 0: of m r^2 (rad/s)^2, say, which is a stiffness).
+std::string unit_name(Dimension dimension, double radian, Domain domain) {
+  constexpr Quantity known[] = {Quantity::number,    Quantity::time,    Quantity::velocity, Quantity::force,
+                                Quantity::stiffness, Quantity::damping, Quantity::mass,     Quantity::position};
+  const bool rotation = domain == Domain::rotation;
+  if (rotation && radian > 0 && dimension.is_number()) return unit_of(Quantity::position, domain);
+  if (rotation && radian != 0 && dimension.same(dimension_of(Quantity::force, domain)))
+    return unit_of(Quantity::stiffness, domain);
+  for (const Quantity quantity : known)
+    if (dimension.same(dimension_of(quantity, domain))) return unit_of(quantity, domain);
+  for (const Quantity quantity : known)
+    if (dimension.power(-1).same(dimension_of(quantity, domain))) return "per " + unit_of(quantity, domain);
+  return to_string(dimension);
+}
+
+/// The unit of a parameter, as far as it has one: those of blocks go with what is connected.
+std::string unit_of_parameter(const Scene& scene, int index, const Parameter& parameter) {
+  const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
+  const Declaration& declaration = declaration_of(element);
+  if (parameter.unit == Parameter::Unit::quantity) {
+    double flow_index = 1;
+    for (std::size_t k = 0; k < declaration.parameters.size(); ++k)
+      if (declaration.parameters[k].name == parameter.flow_index) flow_index = element.values[k];
+    return unit_of(parameter.quantity, scene.domain, flow_index);
+  }
+  const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(),
+                                  [index](const SceneBlock& each) { return each.element == index; });
+  if (block == scene.blocks.end() || block->unit.open) return "1";
+  Dimension dimension = block->unit.dimension;
+  double radian = block->unit.radian;
+  if (!block->inputs.empty() && parameter.unit != Parameter::Unit::output) {
+    const SceneBlock::Input& input = block->inputs.front();
+    const auto from = static_cast<std::size_t>(input.index);
+    const BlockUnit in = input.from_block ? scene.blocks[from].unit : unit_of(scene, scene.sensed[from]);
+    if (in.open) return "1";
+    if (parameter.unit == Parameter::Unit::input) {
+      dimension = in.dimension;
+      radian = in.radian;
+    } else {
+      dimension = dimension / in.dimension;
+      radian -= in.radian;
+      if (declaration.inputs.integrates) dimension = dimension / Dimension{.metre = 0, .kilogram = 0, .second = 1};
+    }
+  }
+  return unit_name(dimension, radian, scene.domain);
+}
+
+/// Whether a value is what it would be if nobody had given it.
+bool goes_without_saying(const SceneElement& element, std::size_t i) {
+  const std::vector<Parameter>& parameters = declaration_of(element).parameters;
+  const Parameter& parameter = parameters[i];
+  if (std::isnan(element.values[i])) return true;
+  if (parameter.fallback && element.values[i] == *parameter.fallback) return true;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (parameters[k].name == parameter.same_as)
+      return element.values[i] == (parameter.opposite ? -1 : 1) * element.values[k];
+  return false;
+}
+
+/// The shape of a signal, and how large and how fast it is.
+struct Shape {
+  const std::string& unit;
+
+  std::string operator()(const Signal::Constant& s) const { return say("", s.value); }
+  std::string operator()(const Signal::Step& s) const { return say("step ", s.height); }
+  std::string operator()(const Signal::Ramp& s) const { return say("ramp ", s.slope) + " per s"; }
+  std::string operator()(const Signal::Sine& s) const { return wave("sine ", s); }
+  std::string operator()(const Signal::Square& s) const { return wave("square ", s); }
+  std::string operator()(const Signal::Triangle& s) const { return wave("triangle ", s); }
+  std::string operator()(const Signal::Chirp& s) const {
+    return say("chirp ", s.amplitude) + fmt::format(", {}–{}", number(s.frequency), engineering(s.end_frequency, "Hz"));
+  }
+  std::string operator()(const Signal::Pulse& s) const {
+    return say("pulse ", s.height) + ", " + engineering(s.width, "s");
+  }
+  std::string operator()(const Signal::Table& s) const { return fmt::format("table, {} points", s.times.size()); }
+
+  std::string say(const char* what, double value) const { return what + engineering(value, unit); }
+  template <class Wave>
+  std::string wave(const char* what, const Wave& s) const {
+    return say(what, s.amplitude) + ", " + engineering(s.frequency, "Hz");
+  }
+};
+
+/// What feeds the signal of an element; nullptr if it has its own.
+const SceneFeed* feed_of(const Scene& scene, int element) {
+  const auto found = std::find_if(scene.feeds.begin(), scene.feeds.end(),
+                                  [element](const SceneFeed& feed) { return feed.element == element; });
+  return found == scene.feeds.end() ? nullptr : &*found;
+}
+
+std::string signal_of(const Scene& scene, int index, std::size_t which) {
+  const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
+  if (const SceneFeed* feed = feed_of(scene, index)) {
+    const SceneBlock& block = scene.blocks[static_cast<std::size_t>(feed->block)];
+    return (feed->sign < 0 ? "from −" : "from ") + scene.elements[static_cast<std::size_t>(block.element)].name;
+  }
+  const Parameter& parameter =
+      declaration_of(element).parameters[static_cast<std::size_t>(element.signal_parameters[which])];
+  const std::string unit = unit_of_parameter(scene, index, parameter);
+  return std::visit(Shape{unit}, element.signals[which].shape());
+}
+
+}  // namespace
+
+std::string in_print(const std::string& symbol) {
+  static const std::map<std::string, std::string> letters = {{"sigma", "σ"}, {"eta", "η"}, {"tau", "τ"}, {"mu", "µ"}};
+  const auto found = letters.find(symbol);
+  return found == letters.end() ? symbol : found->second;
+}
+
+std::string engineering(double value, const std::string& unit) {
+  const std::string sign = value < 0 ? "−" : "";
+  const double magnitude = std::abs(value);
+  if (std::isinf(value)) return sign + "∞";
+  const std::string plain = unit == "1" ? "" : ' ' + plot::in_print(unit);
+  if (magnitude == 0) return "0" + plain;
+  int power = 3 * static_cast<int>(std::floor(std::log10(magnitude * (1 + 1e-9)) / 3));
+  if (unit == "kg" && power < 0 && power >= -6)
+    return sign + number(magnitude / std::pow(10.0, power)) + (power == -3 ? " g" : " mg");
+  static const std::map<int, const char*> prefixes = {{-9, "n"}, {-6, "µ"}, {-3, "m"}, {3, "k"}, {6, "M"}, {9, "G"}};
+  const auto prefix = prefixes.find(power);
+  const bool long_time = power > 0 && (unit == "s" || unit.starts_with("m"));
+  if (takes_prefix(unit) && !long_time && prefix != prefixes.end())
+    return sign + number(magnitude / std::pow(10.0, power)) + ' ' + prefix->second + plain.substr(1);
+  if (magnitude >= 0.01 && magnitude < 1e4) return sign + number(magnitude) + plain;
+  power = static_cast<int>(std::floor(std::log10(magnitude * (1 + 1e-9))));
+  const std::string factor = number(magnitude / std::pow(10.0, power));
+  return sign + (factor == "1" ? "" : factor + "·") + "10" + superscript(power) + plain;
+}
+
+Caption caption_of(const Scene& scene, int index, bool with_values) {
+  const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
+  const Declaration& declaration = declaration_of(element);
+  Caption caption{element.name, {}};
+  if (!with_values) return caption;
+  std::vector<std::pair<std::string, std::string>> said;
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const auto& signals = element.signal_parameters;
+    const auto signal = std::find(signals.begin(), signals.end(), static_cast<int>(i));
+    const std::string symbol = in_print(declaration.parameters[i].symbol);
+    if (signal != signals.end())
+      said.emplace_back(symbol, signal_of(scene, index, static_cast<std::size_t>(signal - signals.begin())));
+    else if (!goes_without_saying(element, i))
+      said.emplace_back(symbol,
+                        engineering(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i])));
+  }
+  const bool several = said.size() > 1;
+  for (const auto& [symbol, value] : said) caption.values.push_back(several ? symbol + " = " + value : value);
+  return caption;
+}
+
+}  // namespace rheonet::draw

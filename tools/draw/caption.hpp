@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+
+namespace rheonet::draw {
+
+/// What is written beside an element.
+struct Caption {
+  std::string name;
+  std::vector<std::string> values;  ///< a line each
+};
+
+/// Its name and, unless they are left out, its values: those that are not as if they had not been given.
+Caption caption_of(const Scene& scene, int element, bool with_values);
+
+/// A value in SI as an engineer writes it, to four digits: "2.5 kN/m", "50 µm", "5·10⁻⁵ kg·m²", "∞".
+/// `unit` is as a user would type it; "1" for a number.
+std::string engineering(double value, const std::string& unit);
+
+/// The symbol of a parameter in print: "σ" for "sigma".
+std::string in_print(const std::string& symbol);
+
+}  // namespace rheonet::draw

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "core/network/component.hpp"
+#include "tools/draw/picture.hpp"
+
+namespace rheonet::draw {
+
+/// What is drawn of a component; a plain box if it declares nothing.
+const Symbol& symbol_of(const Component& component, Domain domain);
+const Symbol& symbol_of(const Scene& scene, int element);
+
+/// How far a symbol reaches above and below the middle of its box of 1 x 1, by the points that its paths name.
+struct Reach {
+  double up, down;
+};
+Reach reach_of(const Symbol& symbol);
+
+/// A path of a component's symbol, mapped from its box of 1 x 1 to `box`; `mirrored` exchanges left and right. Lines
+/// keep their width, because coordinates are mapped and not the drawing. With a `unit` [px] above 0 what is near an
+/// edge of the box stays as far from it as in a box of that size. Throws std::invalid_argument for what is none of a
+/// symbol's commands.
+std::string fitted(const std::string& path, const Box& box, bool mirrored, double unit = 0);
+
+}  // namespace rheonet::draw
