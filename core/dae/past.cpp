@@ -59,6 +59,7 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
   delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
   taken_.assign(delayed_.size(), -infinity);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
+    if (network.motions[m].block >= 0) continue;  // as any other node
     track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
     if (track_of_motion_[m] >= 0) tracks_[static_cast<std::size_t>(track_of_motion_[m])].motion = static_cast<int>(m);
   }
