@@ -9,12 +9,14 @@ namespace rheonet {
 Drive::Drive(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
     : network_(&network),
       stop_(network.scene->stop - network.scene->start),
+      moves_by_blocks_(false),
       blocks_(network, classified),
       past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels()) {
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
     Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}};
+    moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
     motion.anchor_time = start;
     motion.anchor = positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests where it was before the run.
@@ -117,6 +119,11 @@ void Drive::look_ahead(double t) {
     if (place.role == Role::force) blocks_.sensed[k] = Dual(force[index], force_rate[index]);
   }
   blocks_.run(false);
+  if (moves_by_blocks_) {
+    // A state that has just begun to change has no rate yet, but it will.
+    for (std::size_t k = 0; k < states; ++k) blocks_.state[k].derivative = blocks_.rate(k);
+    blocks_.run(false);
+  }
   apply_blocks();
 }
 

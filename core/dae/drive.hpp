@@ -103,6 +103,7 @@ class Drive {
   std::vector<double> steps_;
   double next_break_ = 0;  ///< of the signals
   double stop_;            ///< of the run [s]
+  bool moves_by_blocks_;
   BlockSignals blocks_;
   Past past_;  ///< after blocks_, which says what it remembers
   double time_;

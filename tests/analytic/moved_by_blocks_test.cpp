@@ -169,6 +169,57 @@ start_from = "steady"
   CHECK(run["belt.velocity"][3] == doctest::Approx(0.4 + 0.8 * std::exp(-1)).epsilon(1e-5));
 }
 
+// At rest, without acceleration, even without a change of that: nothing tells at the start which way it will slip.
+TEST_CASE("a slider to what blocks move slips as soon as they move") {
+  for (const int integrators : {1, 2, 3}) {
+    CAPTURE(integrators);
+    std::string text = "[elements]\ni0 = { type = \"generator\", signal = { sine = -2.3, frequency = 0.9 } }\n";
+    for (int k = 1; k <= integrators; ++k) text += fmt::format("i{} = {{ type = \"integrator\", in = \"i{}\", gain = 3 }}\n", k, k - 1);
+    text += fmt::format("m = {{ type = \"motion\", at = \"a\", velocity = {{ block = \"i{}\" }} }}\n"
+                        "s = {{ type = \"slider\", between = [\"a\", \"ground\"], coulomb = 0.3 }}\n"
+                        "[simulate]\nstop = 0.5\noutput = {{ points = 51 }}\n",
+                        integrators);
+    for (const double accuracy : accuracies) {
+      Summary summary;
+      const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+      for (std::size_t row = 1; row < run.time().size(); ++row) CHECK_EQ(run["s.force"][row], -0.3);
+      CHECK(summary.dissipated == doctest::Approx(-0.3 * run["a.position"].back()).epsilon(10 * accuracy));
+      CHECK(std::abs(summary.missing) <= 10 * accuracy * summary.largest);
+    }
+  }
+}
+
+TEST_CASE("rigid links, and sliders that stick and slip, between what blocks move") {
+  const std::string text = R"(
+[elements]
+g  = { type = "generator", signal = { sine = 1, frequency = 1.3 } }
+h  = { type = "lag", in = "g", time_constant = 0.05 }
+l  = { type = "limiter", in = "h", upper = 0.6, lower = -0.5 }
+m1 = { type = "motion", at = "a", velocity = { block = "l" } }
+m2 = { type = "motion", at = "z", velocity = { block = "-h" } }
+link = { type = "slider", between = ["a", "b"], coulomb = "inf" }
+b  = { type = "mass", at = "b", mass = 0.7 }
+k  = { type = "spring", between = ["b", "c"], stiffness = 30 }
+c  = { type = "mass", at = "c", mass = 0.4 }
+s1 = { type = "sfm", between = ["a", "z"], stiffness = 40, coulomb = 0.7 }
+s2 = { type = "slider", between = ["z", "a"], coulomb = 0.3 }
+s3 = { type = "slider", between = ["c", "z"], coulomb = 0.5 }
+[simulate]
+stop = 2.3
+output = { points = 116 }
+)";
+  for (const double accuracy : {1e-3, 1e-6, 1e-8}) {
+    Summary summary;
+    const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+    CHECK(std::abs(summary.missing) <= 10 * accuracy * summary.largest);
+    for (std::size_t row = 1; row < run.time().size(); ++row) {
+      CHECK_EQ(run["b.velocity"][row], run["a.velocity"][row]);
+      CHECK_EQ(run["s2.force"][row], run["z.velocity"][row] < run["a.velocity"][row] ? -0.3 : 0.3);
+    }
+  }
+  check_against_closer(text, 1e-6, {"c.velocity", "c.position", "k.force", "s1.force", "a.position"});
+}
+
 TEST_CASE("motions that no block can give, with their place and what would mend it") {
   const auto refused = [](const std::string& elements, const std::string& rest = "") {
     return refusal("[elements]\nb = { type = \"mass\", at = \"b\", mass = 1 }\nk = { type = \"spring\", between = [\"a\", \"b\"], stiffness = 9 }\n" +
@@ -182,6 +233,16 @@ TEST_CASE("motions that no block can give, with their place and what would mend 
   says(refused("h = { type = \"gain\", in = \"b.velocity\", gain = 1 }\n" + m), "the velocity of `m` follows at the same instant from `b.velocity`");
   says(refused("h = { type = \"gain\", in = \"a.velocity\", gain = 1 }\n" + m), "block `h` needs its own output at the same instant; put a `lag` between");
   CHECK_EQ(refused("h = { type = \"lag\", in = \"k.force\", time_constant = 1, gain = \"2 s/kg\" }\n" + m), "");
+  says(refusal(R"([elements]
+g = { type = "generator", signal = 1 }
+i = { type = "integrator", in = "g" }
+j = { type = "integrator", in = "g", gain = 2 }
+m = { type = "motion", at = "a", velocity = { block = "i" } }
+n = { type = "motion", at = "b", velocity = { block = "j" } }
+link = { type = "slider", between = ["a", "b"], coulomb = "inf" }
+[simulate]
+stop = 1
+)"), "rigid link `link` joins nodes that are made to move at different velocities");
   const std::string x = "m = { type = \"motion\", at = \"a\", position = { block = \"h\" } }\n";
   says(refused("g = { type = \"generator\", signal = 1 }\nh = { type = \"gain\", in = \"g\", gain = 1 }\n" + x),
        "motion `m` takes its position from block `h`, which is no integrator or lag: its rate, the velocity, is not known; put an "
