@@ -82,7 +82,9 @@ TEST_CASE("a delayed vfm on a given motion: the force of one without delay, late
   constexpr int shift = 15;  // rows
   constexpr double every = TD / shift, accuracy = 1e-9;
   constexpr int rows = 200;
-  for (const auto& [parameter, signal] : drives) {
+  for (const auto& drive : drives) {
+    const std::string& parameter = drive.first;
+    const Signal& signal = drive.second;
     CAPTURE(signal.shape().index());
     for (const bool reversed : {false, true}) {
       SceneBuilder b;
