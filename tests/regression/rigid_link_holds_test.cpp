@@ -33,4 +33,24 @@ c     = { type = "mass", at = "c", mass = 0.43 }
   }
 }
 
+// Motions that begin alike and part later were taken as they come, and the link with them.
+TEST_CASE("a rigid link between motions: refused if they part, whenever that is") {
+  const auto between = [](const std::string& one, const std::string& other) {
+    return refusal("[elements]\nm = { type = \"motion\", at = \"a\", " + one + " }\nn = { type = \"motion\", at = \"b\", " + other + R"( }
+link1 = { type = "slider", between = ["a", "c"], coulomb = "inf" }
+link2 = { type = "slider", between = ["c", "b"], coulomb = "inf" }
+c = { type = "mass", at = "c", mass = 1.3 }
+[simulate]
+stop = 1.7
+)");
+  };
+  const std::string torn = "rigid link `link1` joins nodes that are made to move at different velocities; leave it out, or one of the motions";
+  CHECK_EQ(between("velocity = { ramp = 0.7 }", "velocity = { ramp = 1.4 }"), torn);
+  CHECK_EQ(between("velocity = { ramp = 0.7 }", "velocity = { ramp = 0.7 }"), "");
+  CHECK_EQ(between("velocity = { cosine = 0.7, offset = -0.7, frequency = 2 }", "velocity = { cosine = 0.8, offset = -0.8, frequency = 2 }"), torn);
+  CHECK_EQ(between("velocity = 0.4", "velocity = { table = [[0, 0.4], [1.1, 0.4], [1.2, 0.5]] }"), torn);
+  // The same in two ways: as a velocity, and as the position that it leads to.
+  CHECK_EQ(between("velocity = { cosine = \"2*3.14159265358979324*1.3*0.2\", frequency = 1.3 }", "position = { sine = 0.2, frequency = 1.3 }"), "");
+}
+
 }  // namespace rheonet::test
