@@ -170,8 +170,9 @@ bool Instant::move_together(double t, NodeId a, NodeId b) const {
 }
 
 void Instant::refuse_torn_links(double t) const {
-  Sets linked(structure_.kind.size());
   const auto rigid = [](const Network::Slider& s) { return std::isinf(s.law.breakaway); };
+  if (std::none_of(network_.sliders.begin(), network_.sliders.end(), rigid)) return;
+  Sets linked(structure_.kind.size());
   for (const Network::Slider& s : network_.sliders) {
     if (rigid(s)) linked.join(s.branch.a, s.branch.b);
   }
