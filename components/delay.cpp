@@ -1,3 +1,4 @@
+#include "components/block_parameters.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet {
@@ -11,8 +12,7 @@ const RegisterComponent registered({
             .parameters =
                 {
                     {.name = "delay", .quantity = Quantity::time, .lower_open = false, .symbol = "T", .description = "the input is put out so much later; 0: at once"},
-                    {.name = "initial", .unit = Parameter::Unit::output, .fallback = 0.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "y0",
-                     .description = "output until the first of the input comes through"},
+                    block_initial("output until the first of the input comes through"),
                 },
             .summary = "transport delay",
             .law = "y(t) = u(t - T), y0 before",

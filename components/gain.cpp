@@ -1,3 +1,4 @@
+#include "components/block_parameters.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet {
@@ -8,11 +9,7 @@ const RegisterComponent registered({
         {
             .type = "gain",
             .ports = Declaration::Ports::block,
-            .parameters =
-                {
-                    {.name = "gain", .unit = Parameter::Unit::own, .lower = -std::numeric_limits<double>::infinity(), .symbol = "K",
-                     .description = "what is put out for each unit of the input"},
-                },
+            .parameters = {block_gain("what is put out for each unit of the input")},
             .summary = "multiplies a signal",
             .law = "y = K u",
             .source = "definition",

@@ -1,3 +1,4 @@
+#include "components/block_parameters.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet {
@@ -9,13 +10,7 @@ const RegisterComponent registered({
             .type = "integrator",
             .ports = Declaration::Ports::block,
             .inputs = {.integrates = true},
-            .parameters =
-                {
-                    {.name = "gain", .unit = Parameter::Unit::own, .fallback = 1.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "K",
-                     .description = "rate of the output for each unit of the input"},
-                    {.name = "initial", .unit = Parameter::Unit::output, .fallback = 0.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "y0",
-                     .description = "output at the start"},
-                },
+            .parameters = {block_gain("rate of the output for each unit of the input", 1.0), block_initial()},
             .summary = "integrates a signal over time",
             .law = "y' = K u, y = y0 at the start",
             .source = "definition",

@@ -1,3 +1,4 @@
+#include "components/block_parameters.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet {
@@ -11,10 +12,8 @@ const RegisterComponent registered({
             .parameters =
                 {
                     {.name = "time_constant", .quantity = Quantity::time, .symbol = "T", .description = "time in which a step is followed to 1 - 1/e"},
-                    {.name = "gain", .unit = Parameter::Unit::own, .fallback = 1.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "K",
-                     .description = "output for each unit of a steady input"},
-                    {.name = "initial", .unit = Parameter::Unit::output, .fallback = 0.0, .lower = -std::numeric_limits<double>::infinity(), .symbol = "y0",
-                     .description = "output at the start"},
+                    block_gain("output for each unit of a steady input", 1.0),
+                    block_initial(),
                 },
             .summary = "first-order lag",
             .law = "T y' + y = K u, y = y0 at the start",

@@ -10,16 +10,19 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::at,
             .parameters =
                 {
-                    {.name = "position", .quantity = Quantity::position, .kind = Parameter::Kind::signal, .symbol = "x",
+                    {.name = "position", .quantity = Quantity::position, .kind = Parameter::Kind::signal,
+                     .from_block = true, .symbol = "x",
                      .description = "position of the node over time"},
-                    {.name = "velocity", .quantity = Quantity::velocity, .kind = Parameter::Kind::signal, .symbol = "v",
+                    {.name = "velocity", .quantity = Quantity::velocity, .kind = Parameter::Kind::signal,
+                     .from_block = true, .symbol = "v",
                      .description = "velocity of the node over time; it starts from the node's initial position"},
                 },
             .one_of = {"position", "velocity"},
             .summary = "prescribes the motion of a node",
-            .law = "x(t) or v(t) given",
+            .law = "x(t) or v(t) given, or the output of a block",
             .source = "definition",
-            .notes = "Its force is what it applies to the node; the power that it supplies is that force times the velocity.",
+            .notes = "Its force is what it applies to the node; the power that it supplies is that force times the velocity. "
+                     "A block that gives it must be one whose rate is known: see the netlist format.",
         },
     .role = Role::motion,
     .drawing = {.lines = "M0 .22 V.78 M0 .5 H.8", .solid = "M1 .5 L.72 .36 V.64 Z"},

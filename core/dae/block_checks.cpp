@@ -33,6 +33,18 @@ bool BlockSignals::loose(const Network& network, const Blocks::Sensor& sensor, c
 }
 
 void BlockSignals::refuse_loops(const Network& network, const Structure& classified) const {
+  for (const Network::Motion& motion : network.motions) {
+    for (std::size_t k = 0; motion.block >= 0 && k < sensed.size(); ++k) {
+      const Blocks::Sensor& sensor = blocks_->sensors[k];
+      if (!depends(motion.block, state.size() + k)) continue;
+      if (sensor.what == What::position && !loose(network, sensor, classified)) continue;
+      throw SimulationError(network.spot_of(motion.element),
+                            fmt::format("the velocity of `{}` follows at the same instant from `{}`, of which it is not known how fast "
+                                        "it changes, so that no acceleration would be known; put a `lag` between them",
+                                        network.scene->elements[at(motion.element)].name,
+                                        network.scene->sensed[at(sensor.record)].path));
+    }
+  }
   for (const Network::Force& force : network.forces) {
     for (std::size_t k = 0; force.block >= 0 && k < sensed.size(); ++k) {
       const Blocks::Sensor& sensor = blocks_->sensors[k];
@@ -61,6 +73,7 @@ void BlockSignals::settle() {
     const int block = static_cast<int>(k);
     bool matters = blocks_->blocks[k].breaks_loops();
     for (const Network::Force& force : network_->forces) matters = matters || force.block == block;
+    for (const Network::Motion& motion : network_->motions) matters = matters || motion.block == block;
     std::vector<char> seen(out_.size(), 0);
     if (matters && senses(block, seen)) refuse_steady(block, "depends on how the network moves, which is what is looked for");
   }

@@ -135,10 +135,12 @@ void Dae::derive_positions(const std::vector<char>& needed) {
     queue.push(node);
   };
   for (NodeId node : network.node_order) {
-    if (structure_->kind[at(node)] == Kind::known) root(node);
+    if (structure_->kind[at(node)] != Kind::known) continue;
+    root(node);
+    if (!structure_->of_time[at(node)]) ix_[at(node)] = size_++;
   }
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
-    if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0) continue;
+    if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0 || ix_[at(sensor.index)] >= 0) continue;
     ix_[at(sensor.index)] = size_++;
     root(sensor.index);
   }

@@ -22,7 +22,7 @@ namespace rheonet {
 ///   v  velocity of a massive or viscous node; of a floating node relative to its group's reference     [m/s]
 ///   p  deflection of a branch, unless it is a function of time alone                                    [m]
 ///   f  force of a dashpot that is solved for its force                                                  [N]
-///   x  position of a node that is asked for and does not follow from deflections, or that a block takes in [m]
+///   x  position of a node that is asked for and does not follow from deflections, or that a block takes in or gives [m]
 ///   z  state of a block                                                                                 [its output]
 /// Equations, each in the row of the unknown that it stands for:
 ///   v  balance of forces at the node:  sum f + m v' - applied = 0
@@ -178,8 +178,12 @@ class Dae {
   };
   struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
   std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
-  void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor);
+  void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor,
+              Coupling::By by = Coupling::By::itself, std::size_t branch = 0);
   void build_couplings(PatternBuilder& builder);
+  void couple_motions(PatternBuilder& builder);
+  void move_by_blocks(const double* y);
+  double acceleration_by(const Network::Motion& motion) const;
   void feel_blocks(const double* y);
   void block_jacobian(double* values) const;
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/dae/dae.hpp"
 
 namespace rheonet {
@@ -22,19 +24,23 @@ std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
   return {{iv_[at(b.a)], 1, By::damping, branch}, {iv_[at(b.b)], -1, By::damping, branch}};
 }
 
-void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) {
+void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor, Coupling::By by,
+                 std::size_t branch) {
   const BlockSignals& blocks = drive_->blocks();
   for (std::size_t atom = 0; row >= 0 && atom < blocks.atoms(); ++atom) {
     if (!(of_rate ? blocks.rate_depends(source, atom) : blocks.depends(static_cast<int>(source), atom))) continue;
     for (const AtomTerm& term : terms_of_atom(atom)) {
       if (term.column < 0) continue;
-      couplings_.push_back({builder.ticket(row, term.column), of_rate, source, atom, factor * term.factor, term.by, term.branch});
+      const bool plain = by == Coupling::By::itself;
+      couplings_.push_back({builder.ticket(row, term.column), of_rate, source, atom, factor * term.factor, plain ? term.by : by,
+                            plain ? term.branch : branch});
     }
   }
 }
 
 void Dae::build_couplings(PatternBuilder& builder) {
   for (std::size_t k = 0; k < iz_.size(); ++k) couple(builder, iz_[k], true, k, -1);
+  couple_motions(builder);
   for (const Network::Force& f : network_->forces) {
     if (f.block < 0) continue;
     for (const auto& [end, sign] : {std::pair{f.a, -f.sign}, std::pair{f.b, f.sign}}) {
@@ -45,6 +51,62 @@ void Dae::build_couplings(PatternBuilder& builder) {
       if (g >= 0) couple(builder, group_row_[at(g)], false, at(f.block), sign);
     }
   }
+}
+
+/// Velocities that blocks give: in dashpots, and in loops and positions. They follow from states and positions, whose terms are
+/// plain.
+void Dae::couple_motions(PatternBuilder& builder) {
+  const auto mover = [&](NodeId node) -> const Network::Motion* {
+    const int m = structure_->motion[at(node)];
+    return m < 0 || network_->motions[at(m)].block < 0 ? nullptr : &network_->motions[at(m)];
+  };
+  for (std::size_t r = 0; r < structure_->rates.size(); ++r) {
+    const Branch& b = structure_->rates[r];
+    for (const auto& [end, sign] : {std::pair{b.a, 1.0}, std::pair{b.b, -1.0}}) {
+      const Network::Motion* m = mover(end);
+      if (!m) continue;
+      const double factor = sign * m->sign;
+      if (if_[r] >= 0) {
+        couple(builder, if_[r], false, at(m->block), factor);
+      } else {
+        couple(builder, iv_[at(b.a)], false, at(m->block), factor, Coupling::By::damping, r);
+        couple(builder, iv_[at(b.b)], false, at(m->block), -factor, Coupling::By::damping, r);
+      }
+    }
+  }
+  for (const Row& row : rows_) {
+    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+      const auto [node, sign] = velocities_[at(k)];
+      if (const Network::Motion* m = mover(node)) couple(builder, row.row, false, at(m->block), sign * m->sign);
+    }
+  }
+}
+
+/// What moves by blocks, before others feel it: it needs states and positions alone.
+void Dae::move_by_blocks(const double* y) {
+  const auto by_block = [](const Network::Motion& m) { return m.block >= 0; };
+  if (std::none_of(network_->motions.begin(), network_->motions.end(), by_block)) return;
+  BlockSignals& blocks = drive_->blocks();
+  for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];
+  for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = network_->blocks.sensors[k];
+    if (sensor.motion < 0 && sensor.what == What::position) blocks.sensed[k] = y[ix_[at(sensor.index)]];
+  }
+  blocks.run(true);
+  drive_->apply_blocks();
+}
+
+/// How fast a velocity that a block gives changes because the states and positions do that it follows from [m/s^2].
+double Dae::acceleration_by(const Network::Motion& motion) const {
+  const BlockSignals& blocks = drive_->blocks();
+  double sum = 0;
+  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(motion.block, k) * blocks.rate(k);
+  for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = network_->blocks.sensors[k];
+    if (sensor.what == What::position && sensor.motion < 0)
+      sum += blocks.slope(motion.block, blocks.states() + k) * v_[at(structure_->rigid[at(sensor.index)])];
+  }
+  return motion.sign * sum;
 }
 
 /// States, and what sensors tell; then all outputs.

@@ -9,12 +9,14 @@ namespace rheonet {
 Drive::Drive(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
     : network_(&network),
       stop_(network.scene->stop - network.scene->start),
+      moves_by_blocks_(false),
       blocks_(network, classified),
       past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels()) {
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
-    Motion motion{.element = m.element, .signal = m.signal, .by_position = m.position, .piece = {}};
+    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}};
+    moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
     motion.anchor_time = start;
     motion.anchor = positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests where it was before the run.
@@ -41,6 +43,7 @@ void Drive::enter(double t) {
   next_break_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     Motion& m = motions_[i];
+    if (m.block >= 0) continue;
     const double before = position_of(m, t), rounding = m.piece.rounding(t);
     m.anchor = before;
     m.anchor_time = t;
@@ -88,6 +91,7 @@ void Drive::evaluate(double t) {
   time_ = t;
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& m = motions_[i];
+    if (m.block >= 0) continue;
     position[i] = position_of(m, t);
     velocity[i] = m.by_position ? m.piece.rate(t) : m.piece.value(t);
     acceleration[i] = m.by_position ? m.piece.curvature(t) : m.piece.rate(t);
@@ -115,10 +119,22 @@ void Drive::look_ahead(double t) {
     if (place.role == Role::force) blocks_.sensed[k] = Dual(force[index], force_rate[index]);
   }
   blocks_.run(false);
+  if (moves_by_blocks_) {
+    // A state that has just begun to change has no rate yet, but it will.
+    for (std::size_t k = 0; k < states; ++k) blocks_.state[k].derivative = blocks_.rate(k);
+    blocks_.run(false);
+  }
   apply_blocks();
 }
 
 void Drive::apply_blocks() {
+  for (std::size_t k = 0; k < network_->motions.size(); ++k) {
+    const Network::Motion& m = network_->motions[k];
+    if (m.block < 0) continue;
+    const Dual out = blocks_.out(m.block);
+    velocity[k] = m.sign * out.value;
+    acceleration[k] = m.sign * out.derivative;
+  }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
     if (f.block < 0) continue;

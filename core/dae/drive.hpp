@@ -14,7 +14,7 @@
 namespace rheonet {
 
 /// Everything that is a given function of time: prescribed motions and applied forces, each on the smooth stretch of its
-/// signal that holds now. A force that a block gives follows from more than that: see `sense`.
+/// signal that holds now. A force or velocity that a block gives follows from more than that: see `sense`.
 class Drive {
  public:
   /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
@@ -43,7 +43,7 @@ class Drive {
   void sense(double t, const State& state);
   BlockSignals& blocks() { return blocks_; }
   const BlockSignals& blocks() const { return blocks_; }
-  /// Forces and their rates from what the blocks put out now.
+  /// Forces, velocities and their rates from what the blocks put out now.
   void apply_blocks();
   /// The state of blocks that do not change, for a start at t from rest or in steady motion.
   void settle_blocks(double t, State& state);
@@ -56,7 +56,8 @@ class Drive {
   void mark(double t) { mark(t, true); }
 
   // For each motion:
-  std::vector<double> position, velocity, acceleration;
+  std::vector<double> position;  ///< of one that a block gives nothing is known here
+  std::vector<double> velocity, acceleration;  ///< as for forces: of what a block gives the rate may be partial
   // For each force:
   std::vector<double> force, force_rate;  ///< of one that a block gives the rate is partial, at constant unknowns
   // For each delayed branch of `past`:
@@ -77,6 +78,7 @@ class Drive {
  private:
   struct Motion {
     int element;
+    int block;
     Signal signal;
     bool by_position;
     Piece piece;
@@ -101,6 +103,7 @@ class Drive {
   std::vector<double> steps_;
   double next_break_ = 0;  ///< of the signals
   double stop_;            ///< of the run [s]
+  bool moves_by_blocks_;
   BlockSignals blocks_;
   Past past_;  ///< after blocks_, which says what it remembers
   double time_;

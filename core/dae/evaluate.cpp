@@ -17,6 +17,7 @@ void Dae::gather(double t, const double* y) {
   for (std::size_t n = 0; n < v_.size(); ++n) {
     if (iv_[n] >= 0) v_[n] = y[iv_[n]];
   }
+  move_by_blocks(y);
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
     const std::size_t node = at(network_->motions[m].node);
     v_[node] = drive_->velocity[m];

@@ -8,9 +8,8 @@
 namespace rheonet {
 
 GivenReversals::GivenReversals(const Network& network, const Structure& classified, Drive& drive) : drive_(drive) {
-  const auto known = [&](NodeId node) { return classified.kind[at(node)] == Kind::known; };
   const auto add = [&](const Branch& b) {
-    if (!known(b.a) || !known(b.b)) return;
+    if (!classified.of_time[at(b.a)] || !classified.of_time[at(b.b)]) return;
     const auto pair = std::minmax(classified.motion[at(b.a)], classified.motion[at(b.b)]);
     if (pair.first != pair.second) pairs_.insert(pair);  // one motion does not move against itself
   };

@@ -50,7 +50,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   // A force that comes through a delay is no step of the drive, which does no work then.
   if (take_delayed_steps(t, state, change) && !driven) stepped = false;
-  change.heat += halt(fired.sliders, modes, state, change.notes);
+  change.heat += halt(t, fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
@@ -145,10 +145,58 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
   return std::max(ahead, time_grain(t));
 }
 
+double Instant::given_velocity(NodeId node) const {
+  return structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
+}
+
+/// Known nodes have one velocity: now, and as far as they are functions of time also until the next break of one.
+bool Instant::move_together(double t, NodeId a, NodeId b) const {
+  constexpr double rounding = 1e-12;  // of the largest velocity: one may be given by its position
+  const double fast = drive_.reach().velocity;
+  const auto same = [&] {
+    const double va = given_velocity(a), vb = given_velocity(b);
+    return std::abs(va - vb) <= rounding * (fast + std::abs(va) + std::abs(vb));
+  };
+  if (!same()) return false;
+  if (!structure_.of_time[at(a)] || !structure_.of_time[at(b)]) return true;
+  const double end = std::min(drive_.next_break(), network_.scene->stop - network_.scene->start);
+  bool together = true;
+  for (const double share : {0.37, 0.83}) {
+    drive_.evaluate(t + share * std::max(0.0, end - t));
+    together = together && same();
+  }
+  drive_.evaluate(t);
+  return together;
+}
+
+void Instant::refuse_torn_links(double t) const {
+  const auto rigid = [](const Network::Slider& s) { return std::isinf(s.law.breakaway); };
+  if (std::none_of(network_.sliders.begin(), network_.sliders.end(), rigid)) return;
+  Sets linked(structure_.kind.size());
+  for (const Network::Slider& s : network_.sliders) {
+    if (rigid(s)) linked.join(s.branch.a, s.branch.b);
+  }
+  std::vector<NodeId> first(structure_.kind.size(), -1);
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    if (structure_.kind[n] != Kind::known) continue;
+    const int set = linked.find(static_cast<NodeId>(n));
+    NodeId& other = first[at(set)];
+    if (other < 0) other = static_cast<NodeId>(n);
+    if (move_together(t, other, static_cast<NodeId>(n))) continue;
+    const auto within = [&](const Network::Slider& s) { return rigid(s) && linked.find(s.branch.a) == set; };
+    const Branch& link = std::find_if(network_.sliders.begin(), network_.sliders.end(), within)->branch;
+    throw SimulationError(network_.spot_of(link.element),
+                          fmt::format("rigid link `{}` joins nodes that are made to move at different velocities; "
+                                      "leave it out, or one of the motions",
+                                      network_.name_of(link)));
+  }
+}
+
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
 /// velocity is the rounding of the event. Rigid links do so at once, and the energy that this takes is heat.
-double Instant::halt(const std::vector<int>& events, const Modes& modes, State& state,
+double Instant::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
                      std::vector<std::string>& notes) const {
+  refuse_torn_links(t);
   std::vector<int> fired = events;
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     if (std::isinf(network_.sliders[k].law.breakaway)) fired.push_back(static_cast<int>(k));
@@ -172,16 +220,7 @@ double Instant::halt(const std::vector<int>& events, const Modes& modes, State& 
     for (std::size_t c = 0; c < cluster.size(); ++c) {
       const NodeId node = cluster[c];
       if (structure_.kind[at(node)] == Kind::known) {
-        const double given = structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
-        const Slip& law = network_.sliders[at(k)].law;
-        if (!std::isnan(known) && given != known && std::isinf(law.breakaway)) {
-          const Branch& link = network_.sliders[at(k)].branch;
-          throw SimulationError(network_.spot_of(link.element),
-                                fmt::format("rigid link `{}` joins nodes that are made to move at different velocities; "
-                                            "leave it out, or one of the motions",
-                                            network_.name_of(link)));
-        }
-        known = given;
+        known = given_velocity(node);
       }
       momentum += structure_.mass[at(node)] * state.velocity[at(node)];
       mass += structure_.mass[at(node)];

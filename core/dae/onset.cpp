@@ -207,7 +207,7 @@ void Instant::add_sliders(Onset& onset) const {
     ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
     // At its bound the rate alone decides, not the rounding of the event.
     const double limit = bound(k, force > 0 ? 1 : -1);
-    const bool at_bound = std::abs(std::abs(force) - limit) <= balance_rounding * limit;
+    const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= balance_rounding * limit;
     const bool fired = contains(onset.fired.sliders, static_cast<int>(k));
     if (onset.modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
       (force > 0 ? law.high : law.low) = 0;

@@ -46,7 +46,6 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
       index_of_[static_cast<std::size_t>(branch)] = static_cast<int>(delayed_.size());
       delayed_.push_back({branch, b.a, b.b, delay});
       delays_.push_back(delay);
-      shortest_ = std::min(shortest_, delay);
       longest_ = std::max(longest_, delay);
       for (NodeId node : {b.a, b.b}) {
         int& track = track_of_[static_cast<std::size_t>(node)];
@@ -60,8 +59,13 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
   delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
   taken_.assign(delayed_.size(), -infinity);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
+    if (network.motions[m].block >= 0) continue;  // as any other node
     track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
     if (track_of_motion_[m] >= 0) tracks_[static_cast<std::size_t>(track_of_motion_[m])].motion = static_cast<int>(m);
+  }
+  const auto given = [&](NodeId node) { return node == ground || track(node)->motion >= 0; };
+  for (const Delayed& d : delayed_) {
+    if (!given(d.a) || !given(d.b)) shortest_ = std::min(shortest_, d.delay);
   }
 }
 
@@ -163,6 +167,19 @@ void Past::forget(double t) {
     forget_runs(track.runs);
   }
   for (std::deque<Run>& runs : channels_) forget_runs(runs);
+}
+
+std::size_t Past::held() const {
+  std::size_t sum = breaks_.size();
+  const auto add = [&sum](const std::deque<Run>& runs) {
+    for (const Run& run : runs) sum += 1 + run.points.size();
+  };
+  for (const Track& track : tracks_) {
+    sum += track.stretches.size() + track.moves.size();
+    add(track.runs);
+  }
+  for (const std::deque<Run>& runs : channels_) add(runs);
+  return sum;
 }
 
 /// To be called when a break has been added or has become sharper. One that is forgotten has come through all delays.

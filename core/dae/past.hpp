@@ -26,7 +26,7 @@ class Past {
   const std::vector<Delayed>& delayed() const { return delayed_; }
   /// The number in `delayed` of a deflection branch of the network, -1 for others.
   int index_of(int branch) const { return index_of_[static_cast<std::size_t>(branch)]; }
-  /// The shortest delay [s]; infinite if there is none.
+  /// The shortest delay of what is no function of time alone [s], and so the longest step; infinite if there is none.
   double shortest() const { return shortest_; }
 
   /// Until t = 0 all nodes have moved at these velocities (one for each node) [m/s].
@@ -50,6 +50,9 @@ class Past {
   double aside(double t) const;
   /// By how much its ends have come apart in no time, as it feels it: what has come through by t since it was last asked [m].
   double take_steps(std::size_t k, double t);
+  /// How many points, stretches, steps and breaks are remembered at present. What the longest delay needs, and no more than as
+  /// much again.
+  std::size_t held() const;
 
  private:
   struct Break { double t; int level; };       ///< level: how often it has come through a delay

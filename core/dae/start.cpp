@@ -72,7 +72,9 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
   }
 }
 
+/// At the start; not_given if a block gives it.
 double initial_velocity(const Network::Motion& motion) {
+  if (motion.block >= 0) return not_given;
   return motion.position ? motion.signal.piece(0).rate(0) : motion.signal.value(0);
 }
 
@@ -83,6 +85,21 @@ double initial_velocity(const Network::Motion& motion) {
 
 bool contradicts(const SceneNode& node, double velocity) {
   return !std::isnan(node.velocity) && std::abs(node.velocity - velocity) > same_value * std::abs(velocity);
+}
+
+/// A node that a block moves has no velocity of its own, and begins where the block does.
+void follow_block(const Network& network, const Network::Motion& motion, double& x, bool given) {
+  const SceneNode& node = network.node(motion.node);
+  const std::string& name = network.scene->elements[static_cast<std::size_t>(motion.element)].name;
+  if (!std::isnan(node.velocity))
+    refuse_velocity(network, node, fmt::format("motion `{}` gives it that of a block; leave it out", name));
+  if (std::isnan(motion.from)) return;
+  if (given && std::abs(x - motion.from) > same_value * std::abs(motion.from))
+    throw SimulationError(node.spot, fmt::format("node `{}` cannot start at position {}: the block of motion `{}` begins at {}; leave out "
+                                                 "one of them",
+                                                 node.name, with_unit(*network.scene, x, Quantity::position), name,
+                                                 with_unit(*network.scene, motion.from, Quantity::position)));
+  x = motion.from;
 }
 
 /// What rigid links join to a motion or to the ground has no velocity of its own.
@@ -129,6 +146,11 @@ Start start(const Network& network, const Structure& classified) {
     const std::size_t n = static_cast<std::size_t>(m.node);
     const SceneNode& node = network.node(m.node);
     const std::string& name = scene.elements[static_cast<std::size_t>(m.element)].name;
+    if (m.block >= 0) {
+      follow_block(network, m, x[n], fixed[n] != 0);
+      fixed[n] = 1;
+      continue;
+    }
     const double velocity = initial_velocity(m);
     if (m.position) {
       const double before = m.signal.before(0), after = m.signal.value(0);

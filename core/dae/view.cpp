@@ -42,6 +42,9 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       view_.acceleration[n] = (view_.applied[n] - view_.nodal[n]) / structure_->mass[n];
     }
   }
+  for (const Network::Motion& m : network_->motions) {
+    if (m.block >= 0) view_.acceleration[at(m.node)] += acceleration_by(m);
+  }
   if (!bonds_.empty()) {
     for (std::size_t n = 0; n < v_.size(); ++n) {
       const std::size_t leader = at(structure_->rigid[n]);
@@ -60,7 +63,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     view_.rate_force[r] = if_[r] >= 0 ? rate_in_[r] : rate_out_[r];
   }
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
-    view_.position[at(network_->motions[m].node)] = drive_->position[m];
+    if (network_->motions[m].block < 0) view_.position[at(network_->motions[m].node)] = drive_->position[m];
   }
   for (NodeId node : position_order_) {
     const Derived& d = derived_[at(node)];
@@ -139,7 +142,7 @@ const std::vector<double>& Dae::slopes() {
 }
 
 double Dae::reaction(NodeId node) const {
-  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * a_[at(node)];
+  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * view_.acceleration[at(node)];
 }
 
 double Dae::supplied_power() const {

@@ -142,12 +142,20 @@ BlockUnit unit_of(const Scene& scene, const Record& record) {
   return {dimension_of(quantity_of(record.channel), scene.domain), radian, false};
 }
 
+std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
+  if (record.subject != Subject::block) return quantity_of(record.channel);
+  const BlockUnit unit = unit_of(scene, record);
+  if (unit.open) return {};
+  // An exponent of rad tells an angle from a number; in anything else it says nothing, and is often left out.
+  const bool angle = scene.domain == Domain::rotation && unit.radian != 0;
+  for (const Quantity known : {angle ? Quantity::position : Quantity::number, Quantity::position, Quantity::velocity, Quantity::force})
+    if (unit.dimension.same(dimension_of(known, scene.domain))) return known;
+  return {};
+}
+
 std::string unit_text(const Scene& scene, const Record& record) {
-  if (record.subject != Subject::block) return unit_of(quantity_of(record.channel), scene.domain);
-  const Dimension dimension = unit_of(scene, record).dimension;
-  for (const Quantity known : {Quantity::number, Quantity::position, Quantity::velocity, Quantity::force})
-    if (dimension.same(dimension_of(known, scene.domain))) return unit_of(known, scene.domain);
-  return to_string(dimension);
+  const auto known = quantity_of(scene, record);
+  return known ? unit_of(*known, scene.domain) : to_string(unit_of(scene, record).dimension);
 }
 
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,

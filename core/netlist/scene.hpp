@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -129,8 +130,10 @@ struct Scene {
   bool output_events = false;  ///< also a pair of rows at every event
 };
 
-/// What a record measures, and the SI unit of it as a user would type it ("1" for a number).
+/// What a record measures, and the SI unit of it as a user would type it ("1" for a number). A block may put out a quantity
+/// that has no name here, or one that nothing is known of.
 BlockUnit unit_of(const Scene& scene, const Record& record);
+std::optional<Quantity> quantity_of(const Scene& scene, const Record& record);
 std::string unit_text(const Scene& scene, const Record& record);
 
 }  // namespace rheonet

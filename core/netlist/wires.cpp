@@ -254,7 +254,7 @@ std::optional<Wire> read_feed(const TomlEntry& feed, const TomlValue& signal, co
   if (!fed.from_block) {
     context.mistakes.error(feed.spot, "the " + fed.name_in(context.domain) + " of a `" + declaration.type +
                                           "` is a function of time alone: no block can give it",
-                           "drive a node that has a mass with a force that a block gives, as a servo does");
+                           "take in that block in its place");
     return {};
   }
   Keys keys(signal, "a signal from a block");

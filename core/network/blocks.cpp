@@ -15,10 +15,12 @@ namespace {
 
 class Finder {
  public:
-  explicit Finder(const Network& network) : network_(network), scene_(*network.scene) {}
+  explicit Finder(Network& network) : network_(network), scene_(*network.scene) {}
 
   Blocks find() {
+    const std::vector<int> rates = number_rates();
     for (const SceneBlock& block : scene_.blocks) add(block);
+    for (const int block : rates) add_rate(block);
     // A loop that delays alone close would be gone round without end, and without a state that smoothes what jumps.
     const auto refuse_delays = [&](const std::vector<int>& loop) {
       refuse(loop, "make a loop in which nothing but delays takes time, and what jumps would jump for ever; put a `lag` into it");
@@ -35,6 +37,40 @@ class Finder {
   }
 
  private:
+  /// Motions follow the rate of a block that gives their position. Returns these blocks: their rates come after the blocks of
+  /// the scene.
+  std::vector<int> number_rates() {
+    std::vector<int> rates;
+    for (Network::Motion& motion : network_.motions) {
+      if (motion.block < 0 || !motion.position) continue;
+      const SceneElement& giver = scene_.elements[at(scene_.blocks[at(motion.block)].element)];
+      const SceneElement& moved = scene_.elements[at(motion.element)];
+      const BlockLaw law = components()[at(giver.declaration)]->block(giver.values);
+      if (!law.state)
+        throw SimulationError(moved.spot,
+                              fmt::format("motion `{}` takes its position from block `{}`, which is no integrator or lag: its rate, "
+                                          "the velocity, is not known; put an `integrator` or `lag` last, or give the velocity",
+                                          moved.name, giver.name));
+      if (scene_.start_from != Scene::StartFrom::given)
+        throw SimulationError(moved.spot,
+                              fmt::format("motion `{}` takes its position from block `{}`: a start from rest or in steady motion is not "
+                                          "known then; start from given values, and give it time to settle",
+                                          moved.name, giver.name));
+      motion.from = motion.sign * law.initial;
+      motion.position = false;
+      rates.push_back(std::exchange(motion.block, static_cast<int>(scene_.blocks.size() + rates.size())));
+    }
+    return rates;
+  }
+
+  void add_rate(int state) {
+    const Blocks::Block of = result_.blocks[at(state)];
+    Blocks::Block rate{.element = of.element, .law = {}, .generates = false, .signal = {}, .inputs = of.inputs};
+    for (Blocks::Input& input : rate.inputs) input.sign *= of.law.gain;
+    if (of.law.leak != 0) rate.inputs.push_back({true, state, -of.law.leak});
+    result_.blocks.push_back(std::move(rate));
+  }
+
   void add(const SceneBlock& made) {
     const SceneElement& element = scene_.elements[at(made.element)];
     Blocks::Block block{.element = made.element,
@@ -77,8 +113,15 @@ class Finder {
           return {record.index, ground};
       }
     }();
-    for (const auto& [end, sign] : {std::pair{a, input.sign}, std::pair{b, -input.sign}})
-      if (end != ground) block.inputs.push_back({false, sensor({what, network_.node_of[at(end)], -1, input.index}), sign});
+    for (const auto& [end, sign] : {std::pair{a, input.sign}, std::pair{b, -input.sign}}) {
+      if (end == ground) continue;
+      const int node = network_.node_of[at(end)], motion = motion_of(node);
+      const int giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
+      if (what == What::velocity && giver >= 0)
+        block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign});
+      else
+        block.inputs.push_back({false, sensor({what, node, giver < 0 ? motion : -1, input.index}), sign});
+    }
   }
 
   void force(Blocks::Block& block, int element, double sign, int record) {
@@ -99,13 +142,17 @@ class Finder {
     block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, element, -1, record}), sign});
   }
 
+  int motion_of(int node) const {
+    const auto moves = [&](const Network::Motion& m) { return m.node == node; };
+    const auto found = std::find_if(network_.motions.begin(), network_.motions.end(), moves);
+    return found == network_.motions.end() ? -1 : static_cast<int>(found - network_.motions.begin());
+  }
+
   /// The same quantity is sensed once.
-  int sensor(Blocks::Sensor wanted) {
+  int sensor(const Blocks::Sensor& wanted) {
     const auto same = [&](const Blocks::Sensor& s) { return s.what == wanted.what && s.index == wanted.index; };
     const auto found = std::find_if(result_.sensors.begin(), result_.sensors.end(), same);
     if (found != result_.sensors.end()) return static_cast<int>(found - result_.sensors.begin());
-    for (std::size_t m = 0; wanted.what != Blocks::Sensor::What::force && m < network_.motions.size(); ++m)
-      if (network_.motions[m].node == wanted.index) wanted.motion = static_cast<int>(m);
     result_.sensors.push_back(wanted);
     return static_cast<int>(result_.sensors.size()) - 1;
   }
@@ -153,13 +200,13 @@ class Finder {
 
   const std::string& name(int block) const { return scene_.elements[at(result_.blocks[at(block)].element)].name; }
 
-  const Network& network_;
+  Network& network_;
   const Scene& scene_;
   Blocks result_;
 };
 
 }  // namespace
 
-Blocks find_blocks(const Network& network) { return Finder(network).find(); }
+Blocks find_blocks(Network& network) { return Finder(network).find(); }
 
 }  // namespace rheonet

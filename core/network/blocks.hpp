@@ -34,13 +34,14 @@ struct Blocks {
     bool breaks_loops() const { return law.state || law.delay > 0; }
   };
 
-  std::vector<Block> blocks;   ///< those of the scene
+  std::vector<Block> blocks;   ///< those of the scene; then the rates of some of them
   std::vector<Sensor> sensors;
   std::vector<int> order;      ///< in which all can be evaluated
 };
 
-/// Time counts from the scene's start. Throws SimulationError where blocks wait for each other in a loop, or take in what
-/// cannot be sensed.
-Blocks find_blocks(const Network& network);
+/// Time counts from the scene's start. Motions whose position a block gives get one that puts out their velocity. Throws
+/// SimulationError where blocks wait for each other in a loop, or take in what cannot be sensed, or where a position has no
+/// rate.
+Blocks find_blocks(Network& network);
 
 }  // namespace rheonet

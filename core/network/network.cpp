@@ -224,9 +224,12 @@ Network build_network(const Scene& scene) {
            [](const Component& c, const Values& v) { return c.rate(v); });
   tie_up_pairs(network);
   for (const SceneFeed& feed : scene.feeds) {
-    Network::Force& force = network.forces[static_cast<std::size_t>(network.places[static_cast<std::size_t>(feed.element)].index)];
-    force.block = feed.block;
-    force.sign = feed.sign;
+    const auto [role, index, unused] = network.places[static_cast<std::size_t>(feed.element)];
+    const auto take = [&](auto& source) {
+      source.block = feed.block;
+      source.sign = feed.sign;
+    };
+    role == Role::motion ? take(network.motions[static_cast<std::size_t>(index)]) : take(network.forces[static_cast<std::size_t>(index)]);
   }
   network.blocks = find_blocks(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));

@@ -32,7 +32,8 @@ struct Laws {
 /// element (pairs.hpp). Time counts from the scene's start.
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
-  struct Motion { int element; NodeId node; Signal signal; bool position; };
+  /// With a `block` its velocity is what that puts out, times `sign`; it then begins at `from` [m], if that is given.
+  struct Motion { int element; NodeId node; Signal signal; bool position; int block = -1; double sign = 1, from = not_given; };
   struct Slider { Branch branch; Slip law; };
   /// b = -1 for a force at one node. With a `block` it is what that puts out, times `sign`.
   struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; };

@@ -51,6 +51,7 @@ void join(const Network& network, const Modes& modes, Structure& s) {
 
 void assign_known_and_massive(const Network& network, Structure& s) {
   s.kind[ground] = Kind::known;
+  s.of_time[ground] = 1;
   for (const Network::Mass& m : network.masses) {
     if (m.node == ground) continue;
     s.mass[at(m.node)] += m.mass;
@@ -71,6 +72,7 @@ void assign_known_and_massive(const Network& network, Structure& s) {
     }
     s.motion[at(node)] = static_cast<int>(i);
     s.kind[at(node)] = Kind::known;
+    s.of_time[at(node)] = network.motions[i].block < 0;
   }
 }
 
@@ -115,6 +117,7 @@ Structure blank(const Network& network) {
   Structure s;
   s.kind.assign(n, Kind::floating);
   s.motion.assign(n, -1);
+  s.of_time.assign(n, 0);
   s.group.assign(n, -1);
   s.mass.assign(n, 0);
   s.rank.resize(n);
@@ -158,7 +161,7 @@ Structure analyse(const Network& network, const Modes& modes) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int j = laws.first + static_cast<int>(i);
       const Branch& b = s.deflections[at(j)];
-      const bool given = b.a == b.b || (s.kind[at(b.a)] == Kind::known && s.kind[at(b.b)] == Kind::known);
+      const bool given = b.a == b.b || (s.of_time[at(b.a)] && s.of_time[at(b.b)]);
       s.driven[at(j)] = given && !laws.batch->creeps(i);
       if (laws.batch->delay(i) > 0) {
         s.loops.push_back({.branch = j, .flows = {{j, 1}}, .velocities = {}});

@@ -64,6 +64,7 @@ struct Structure {
   std::vector<Kind> kind;        ///< of each node
   std::vector<int> rank;         ///< of each node: its place in Network::node_order
   std::vector<int> motion;       ///< of each node: index of the motion that prescribes it, -1
+  std::vector<char> of_time;     ///< of each node: it is known, and as a function of time alone (no block prescribes it)
   std::vector<int> group;        ///< of each node: index into groups, -1
   std::vector<double> mass;      ///< of each node, with what is joined to it unless it is known
   std::vector<double> own_mass;  ///< of each node by itself

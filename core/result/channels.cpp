@@ -73,6 +73,9 @@ std::vector<char> needed_positions(const Network& network) {
       }
     }
   }
+  for (const Network::Motion& motion : network.motions) {
+    if (motion.block >= 0) needed[at(motion.node)] = 1;
+  }
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what == Blocks::Sensor::What::position) needed[at(sensor.index)] = 1;
   }

@@ -106,6 +106,11 @@ double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) cons
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
   const Slip& law = dae_.network().sliders[at(k)].law;
   if (dae_.structure().stuck[at(k)]) {
+    // Nothing holds together what blocks move: it slips as soon as they move it apart.
+    const Structure& structure = dae_.structure();
+    const Branch& ends = structure.sliders[at(k)];
+    if (ends.a != ends.b && !(structure.of_time[at(ends.a)] && structure.of_time[at(ends.b)]))
+      return tolerances_.slider_noise(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
     return law.breakaway * (1 + force_rounding) - std::abs(view.slider_force[at(k)]) + margin_[at(k)];
   }
   return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];

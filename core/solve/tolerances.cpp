@@ -58,7 +58,7 @@ void Tolerances::attach(Dae& dae) {
   const std::size_t n = at(dae.size());
   quantity_.assign(n, {Sort::velocity, 0});
   const auto known = [&](const Branch& b) {
-    return b.a == b.b || (structure.kind[at(b.a)] == Kind::known && structure.kind[at(b.b)] == Kind::known);
+    return b.a == b.b || (structure.of_time[at(b.a)] && structure.of_time[at(b.b)]);
   };
   const auto stands_for = [&](int unknown, Sort sort, std::size_t index) {
     if (unknown >= 0) quantity_[at(unknown)] = {sort, index};

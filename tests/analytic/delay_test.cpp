@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <vector>
 
 #include "tests/support/check.hpp"
+#include "tests/support/response.hpp"
 #include "tests/support/scene_builder.hpp"
 
 namespace rheonet::test {
@@ -80,7 +82,9 @@ TEST_CASE("a delayed vfm on a given motion: the force of one without delay, late
   constexpr int shift = 15;  // rows
   constexpr double every = TD / shift, accuracy = 1e-9;
   constexpr int rows = 200;
-  for (const auto& [parameter, signal] : drives) {
+  for (const auto& drive : drives) {
+    const std::string& parameter = drive.first;
+    const Signal& signal = drive.second;
     CAPTURE(signal.shape().index());
     for (const bool reversed : {false, true}) {
       SceneBuilder b;
@@ -101,6 +105,49 @@ TEST_CASE("a delayed vfm on a given motion: the force of one without delay, late
       CHECK_EQ(run.scale("much_later.force"), 0);
     }
   }
+}
+
+// T f' + f = B a cos(omega (t - TD)) from t = TD on.
+TEST_CASE("delays far shorter and far longer than a step: a given motion comes through exactly, and they cost no steps") {
+  constexpr double a = 0.7, omega = 5.3, stop = 4.1, T = B / sigma;
+  const auto late = [](double delay) {
+    const Response f = (B * Response::sine(a, omega)).lag(T, 0);
+    return from(delay, f);
+  };
+  for (const double accuracy : accuracies) {
+    SceneBuilder b;
+    b.motion("drive", "a", "velocity", Signal(Signal::Sine{a, omega / (2 * std::numbers::pi), 0, 0, 0}));
+    const std::pair<std::string, double> delays[] = {{"tiny", 1e-9}, {"short", 1e-5}, {"long", 3.3}};
+    for (const auto& [name, delay] : delays)
+      b.between(name, "vfm", "a", "ground", {{"damping", B}, {"stiffness", sigma}, {"delay", delay}});
+    Summary summary;
+    const Trajectory run = simulate(b.finish(stop, 100, accuracy), &summary);
+    for (const auto& [name, delay] : delays) check_against(run, {name + ".force", late(delay)}, accuracy);
+    CHECK_LT(summary.steps, 20000);
+  }
+}
+
+// m dv/dt = -f at a mass that moves freely: with a delay of 1e-4 s the steps are no longer than that, and what it does is within
+// that delay's share of what it does without.
+TEST_CASE("a delay far shorter than what happens changes it by as little") {
+  const auto run = [](double delay) {
+    SceneBuilder b;
+    b.at("m", "mass", "a", {{"mass", 0.43}});
+    b.start("a", 0, 1.3);
+    b.between("k", "spring", "ground", "a", {{"stiffness", 3.7}});
+    b.between("v", "vfm", "ground", "a", {{"damping", B}, {"stiffness", sigma}, {"delay", delay}});
+    return simulate(b.finish(1.2, 60, 1e-8));
+  };
+  const Trajectory none = run(0);
+  double worst[2] = {0, 0};
+  for (const double delay : {4e-4, 1e-4}) {
+    const Trajectory some = run(delay);
+    for (std::size_t row = 0; row < none.time().size(); ++row)
+      worst[delay < 2e-4] = std::max(worst[delay < 2e-4], std::abs(some["a.velocity"][row] - none["a.velocity"][row]));
+  }
+  CHECK_GT(worst[1], 1e-5);
+  CHECK_LT(worst[1], 3e-3);
+  CHECK_EQ(worst[0] / worst[1], doctest::Approx(4).epsilon(0.02));
 }
 
 TEST_CASE("a mass that a delayed vfm slows down: what it does now depends on what it did") {

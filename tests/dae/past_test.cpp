@@ -49,6 +49,39 @@ TEST_CASE("past: polynomials up to the highest order of the integrator are remem
   }
 }
 
+TEST_CASE("past: what is remembered is bounded by the delay, however long the run") {
+  constexpr double step = 1e-3, between_breaks = 0.05;
+  Remembering r;
+  std::size_t most = 0;
+  double next = 0;
+  for (int k = 0; k < 200000; ++k) {
+    const double t = step * k;
+    if (t >= next) {
+      r.past.mark(t, true);
+      r.past.follow(0, t, Piece{.level = std::sin(t)}, false);
+      r.past.moved(t, {0, 1e-3, 0});
+      next += between_breaks;
+    }
+    r.remember(t, std::cos(t));
+    if (k == 2000) most = r.past.held();
+    if (k > 2000) REQUIRE_LE(r.past.held(), 2 * most);
+  }
+  CHECK_GT(most, delay / step);
+  CHECK_LT(most, 3 * delay / step);
+}
+
+TEST_CASE("past: a delay of given motions alone limits no step") {
+  Remembering r;
+  CHECK_EQ(r.past.shortest(), delay);
+  SceneBuilder b;
+  b.motion("drive", "moved", "velocity", Signal(Signal::Constant{0}));
+  b.between("v", "vfm", "moved", "ground", {{"damping", 2}, {"stiffness", 3}, {"delay", delay}});
+  const Scene scene = b.finish(1, 1, 1e-6);
+  const Network network = build_network(scene);
+  CHECK(std::isinf(Past(network, {}, 0, 0).shortest()));
+  CHECK_EQ(Past(network, {0.2, 0.1}, 0.3, 1).shortest(), 0.1);  // of blocks that take in what moves freely
+}
+
 TEST_CASE("past: before the run nothing moves; the two sides of a jump, one delay later") {
   Remembering r;
   r.past.mark(0, true);

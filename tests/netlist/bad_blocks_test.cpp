@@ -144,13 +144,21 @@ scene.toml:5:62: error: unknown key `time` of a signal from a block
   its keys are `block`
 )~"},
       {R"~(g = { type = "gain", in = "shaft.velocity", gain = 1 }
-m = { type = "motion", at = "other", velocity = { block = "g" } }
+m = { type = "generator", signal = { block = "g" } }
 )~",
        R"~(
-scene.toml:5:51: error: the velocity of a `motion` is a function of time alone: no block can give it
-    5 | m = { type = "motion", at = "other", velocity = { block = "g" } }
-      |                                                   ^
-  drive a node that has a mass with a force that a block gives, as a servo does
+scene.toml:5:38: error: the signal of a `generator` is a function of time alone: no block can give it
+    5 | m = { type = "generator", signal = { block = "g" } }
+      |                                      ^
+  take in that block in its place
+)~"},
+      {R"~(g = { type = "lag", in = "shaft.velocity", time_constant = 1, gain = "2 N*m*s/rad" }
+m = { type = "motion", at = "other", position = { block = "g" } }
+)~",
+       R"~(
+scene.toml:5:59: error: `position` from block `g`: expected an angle (rad), found a torque or an energy (N*m)
+    5 | m = { type = "motion", at = "other", position = { block = "g" } }
+      |                                                           ^
 )~"},
       {R"~(t = { type = "lag", in = "shaft.velocity", time_constant = "0 s" }
 )~",

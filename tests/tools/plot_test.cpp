@@ -44,6 +44,32 @@ TEST_CASE("plot draws the records of a scene, and whatever else is named; its cl
   CHECK(contains(decay.err, "note: `pull`: 17 of 501 points are not above 0 and left out of the logarithmic axis"));
 }
 
+TEST_CASE("what a block puts out has the unit that follows from its inputs, and the axis of others that have it") {
+  const Folder folder(R"(domain = "rotation"
+[elements]
+command = { type = "generator",  signal = { step = "150 deg/s", time = "0.1 s" } }
+error   = { type = "sum",        in = ["command", "-shaft.velocity"] }
+turned  = { type = "integrator", in = "error" }
+amp     = { type = "gain",       in = "error", gain = "0.2 N*m*s/rad" }
+swing   = { type = "integrator", in = "amp" }
+bare    = { type = "gain",       in = "error", gain = 0.3 }
+motor   = { type = "torque",  at = "shaft", torque = { block = "amp" } }
+rotor   = { type = "inertia", at = "shaft", inertia = "0.05 kg*m^2" }
+[simulate]
+stop = "1 s"
+)");
+  const auto described = [&](const char* curves) {
+    const std::string svg = folder.shell(std::string("rheonet plot scene.toml -o - -y ") + curves, 0).out;
+    return svg.substr(svg.find("<desc>"), svg.find("</desc>") - svg.find("<desc>"));
+  };
+  CHECK(described("shaft.velocity,command.out") ==
+        "<desc>angular velocity [rad/s] against time [s]: shaft.velocity, command.out");
+  CHECK(described("amp.out,motor.force") == "<desc>torque [N·m] against time [s]: amp.out, motor.force");
+  CHECK(described("turned.out,shaft.position") == "<desc>angle [rad] against time [s]: turned.out, shaft.position");
+  CHECK(described("swing.out") == "<desc>signal [kg·m²·s^-1] against time [s]: swing.out");
+  CHECK(described("bare.out") == "<desc>bare.out against time [s]: bare.out");
+}
+
 TEST_CASE("plot overlays runs and other files, each called by its name") {
   const Folder folder(scene);
   folder.shell(

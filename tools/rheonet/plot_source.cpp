@@ -83,6 +83,14 @@ class SceneSource final : public PlotSource {
   ReadResult read_;
 };
 
+plot::Measure measure_of(const Scene& scene, const Record& record) {
+  if (const auto known = plot::measure_of_record(record.path, scene.domain)) return *known;
+  const auto quantity = quantity_of(scene, record);
+  if (!quantity && unit_of(scene, record).open) return {record.path, "", {}};
+  const bool length = quantity == Quantity::position && scene.domain == Domain::translation;
+  return plot::measure(!quantity ? "signal" : length ? "position" : name_of(*quantity, scene.domain), unit_text(scene, record));
+}
+
 }  // namespace
 
 std::unique_ptr<PlotSource> open_plot_source(const std::string& file, const Arguments& arguments,
@@ -93,8 +101,7 @@ std::unique_ptr<PlotSource> open_plot_source(const std::string& file, const Argu
 
 std::vector<plot::Column> columns_of(const Scene& scene) {
   std::vector<plot::Column> columns{{"time", plot::measure("time", "s")}};
-  for (const Record& record : scene.records)
-    columns.push_back({record.path, *plot::measure_of_record(record.path, scene.domain)});
+  for (const Record& record : scene.records) columns.push_back({record.path, measure_of(scene, record)});
   return columns;
 }
 

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "core/network/component.hpp"
+
+namespace rheonet {
+
+/// Parameters that several blocks have, of either sign. `description` is what they mean in that block.
+
+inline Parameter block_gain(const char* description, std::optional<double> fallback = {}) {
+  return {.name = "gain",
+          .unit = Parameter::Unit::own,
+          .fallback = fallback,
+          .lower = -std::numeric_limits<double>::infinity(),
+          .symbol = "K",
+          .description = description};
+}
+
+inline Parameter block_initial(const char* description = "output at the start") {
+  return {.name = "initial",
+          .unit = Parameter::Unit::output,
+          .fallback = 0.0,
+          .lower = -std::numeric_limits<double>::infinity(),
+          .symbol = "y0",
+          .description = description};
+}
+
+}  // namespace rheonet
