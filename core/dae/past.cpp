@@ -25,6 +25,10 @@ auto* current(Items& items, double t) {
   return after == items.begin() ? nullptr : &*std::prev(after);
 }
 
+bool prescribed(const Network& network, NodeId node) {
+  return node == ground || std::any_of(network.motions.begin(), network.motions.end(), [node](const auto& m) { return m.node == node; });
+}
+
 }  // namespace
 
 Past::Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels)
@@ -46,7 +50,8 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
       index_of_[static_cast<std::size_t>(branch)] = static_cast<int>(delayed_.size());
       delayed_.push_back({branch, b.a, b.b, delay});
       delays_.push_back(delay);
-      shortest_ = std::min(shortest_, delay);
+      // A prescribed motion is known beyond the end of a step.
+      if (!prescribed(network, b.a) || !prescribed(network, b.b)) shortest_ = std::min(shortest_, delay);
       longest_ = std::max(longest_, delay);
       for (NodeId node : {b.a, b.b}) {
         int& track = track_of_[static_cast<std::size_t>(node)];
