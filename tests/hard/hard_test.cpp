@@ -154,6 +154,30 @@ TEST_CASE("Hard cases: a mass that goes to 0 comes to what is without one, in pr
   CHECK(apart(1e-15) <= 2e-9);
 }
 
+TEST_CASE("tools/hard: a line for each case, with three errors, steps and time, and those against its easy twin") {
+  const Folder folder;
+  const std::string tool = "RHEONET='" RHEONET_PROGRAM "' '" RHEONET_SOURCE_DIR "/tools/hard' ";
+  std::istringstream lines(folder.shell(tool + "delay-limit sliders-equal", 0).out);
+  std::string line, name;
+  std::getline(lines, line);
+  CHECK(line.starts_with("case "));
+  for (const char* expected : {"delay-limit", "sliders-equal"}) {
+    std::getline(lines, line);
+    std::istringstream cells(line);
+    cells >> name;
+    CHECK(name == expected);
+    std::vector<double> figures;
+    for (double x; cells >> x;) figures.push_back(x);
+    REQUIRE(figures.size() == 7);
+    for (std::size_t k = 0; k < 3; ++k) CHECK(figures[k] <= 1);
+    CHECK((figures[0] > 0) == (name == "delay-limit"));  // the other one is exact
+    CHECK(figures[3] >= 10);
+    for (std::size_t k = 4; k < 7; ++k) CHECK(figures[k] > 0);
+  }
+  CHECK_FALSE(std::getline(lines, line));
+  CHECK(folder.shell(tool + "no-such-case").status != 0);
+}
+
 TEST_CASE("the generated part of netlists/hard/README.md is up to date") {
   const Folder folder;
   const std::string source = RHEONET_SOURCE_DIR;
