@@ -22,8 +22,9 @@ constexpr int enough_full_steps = 3;
 constexpr int most_stagnant = 60;
 // What decides among equals, relative to the smallest of the slopes that count.
 constexpr double weak_share = 1e-9;
-// Where there is no slope around, what it adds to the bounds of a branch.
-constexpr double weak_force = 1e-9;
+// Where there is no slope around, what it adds to the bounds of a branch: more than a balance is off by, and less than what
+// bounds may differ by and decide.
+constexpr double weak_force = 1e-11;
 // A law with a slope this much smaller than its other one is flat to that side.
 constexpr double negligible = 1e-14;
 

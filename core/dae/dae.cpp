@@ -4,11 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "core/network/sets.hpp"
 
 namespace rheonet {
+
+namespace {
+
+// A linear dashpot this much stiffer than another one at a massless end has a force of its own among the unknowns: what it
+// costs is one unknown, what it saves is as many digits.
+constexpr double stiff_in_series = 1e3;
+
+}  // namespace
 
 Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
     : network_(&network), structure_(&structure), drive_(&drive), bonds_(network, structure) {
@@ -63,15 +72,20 @@ void Dae::number_unknowns() {
   }
   const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
   const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
-  // Velocities that laws without a flat place tell from each other, or that masses and motions give.
+  // Velocities that laws without a flat place tell from each other, or that masses and motions give; the softest linear
+  // dashpot at each node.
   Sets told(network.nodes());
+  std::vector<double> softest(network.nodes(), std::numeric_limits<double>::infinity());
   for (NodeId node : network.node_order) {
     if (!massless(node)) told.join(node, ground);
   }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
-      if (std::isfinite(laws.batch->impulse(i))) told.join(b.a, b.b);
+      if (!std::isfinite(laws.batch->impulse(i))) continue;
+      told.join(b.a, b.b);
+      if (laws.batch->impulse(i) == 0) continue;
+      for (NodeId node : {b.a, b.b}) softest[at(node)] = std::min(softest[at(node)], laws.batch->impulse(i));
     }
   }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
@@ -83,9 +97,12 @@ void Dae::number_unknowns() {
       // Where the velocities are given or belong to masses the force follows from them. At a massless node the balance
       // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for. One with slope
       // 0 needs that only where nothing else tells the velocities: its force is lost in the tolerance long before its
-      // velocity is.
+      // velocity is. So does one that is much stiffer than what it is in series with: the difference of the velocities of its
+      // ends would have lost its digits.
       const bool needed = std::isfinite(impulse) || told.find(b.a) != told.find(b.b);
-      by_force_.push_back(!linear && needed && b.a != b.b && (massless(b.a) || massless(b.b)));
+      const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
+      const bool by_force = linear ? stiff(b.a) || stiff(b.b) : needed && (massless(b.a) || massless(b.b));
+      by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }
   }

@@ -89,7 +89,7 @@ class Dae {
   double displacement(int branch) const { return view_.p[at(branch)] + offset_[at(branch)]; }
   /// Deflection at t of a branch that is no unknown [m]: both its ends are prescribed.
   double driven_deflection(int branch, double t) const;
-  /// Sum of the forces at the nodes of a tie [N], and of their magnitudes. After `view`.
+  /// Sum of the forces at the nodes of a tie [N], and of the magnitudes of those that come from outside. After `view`.
   struct Balance { double sum, magnitude; };
   Balance balance(const Structure::Tie& tie) const;
   /// Whether a force that is applied to a tie changes with time at present.

@@ -214,9 +214,9 @@ class Consistency::Projection {
   }
 
   void finish() {
-    // What is left of a velocity by rounding on the way there is nothing.
+    // What is left of a velocity by rounding on the way there is nothing. That of a mass is no such thing, however small.
     for (std::size_t i = 0; i < n_; ++i) {
-      if (c_.kind_[i] == velocity && std::abs(y_[i]) <= velocity_rounding * fastest_) y_[i] = 0;
+      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_rounding * fastest_) y_[i] = 0;
     }
     // Integrals that nothing moves stay as they were to the last digit.
     trial_ = y_;

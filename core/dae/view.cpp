@@ -118,8 +118,13 @@ Dae::Balance Dae::balance(const Structure::Tie& tie) const {
   Balance result{0, 0};
   for (NodeId node : tie.nodes) {
     result.sum += view_.nodal[at(node)] - view_.applied[at(node)];
-    result.magnitude += std::abs(view_.nodal[at(node)]) + std::abs(view_.applied[at(node)]);
+    result.magnitude += std::abs(view_.applied[at(node)]);
   }
+  const auto add = [&](const Branch& b, double f) {
+    if (std::find(tie.elements.begin(), tie.elements.end(), b.element) != tie.elements.end()) result.magnitude += std::abs(f);
+  };
+  for (std::size_t k = 0; k < network_->sliders.size(); ++k) add(network_->sliders[k].branch, view_.slider_force[k]);
+  for (std::size_t j = 0; j < network_->deflections.size(); ++j) add(network_->deflections[j], view_.f[j]);
   return result;
 }
 

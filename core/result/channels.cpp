@@ -1,6 +1,8 @@
 #include "core/result/channels.hpp"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "core/network/index.hpp"
 
@@ -43,9 +45,8 @@ struct PairView {
   double p;
 };
 
-bool own_displacement(const Network& network, const Record& record) {
-  if (record.subject != Record::Subject::element) return false;
-  const Network::Place& place = network.places[at(record.index)];
+bool own_displacement(const Network& network, int element) {
+  const Network::Place& place = network.places[at(element)];
   if (place.paired) return true;
   if (place.role != Role::deflection) return false;
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
@@ -61,11 +62,39 @@ bool is_place(const Record& record) {
 
 }  // namespace
 
+std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records) {
+  const Scene& scene = *network.scene;
+  std::vector<Gauge> result(records.size());
+  // Of the ends of elements that have a displacement of their own; filled when it is first asked for.
+  std::map<std::pair<NodeId, NodeId>, int> between;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    const Record& record = records[k];
+    if (record.channel != Record::Channel::displacement) continue;
+    if (record.subject == Record::Subject::element && own_displacement(network, record.index)) {
+      result[k] = {record.index, 1};
+      continue;
+    }
+    if (between.empty()) {
+      for (int e = 0; at(e) < scene.elements.size(); ++e) {
+        if (scene.elements[at(e)].b >= 0 && own_displacement(network, e)) {
+          between.insert({{scene.elements[at(e)].a, scene.elements[at(e)].b}, e});
+        }
+      }
+    }
+    const Ends ends = ends_of(scene, record);
+    if (const auto same = between.find({ends.a, ends.b}); same != between.end()) result[k] = {same->second, 1};
+    else if (const auto other = between.find({ends.b, ends.a}); other != between.end()) result[k] = {other->second, -1};
+  }
+  return result;
+}
+
 std::vector<char> needed_positions(const Network& network) {
   std::vector<char> needed(network.nodes(), 0);
   for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
-    for (const Record& record : *records) {
-      if (!is_place(record) || own_displacement(network, record)) continue;
+    const std::vector<Gauge> measured = gauges(network, *records);
+    for (std::size_t k = 0; k < records->size(); ++k) {
+      const Record& record = (*records)[k];
+      if (!is_place(record) || measured[k].element >= 0) continue;
       const Ends ends = ends_of(*network.scene, record);
       for (const NodeId end : {ends.a, ends.b}) {
         const int node = network.node_of[at(end)];
@@ -86,7 +115,7 @@ std::vector<char> needed_positions(const Network& network) {
 }
 
 Channels::Channels(const Network& network, const std::vector<Record>& records)
-    : network_(network), scene_(*network.scene), records_(records), row_(records.size()) {}
+    : network_(network), scene_(*network.scene), records_(records), gauges_(gauges(network, records)), row_(records.size()) {}
 
 void Channels::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
@@ -115,8 +144,12 @@ double Channels::element_force(int element, const Dae::View& view) const {
     return (element == pair.pair.spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.force();
   }
   switch (place.role) {
-    case Role::deflection:
-      return view.f[at(place.index)];
+    case Role::deflection: {
+      // Where it comes to its bound the event is found by a rounding too late.
+      std::size_t i = 0;
+      const double bound = network.batch_of(place.index, i).steady(i).bound;
+      return std::clamp(view.f[at(place.index)], -bound, bound);
+    }
     case Role::rate:
       return view.rate_force[at(place.index)];
     case Role::slip: {
@@ -153,15 +186,15 @@ double Channels::velocity(NodeId end, const Dae::View& view) const {
   return view.velocity[at(pair.slips() ? pair.pair.spring_end : pair.pair.slider_end)];
 }
 
-double Channels::displacement(const Record& record, const Dae::View& view) const {
-  if (own_displacement(network_, record)) {
-    const Network::Place& place = network_.places[at(record.index)];
-    if (!place.paired) return dae_->displacement(place.index);
+double Channels::displacement(std::size_t record, const Dae::View& view) const {
+  if (const auto [element, sign] = gauges_[record]; element >= 0) {
+    const Network::Place& place = network_.places[at(element)];
+    if (!place.paired) return sign * dae_->displacement(place.index);
     const PairView pair(network_, place.index, view);
-    return record.index == pair.pair.spring ? pair.pair.spring_sign * pair.stretch()
-                                            : pair.pair.slider_sign * pair.slide();
+    return sign * (element == pair.pair.spring ? pair.pair.spring_sign * pair.stretch()
+                                               : pair.pair.slider_sign * pair.slide());
   }
-  const Ends ends = ends_of(scene_, record);
+  const Ends ends = ends_of(scene_, records_[record]);
   return position(ends.a, view) - position(ends.b, view);
 }
 
@@ -206,7 +239,7 @@ const std::vector<double>& Channels::read_state(double t, const std::vector<doub
     switch (record.channel) {
       case Record::Channel::position:
       case Record::Channel::displacement:
-        row_[k] = displacement(record, view);
+        row_[k] = displacement(k, view);
         break;
       case Record::Channel::velocity:
         row_[k] = velocity(record, view);

@@ -8,6 +8,12 @@
 
 namespace rheonet {
 
+/// An element between the same ends as a record of a displacement, which knows its own: the difference of two positions has
+/// lost the digits of a small one. -1: there is none. `sign` is -1 where its ends are the other way round.
+struct Gauge { int element = -1; double sign = 1; };
+/// One for each record.
+std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records);
+
 /// For each node whether its position is needed to answer the scene's records and claims.
 std::vector<char> needed_positions(const Network& network);
 
@@ -28,12 +34,13 @@ class Channels {
   double element_force(int element, const Dae::View& view) const;
   double position(NodeId node, const Dae::View& view) const;
   double velocity(NodeId node, const Dae::View& view) const;
-  double displacement(const Record& record, const Dae::View& view) const;
+  double displacement(std::size_t record, const Dae::View& view) const;
   double velocity(const Record& record, const Dae::View& view) const;
 
   const Network& network_;
   const Scene& scene_;
   const std::vector<Record>& records_;
+  const std::vector<Gauge> gauges_;
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
   bool rates_needed_ = false;  ///< a record needs y' of a floating node

@@ -304,6 +304,7 @@ class Run {
     const double curvature = ypp.empty() ? 0 : std::sqrt(sum / static_cast<double>(ypp.size()));
     double h = std::min(until - t, 100 * ahead);
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
+    if (system_->dae.unknowns() == 0 && !system_->events.sticks()) h = until - t;  // nothing that a step could get wrong
     const double omega = drive_.fastest();
     const bool turns = omega > 0 && system_->events.sticks();
     const double turn = turns ? longest_angle / omega : std::numeric_limits<double>::infinity();

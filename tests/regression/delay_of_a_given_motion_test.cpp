@@ -1,0 +1,33 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet;
+
+// Steps were no longer than a delay, also where what is delayed is known beforehand: a delay of 1e-10 s made 1e10 of them.
+TEST_CASE("a delay of what is given costs no steps; of what is not it keeps them short") {
+  constexpr double B = 0.7, T1 = 0.1, V = 1.3;
+  const auto run = [&](double delay, const char* other) {
+    Summary summary;
+    const test::Trajectory rows = test::simulate(
+        test::scene_of(fmt::format(R"([elements]
+drive = {{ type = "motion", at = "shaft", velocity = {{ step = {}, time = 0.1 }} }}
+soon  = {{ type = "vfm", between = ["shaft", "{}"], damping = {}, stiffness = {}, delay = {} }}
+m     = {{ type = "mass", at = "block", mass = 1e9 }}
+k     = {{ type = "spring", between = ["block", "ground"], stiffness = 1 }}
+[simulate]
+stop = 0.5
+)",
+                                   V, other, B, B / T1, delay)),
+        &summary);
+    CHECK(std::abs(rows["soon.force"].back() - B * V * (1 - std::exp(-(0.4 - delay) / T1))) <= 1e-6 * B * V);
+    return summary.steps;
+  };
+  const long steps = run(1e-10, "ground");
+  CHECK(steps < 1000);
+  CHECK(run(1e-4, "ground") < 2 * steps);
+  CHECK(run(1e-4, "block") > 4000);
+}
