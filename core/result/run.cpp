@@ -29,6 +29,7 @@ class Recorder final : public Observer {
         claimed_(network, scene_.claimed),
         claims_(scene_),
         row_(settings.row),
+        state_(settings.state),
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
         tells_(settings.events != nullptr),
@@ -65,7 +66,7 @@ class Recorder final : public Observer {
     start_ = t;
     y_ = y;
     yp_ = yp;
-    if (scene_.output_events) before_ = channels_.read(t, y, yp);
+    if (between_rows()) follow(t, channels_.read(t, y, yp));
   }
 
   void step(const Integrator& integrator) override {
@@ -86,7 +87,9 @@ class Recorder final : public Observer {
       });
     }
     last_ = &integrator;
-    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator));
+    if (between_rows()) {
+      follow(integrator.time(), channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator)));
+    }
   }
 
   void event(const Event& event) override {
@@ -143,6 +146,13 @@ class Recorder final : public Observer {
 
   static double rate(const Integrator& integrator) { return 1 / (integrator.time() - integrator.previous_time()); }
 
+  /// Somebody wants to know the records at steps.
+  bool between_rows() const { return scene_.output_events || state_; }
+  void follow(double t, const std::vector<double>& values) {
+    if (scene_.output_events) before_ = values;
+    if (state_) state_(scene_time(event_time(t)), values);
+  }
+
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
 
   void write(double t, const std::vector<double>& values) {
@@ -161,7 +171,7 @@ class Recorder final : public Observer {
   std::vector<std::string> names_;
   Channels channels_, claimed_;
   Claims claims_;
-  std::function<void(double, const std::vector<double>&)> row_;
+  std::function<void(double, const std::vector<double>&)> row_, state_;
   CsvWriter csv_, events_;
   bool tells_;  ///< of events
   EnergyAccount energy_;
@@ -177,7 +187,12 @@ class Recorder final : public Observer {
 // What is missing of the energy may be so many times the accuracy asked for before it is told.
 constexpr double loose_account = 10;
 
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+// Of this thread alone: simulations may run side by side.
+double cpu_seconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 }  // namespace
 
@@ -191,7 +206,8 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   try {
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
-                           .accuracy = scene.accuracy,
+                           .accuracy = settings.tolerance.value_or(scene.accuracy),
+                           .order = settings.order,
                            .switch_times = settings.events != nullptr,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress},

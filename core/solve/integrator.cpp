@@ -43,7 +43,7 @@ struct Integrator::Implementation {
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
-  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, int dense)
+  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const Options& options)
       : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y) {
     const sunindextype n = dae.size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
@@ -55,7 +55,7 @@ struct Integrator::Implementation {
     require(IDASetUserData(ida, this), "IDASetUserData");
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
-    past.sparse = n > dense;
+    past.sparse = n > options.dense;
     if (past.sparse) {
       matrix = SUNSparseMatrix(n, n, dae.pattern().entries(), CSC_MAT, context);
       linear = SUNLinSol_KLU(ny, matrix, context);
@@ -67,6 +67,7 @@ struct Integrator::Implementation {
     require(IDASetLinearSolver(ida, linear, matrix), "IDASetLinearSolver");
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
+    require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
@@ -182,8 +183,8 @@ struct Integrator::Implementation {
   }
 };
 
-Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, int dense)
-    : impl_(std::make_unique<Implementation>(dae, events, tolerance, dense)) {}
+Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const Options& options)
+    : impl_(std::make_unique<Implementation>(dae, events, tolerance, options)) {}
 
 Integrator::~Integrator() = default;
 

@@ -30,10 +30,16 @@ class Integrator {
 
   /// Up to this many unknowns a dense matrix is factorised faster than KLU does it: see tools/bench/linear_algebra.md.
   static constexpr int dense_limit = 4;
+  /// The order of the method goes up to this at most.
+  static constexpr int highest_order = 5;
 
-  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step. Linear algebra is
-  /// dense up to `dense` unknowns.
-  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, int dense = dense_limit);
+  struct Options {
+    int order = highest_order;  ///< from 1: the order goes no higher
+    int dense = dense_limit;    ///< linear algebra is dense up to so many unknowns
+  };
+
+  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step.
+  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const Options& options);
   ~Integrator();
 
   /// Starts afresh at t from a consistent state. The first step is h.

@@ -51,7 +51,7 @@ class Run {
         state_(begin_.state),
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
-        systems_(network, classified_, drive_, needed, modes_, tolerances_),
+        systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order}),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
         softening_(network, classified_) {

@@ -29,8 +29,8 @@ constexpr const char* of_run =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
     "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written, or a claim of its [expect] fails; 2 the scene or the command line\n"
-    "is wrong.";
+    "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
+    "2 the scene or the command line is wrong.";
 constexpr const char* of_check =
     "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
     "line is wrong.";
@@ -235,6 +235,8 @@ struct CommandLine {
     run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")
         ->type_name("FILE");
     add_accuracy(run);
+    run->add_flag("--certify", arguments.certify,
+                  "estimate the error of each record by a much tighter run, and tighten until it is as accurate as asked");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
   void add_check() {

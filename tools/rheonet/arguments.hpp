@@ -26,6 +26,7 @@ struct Arguments {
   std::string figure;                  ///< where `run` draws its records; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
+  bool certify = false;                ///< of `run`
   bool quiet = false;
   bool verbose = false;
   std::string type;  ///< of `components`; "": all

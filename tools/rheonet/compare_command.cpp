@@ -91,7 +91,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
 void run_all(Compared& compared, const std::string& override, const std::atomic<bool>& interrupted) {
   for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
     try {
-      compared.courses.push_back(run_to_memory(compared.scenes[i], interrupted));
+      compared.courses.push_back(run_to_memory(compared.scenes[i], {.interrupt = &interrupted}));
     } catch (const SimulationError& error) {
       report(error, compared.sources[i]);
       say("  {}{}{}{} simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ", printable(override),
