@@ -12,7 +12,7 @@ enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input =
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, plot, components, schema };
+  enum class Command { run, check, compare, precision, plot, components, schema };
 
   Command command = Command::run;
   std::string scene;
@@ -27,6 +27,10 @@ struct Arguments {
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
   bool certify = false;                ///< of `run`
+  int order = 5;                       ///< of the integration method in `run`, at most
+  std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
+  int runs = 5;                        ///< of `precision`, for each accuracy
+  bool variants = false;               ///< of `precision`
   bool quiet = false;
   bool verbose = false;
   std::string type;  ///< of `components`; "": all

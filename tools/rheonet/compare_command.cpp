@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "core/netlist/characters.hpp"
@@ -117,15 +116,6 @@ void look(const Compared& compared, const std::string& value, Furthest& furthest
     }
 }
 
-/// `row`: what a line of it is called.
-void write(Output& output, const std::string& text, const char* row) {
-  std::fwrite(text.data(), 1, text.size(), output.file());
-  if (const int error = output.close(); error != 0) {
-    say("error: cannot write to {}: {}\n{}", output.name(), std::strerror(error), output.kept(row));
-    throw Ended{not_simulated};
-  }
-}
-
 /// What there is to say and to write.
 struct Findings {
   std::string text, data;
@@ -195,7 +185,7 @@ ExitStatus compare(const Arguments& arguments) {
   if (judged) found.text += '\n' + verdict(*arguments.within, found.furthest, variation ? variation->path : "");
   // Data on standard output are for a program to read: the report is then a message beside them.
   arguments.overlay == "-" ? say("{}", found.text) : fmt::print("{}", found.text);
-  if (output) write(*output, found.data, row);
+  if (output && !write_all(*output, found.data, row)) return not_simulated;
   if (found.ended) {
     if (output) say("{}", output->kept(row));
     return found.ended->status;

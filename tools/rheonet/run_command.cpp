@@ -99,7 +99,8 @@ ExitStatus run_scene(const Arguments& arguments) {
                                .events = outputs.events ? outputs.events->file() : nullptr,
                                .row = on_row,
                                .interrupt = &interrupted,
-                               .progress = on_progress};
+                               .progress = on_progress,
+                               .order = arguments.order};
     std::optional<Certificate> certificate;
     if (arguments.certify) certificate = certify(*read.scene, settings);
     const Summary summary = certificate ? certificate->summary : run(*read.scene, settings);
