@@ -8,9 +8,9 @@
 #include <cstring>
 #include <exception>
 #include <future>
-#include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,6 +23,8 @@ namespace {
 constexpr double factor = Certificate::factor;
 // The tightest tolerance that leaves doubles some room: that of Scene::accuracy.
 constexpr double tightest = 1e-12;
+// Of quotients of tolerances.
+constexpr double rounding = 1e-9;
 
 /// A stream into memory.
 class Spool {
@@ -55,7 +57,8 @@ struct Attempt {
   double tolerance = 0;
   Yardstick yardstick;
   Spool rows, events;
-  std::exception_ptr failure;  ///< none if it has come to the end
+  std::optional<Yardstick> other;  ///< the same by another order, where that is needed to measure others
+  std::exception_ptr failure;      ///< none if it has come to the end
 
   void hand_over(const RunSettings& settings) {
     // What cannot be written of the one must not cost the other.
@@ -82,13 +85,13 @@ class Certification {
     RunSettings silent = settings_;
     silent.progress = {};
     auto beside = std::async(std::launch::async, [&] { return attempt(silent, first); });
-    std::shared_ptr<Attempt> tighter = attempt(settings_, first / factor), measured = beside.get();
+    std::shared_ptr<Attempt> tighter = measuring_run(first / factor), measured = beside.get();
     count(*measured);
     count(*tighter);
     while (!tighter->failure) {
       if (!measured->failure && measure(measured, *tighter)) break;
       if (!has_tighter(tighter->tolerance)) break;
-      measured = std::exchange(tighter, attempt(settings_, tighter->tolerance / factor));
+      measured = std::exchange(tighter, measuring_run(tighter->tolerance / factor));
       count(*tighter);
     }
     if (!kept_) kept_ = measured;
@@ -114,26 +117,37 @@ class Certification {
     return result;
   }
 
-  void count(const Attempt& done) {
-    ++result_.runs;
-    result_.cpu_seconds += done.yardstick.course.summary.cpu_seconds;
+  /// One that others are measured by.
+  std::shared_ptr<Attempt> measuring_run(double tolerance) const {
+    if (tolerance > Certificate::rounding_shows * (1 + rounding)) return attempt(settings_, tolerance);
+    auto beside = std::async(std::launch::async, [&] {
+      const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
+      return run_as_yardstick(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order});
+    });
+    std::shared_ptr<Attempt> result = attempt(settings_, tolerance);
+    try {
+      result->other = beside.get();
+    } catch (const SimulationError&) {
+      result->failure = std::current_exception();
+    }
+    return result;
   }
 
-  static bool has_tighter(double tolerance) {
-    constexpr double rounding = 1e-9;  // of quotients of tolerances
-    return tolerance / factor > (1 - rounding) * tightest;
+  void count(const Attempt& done) {
+    result_.runs += done.other ? 2 : 1;
+    result_.cpu_seconds += done.yardstick.course.summary.cpu_seconds;
+    if (done.other) result_.cpu_seconds += done.other->course.summary.cpu_seconds;
   }
+
+  static bool has_tighter(double tolerance) { return tolerance / factor > (1 - rounding) * tightest; }
 
   /// Whether the run is as accurate as it should be.
   bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {
-    const double steps = static_cast<double>(tighter.yardstick.course.summary.steps);
     const ErrorMeasure as_promised{
-        .allowed = scene_.accuracy,
-        .shift = shift_,
-        .factor = 1 / (1 - Certificate::own_error),
-        .share = Certificate::grains_a_step * steps * std::numeric_limits<double>::epsilon()};
-    std::vector<RecordError> errors =
-        record_errors(scene_, measured->yardstick.course, tighter.yardstick, as_promised);
+        .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - Certificate::own_error)};
+    const Course& course = measured->yardstick.course;
+    std::vector<RecordError> errors = record_errors(scene_, course, tighter.yardstick, as_promised);
+    if (tighter.other) count_other(errors, record_errors(scene_, course, *tighter.other, as_promised));
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
     result_.rounds.push_back({measured->tolerance, worst, error});
@@ -148,6 +162,19 @@ class Certification {
     result_.until = until;
     result_.errors = std::move(errors);
     return result_.holds;
+  }
+
+  /// Raises errors to what a third run says, whose distances `others` are.
+  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others) const {
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      RecordError& error = errors[k];
+      const RecordError& other = others[k];
+      const double independent = (1 - Certificate::own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
+      if (independent <= error.largest) continue;
+      error.largest = independent;
+      error.time = other.time;
+      if (error.relative() > scene_.accuracy) error.beyond = std::fmin(error.beyond, other.beyond);
+    }
   }
 
   /// What ended the run that should have measured.

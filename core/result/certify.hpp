@@ -17,9 +17,11 @@ struct Certificate {
   static constexpr double factor = 100;
   /// What the measuring run may be wrong itself, as a share of the error that it measures: the worst of those.
   static constexpr double own_error = 0.25;
-  /// And the part of that which no tolerance makes smaller: so many roundings of a record's largest magnitude a step. (An
-  /// undamped oscillator keeps them all: it is off by 22 roundings a step at the tightest tolerances.)
-  static constexpr double grains_a_step = 24;
+  /// At this tolerance and below rounding may be what a measuring run is wrong by, which no tolerance makes smaller. Then a
+  /// third run measures too, to the same tolerance but of another order: other steps, other formulas, other roundings. Of
+  /// three runs a, b, c whose errors are independent the mean of (a - b)(a - c) is that of the square of the error of a (J. E.
+  /// Gray and D. W. Allan, 28th Symposium on Frequency Control (1974) 243): the error is taken for no less.
+  static constexpr double rounding_shows = 1e-9;
 
   /// A run to one tolerance, measured by one to a hundredth of that.
   struct Round {
@@ -43,7 +45,7 @@ struct Certificate {
 
 /// Simulates a scene so that each recorded quantity is as accurate as the scene asks, and estimates the errors actually
 /// made. Rows, events and calls of `row` are those of one run, which another, to a tolerance a hundred times tighter, has
-/// shown to be as accurate as that; both go on at once, `progress` being told of the tighter. Where it is not, the tighter
+/// shown to be as accurate as that; they go on at once, `progress` being told of the tighter. Where it is not, the tighter
 /// run takes its place, and is measured by one tighter still, down to the limit of double precision. If it never is, the
 /// rows are those of the most accurate run. `tolerance` and `state` of the settings are not used.
 ///

@@ -6,6 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/network/network.hpp"
 #include "core/result/channels.hpp"
@@ -194,6 +198,35 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// The profile in the user's names.
+std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene, const std::vector<Summary::Switched>& switched) {
+  std::map<std::pair<bool, std::string>, Summary::Profiled> lines;
+  const auto line = [&lines](bool node, const std::string& name) -> Summary::Profiled& {
+    Summary::Profiled& result = lines[{node, name}];
+    result.name = name;
+    result.node = node;
+    return result;
+  };
+  const auto put = [](Summary::Profiled& result, const Profile::Counts& counts) {
+    result.steps = counts.steps;
+    result.rejected = counts.rejected;
+    result.diverged = counts.diverged;
+    result.starts = counts.starts;
+  };
+  for (const auto& [subject, counts] : profile.counts()) {
+    const bool node = subject.kind == Dae::Subject::Kind::node;
+    const std::size_t k = static_cast<std::size_t>(subject.index);
+    put(line(node, node ? scene.nodes[k].name : scene.elements[k].name), counts);
+  }
+  for (const Summary::Switched& s : switched) line(false, s.element).switched = s.times;
+  std::vector<Summary::Profiled> result;
+  for (auto& [key, value] : lines) result.push_back(std::move(value));
+  const auto attempts = [](const Summary::Profiled& p) { return std::tuple(p.steps + p.rejected + p.diverged, p.starts, p.switched); };
+  std::stable_sort(result.begin(), result.end(), [&](const auto& p, const auto& q) { return attempts(p) > attempts(q); });
+  put(result.emplace_back(), profile.others());
+  return result;
+}
+
 }  // namespace
 
 Summary run(const Scene& scene, const RunSettings& settings) {
@@ -203,6 +236,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   SimulationStatistics statistics;
+  Profile profile;
   try {
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
@@ -210,7 +244,8 @@ Summary run(const Scene& scene, const RunSettings& settings) {
                            .order = settings.order,
                            .switch_times = settings.events != nullptr,
                            .interrupt = settings.interrupt,
-                           .progress = settings.progress},
+                           .progress = settings.progress,
+                           .profile = settings.profile ? &profile : nullptr},
                           recorder);
   } catch (...) {
     try {
@@ -231,6 +266,10 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   summary.restarts = statistics.integrator.restarts;
   summary.switched = recorder.switched();
   for (const Summary::Switched& s : summary.switched) summary.events += s.times;
+  if (settings.profile) {
+    summary.profile = named(profile, scene, summary.switched);
+    summary.steps_of_order.assign(profile.orders().begin(), profile.orders().end());
+  }
   summary.supplied = recorder.energy().supplied();
   summary.stored = recorder.energy().stored();
   summary.dissipated = recorder.energy().dissipated();
@@ -266,7 +305,7 @@ StartReport check(const Scene& scene) {
   const Network network = build_network(scene);
   Blind blind;
   const SimulationSettings settings{
-      .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}};
+      .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}, .profile = nullptr};
   const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, blind);
   StartReport report{.notes = network.notes, .chosen = statistics.chosen};
   report.notes.insert(report.notes.end(), statistics.notes.begin(), statistics.notes.end());

@@ -25,6 +25,7 @@ struct RunSettings {
       {};  ///< called now and then with the fraction of the run that is done
   std::optional<double> tolerance = {};  ///< the integrator works to this accuracy in place of the scene's; > 0
   int order = 5;                         ///< of the integration method, at most; 1 to 5
+  bool profile = false;                  ///< finds out what the steps are spent on: Summary::profile
 };
 
 /// What a run took, and its energy account [J].
@@ -39,6 +40,14 @@ struct Summary {
   long events = 0;    ///< how often an element switched: see core/solve/switches.hpp
   long restarts = 0;  ///< of the integrator
   std::vector<Switched> switched;  ///< the elements that did, the busiest first
+  /// What a node or element has to do with the number of steps: see core/solve/profile.hpp.
+  struct Profiled {
+    std::string name;  ///< "" for what has no one to blame: steps without an error, the first start
+    bool node = false;
+    long steps = 0, rejected = 0, diverged = 0, switched = 0, starts = 0;
+  };
+  std::vector<Profiled> profile;     ///< if asked for: those with the most attempted steps first, the nameless one last
+  std::vector<long> steps_of_order;  ///< if asked for: [k] of order k
   double supplied = 0;    ///< by motions and forces
   double stored = 0;      ///< gain of kinetic and elastic energy since the start
   double dissipated = 0;

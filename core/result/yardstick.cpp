@@ -118,7 +118,7 @@ std::vector<RecordError> record_errors(const Scene& scene, const Course& course,
     visit_common(course, truth.course, [&](std::size_t row, std::size_t true_row) {
       const double t = course.times[row];
       double off = distance(course.rows[row][k], truth.course.rows[true_row][k], k, t, truth.instants, measure.shift);
-      off = off <= rounding ? 0 : measure.factor * off + measure.share * error.scale;
+      off = off <= rounding ? 0 : measure.factor * off;
       if (std::isnan(error.beyond) && off > measure.allowed * error.scale) error.beyond = t;
       if (off <= error.largest) return;
       error.largest = off;

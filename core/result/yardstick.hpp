@@ -37,8 +37,7 @@ struct RecordError {
 struct ErrorMeasure {
   double allowed = 1e-6;  ///< relative
   double shift = 0;       ///< s
-  /// For what the yardstick itself may be wrong: each distance but 0 is enlarged by a factor, and by a share of the scale.
-  double factor = 1, share = 0;
+  double factor = 1;      ///< enlarges each distance, for what the yardstick itself may be wrong
 };
 
 /// Of each record of the scene. Rows at times that only one of the runs has (events) are left out.

@@ -170,16 +170,36 @@ struct Integrator::Implementation {
     return 0;
   }
 
+  Failures failures() const {
+    Failures f;
+    IDAGetNumErrTestFails(ida, &f.error_tests);
+    IDAGetNumNonlinSolvConvFails(ida, &f.convergence);
+    return f;
+  }
+
   Statistics present() const {
     Statistics s;
-    long solver_failures = 0;
     IDAGetNumSteps(ida, &s.steps);
-    IDAGetNumErrTestFails(ida, &s.rejected);
-    IDAGetNumNonlinSolvConvFails(ida, &solver_failures);
     IDAGetNumResEvals(ida, &s.residuals);
     IDAGetNumJacEvals(ida, &s.jacobians);
-    s.rejected += solver_failures;
+    const Failures f = failures();
+    s.rejected = f.error_tests + f.convergence;
     return s;
+  }
+
+  /// The unknown with the largest error estimate, of those that `counts` is true of.
+  template <class Counts>
+  int worst(Counts counts) const {
+    if (IDAGetEstLocalErrors(ida, nw) < 0) return -1;
+    int worst = -1;
+    double largest = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const double error = std::abs(work[i]) / tolerance[i];
+      if (error <= largest || !counts(static_cast<int>(i))) continue;
+      largest = error;
+      worst = static_cast<int>(i);
+    }
+    return worst;
   }
 };
 
@@ -259,17 +279,19 @@ void Integrator::interpolate(double t, int derivative, std::vector<double>& out)
 }
 
 int Integrator::worst_unknown() const {
-  if (IDAGetEstLocalErrors(impl_->ida, impl_->nw) < 0) return -1;
-  int worst = -1;
-  double largest = 0;
-  for (std::size_t i = 0; i < impl_->work.size(); ++i) {
-    const double error = std::abs(impl_->work[i]) / impl_->tolerance[i];
-    if (error > largest) {
-      largest = error;
-      worst = static_cast<int>(i);
-    }
-  }
-  return worst;
+  return impl_->worst([](int) { return true; });
+}
+
+int Integrator::limiting_unknown() const {
+  return impl_->worst([this](int unknown) { return impl_->dae.differentiated(unknown); });
+}
+
+Integrator::Failures Integrator::failures() const { return impl_->failures(); }
+
+int Integrator::last_order() const {
+  int order = 0;
+  require(IDAGetLastOrder(impl_->ida, &order), "IDAGetLastOrder");
+  return order;
 }
 
 Integrator::Statistics Integrator::statistics() const {

@@ -60,6 +60,15 @@ class Integrator {
   void interpolate(double t, int derivative, std::vector<double>& out) const;
   /// The unknown with the largest error estimate relative to its tolerance in the last attempted step.
   int worst_unknown() const;
+  /// The same of those alone that the error test looks at; -1 if none has an error.
+  int limiting_unknown() const;
+  /// Attempts at a step that were rejected since the last restart.
+  struct Failures {
+    long error_tests = 0;  ///< its error was too large
+    long convergence = 0;  ///< its equations could not be solved
+  };
+  Failures failures() const;
+  int last_order() const;  ///< of the last step
 
   struct Statistics {
     long steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;

@@ -8,6 +8,7 @@
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/solve/integrator.hpp"
+#include "core/solve/profile.hpp"
 #include "core/solve/switches.hpp"
 
 namespace rheonet {
@@ -35,6 +36,7 @@ struct SimulationSettings {
   bool switch_times = true;  ///< when within a step a pair has yielded is wanted, not only that it has
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress;
+  Profile* profile = nullptr;  ///< finds out what steps are spent on
 };
 
 struct SimulationStatistics {

@@ -91,7 +91,8 @@ TEST_CASE("the estimate is at least the error that is made, and not much more") 
       const double made = run.error(0, c.scale, c.exact), estimated = run.certificate.errors[0].relative();
       CHECK(made <= accuracy);
       CHECK(made <= estimated);
-      CHECK(estimated <= 1.6 * made + 1e-10);
+      CHECK(estimated <= 1.6 * made + 5e-11);
+      CHECK(run.certificate.runs == (accuracy < 1e-7 ? 3 : 2));
       CHECK(run.certificate.errors[0].scale == doctest::Approx(c.scale).epsilon(1e-3));
       CHECK(std::isnan(run.certificate.until));
     }
@@ -118,7 +119,7 @@ TEST_CASE("where the first run is not accurate enough a tighter one takes its pl
   REQUIRE(certificate.holds);
   REQUIRE(certificate.rounds.size() > 1);
   CHECK(certificate.kept == certificate.rounds.size() - 1);
-  CHECK(certificate.runs == static_cast<int>(certificate.rounds.size()) + 1);
+  CHECK(certificate.runs >= static_cast<int>(certificate.rounds.size()) + 1);
   CHECK(certificate.rounds.front().tolerance == 1e-3);
   CHECK(certificate.rounds.front().error.relative() > 1e-3);
   for (std::size_t i = 1; i < certificate.rounds.size(); ++i) {

@@ -33,7 +33,7 @@ Course course(const std::vector<std::vector<double>>& rows) { return {{0, 0.5, 1
 TEST_CASE("an error is relative to the largest magnitude in the run, between rows too") {
   const Yardstick truth{course({{1, 0, 2}, {-3, 0, 2}, {2, 0, 2}}), {4, 0, 2}, {}};
   const auto errors = record_errors(three_records(), course({{1, 0, 2}, {-3.02, 0, 2}, {2.01, 0, 2}}), truth,
-                                    {.allowed = 1e-3, .factor = 1.25, .share = 0.00125});
+                                    {.allowed = 1e-3, .factor = 1.5});
   REQUIRE(errors.size() == 3);
   CHECK(errors[0].largest == doctest::Approx(0.03));
   CHECK(errors[0].relative() == doctest::Approx(0.03 / 4));

@@ -268,6 +268,7 @@ struct CommandLine {
     add_accuracy(run);
     run->add_flag("--certify", arguments.certify,
                   "estimate the error of each record by a much tighter run, and tighten until it is as accurate as asked");
+    run->add_flag("--profile", arguments.profile, "say which elements and nodes the steps are spent on");
     run->add_option("--order", order, "of the integration method, at most: 1 to 5, if not given 5")->type_name("N");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }

@@ -27,6 +27,7 @@ struct Arguments {
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
   bool certify = false;                ///< of `run`
+  bool profile = false;                ///< of `run`
   int order = 5;                       ///< of the integration method in `run`, at most
   std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
   int runs = 5;                        ///< of `precision`, for each accuracy

@@ -100,7 +100,8 @@ ExitStatus run_scene(const Arguments& arguments) {
                                .row = on_row,
                                .interrupt = &interrupted,
                                .progress = on_progress,
-                               .order = arguments.order};
+                               .order = arguments.order,
+                               .profile = arguments.profile};
     std::optional<Certificate> certificate;
     if (arguments.certify) certificate = certify(*read.scene, settings);
     const Summary summary = certificate ? certificate->summary : run(*read.scene, settings);
@@ -110,6 +111,7 @@ ExitStatus run_scene(const Arguments& arguments) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
     }
+    if (arguments.profile) say("{}", describe_profile(summary));
     const bool as_claimed = report_claims(*read.scene, summary, read.sources, arguments.quiet);
     const bool certified = !certificate || report_certificate(*read.scene, *certificate, arguments.quiet);
     return as_claimed && certified ? done : not_as_claimed;
