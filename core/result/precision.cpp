@@ -1,5 +1,7 @@
 #include "core/result/precision.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -57,12 +59,33 @@ class Pricing {
         truth_ = run_as_yardstick(scene_, shift(loosest), settings_of(list_.reference, settings_));
         list_.doubt = record_errors(scene_, beside.get(), truth_,
                                     {.allowed = tolerances_.back(), .shift = shift(tolerances_.back())});
+        use_closed_forms();
         return;
       } catch (const SimulationError&) {
         const bool interrupted = settings_.interrupt && *settings_.interrupt;
         if (interrupted || tolerance == *std::rbegin(reference_tolerances)) throw;
       }
     }
+  }
+
+  /// Where there is one, it is what the record of the reference is.
+  void use_closed_forms() {
+    const Course computed = truth_.course;
+    for (const ExactRecord& form : scene_.exact) {
+      const std::size_t k = static_cast<std::size_t>(form.record);
+      for (std::size_t i = 0; i < truth_.course.times.size(); ++i) {
+        const double t = truth_.course.times[i], value = form.value(t);
+        if (!std::isfinite(value))
+          throw SimulationError(form.spot, fmt::format("the closed form of `{}` has no finite value at t = {:.6g} s",
+                                                       scene_.records[k].path, t));
+        truth_.course.rows[i][k] = value;
+        truth_.largest[k] = std::max(truth_.largest[k], std::abs(value));
+      }
+      list_.doubt[k] = {};
+    }
+    if (scene_.exact.empty()) return;
+    const auto errors = record_errors(scene_, computed, truth_, {.shift = shift(tolerances_.back())});
+    for (const ExactRecord& form : scene_.exact) list_.off.push_back(errors[static_cast<std::size_t>(form.record)]);
   }
 
   Price price(const Method& method) {

@@ -45,7 +45,8 @@ struct PriceListSettings {
 /// What accuracy costs in a scene.
 struct PriceList {
   Method reference, check;          ///< what errors are measured by, and what that is checked by
-  std::vector<RecordError> doubt;   ///< of each record, how far those two are apart
+  std::vector<RecordError> doubt;   ///< of each record, how far those two are apart; 0 of one with a closed form
+  std::vector<RecordError> off;     ///< of each closed form of the scene, how far the reference is from it
   std::vector<Price> prices;        ///< by order as asked for, then from the loosest tolerance to the tightest
 
   double largest_doubt() const;
@@ -55,10 +56,11 @@ struct PriceList {
   const Price* own(const Scene& scene) const;
 };
 
-/// Simulates a scene over and over. Errors are measured by a run as tight as double precision allows, which is itself
-/// checked by one of another order: other steps, other formulas, other roundings. The runs whose time is taken follow each
+/// Simulates a scene over and over. Errors are measured by the closed forms of records, where a scene has them (`[exact]`);
+/// else by a run as tight as double precision allows, which is itself checked by one of another order: other steps, other formulas, other roundings. The runs whose time is taken follow each
 /// other, one by one, and each goes through all methods before the next begins: what disturbs the machine for a while
-/// disturbs all of them. Throws SimulationError if the reference cannot be had, or on an interrupt.
+/// disturbs all of them. Throws SimulationError if the reference cannot be had, or on an interrupt, or where
+/// a closed form has no value.
 PriceList price_list(const Scene& scene, const PriceListSettings& settings);
 
 }  // namespace rheonet

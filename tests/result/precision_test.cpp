@@ -62,6 +62,27 @@ TEST_CASE("a price list gives the errors that a closed form tells, and the costs
   CHECK(list.own(scene)->method.order == 5);
 }
 
+TEST_CASE("where a scene has a closed form, errors are measured by it") {
+  const auto with_form = [](const std::string& form) {
+    return scene_of(swings + "[exact]\n\"block.position\" = \"" + form + "\"\n");
+  };
+  const PriceListSettings settings{.tolerances = {1e-3}, .orders = {5}, .runs = 1};
+  const Scene scene = with_form("1e-3*cos(10*t)");
+  const PriceList list = price_list(scene, settings);
+  const double error = true_error(scene, {1e-3, 5});
+  CHECK(list.prices.front().error() == doctest::Approx(error).epsilon(1e-9));
+  CHECK(list.largest_doubt() == 0);
+  REQUIRE(list.off.size() == 1);
+  CHECK(list.off[0].relative() < 1e-9);
+  CHECK(list.off[0].relative() == doctest::Approx(true_error(scene, list.reference)).epsilon(1e-3));
+  // A wrong form is taken at its word, but not in silence.
+  const PriceList wrong = price_list(with_form("1e-3*cos(10*t) + 1e-5*sin(10*t)"), settings);
+  CHECK(wrong.prices.front().error() == doctest::Approx(1e-2).epsilon(1e-2));
+  CHECK(wrong.off[0].relative() == doctest::Approx(1e-2).epsilon(1e-2));
+  CHECK_THROWS_WITH_AS(price_list(with_form("1e-3*cos(10*t) + 0*sqrt(t - 1)"), settings),
+                       "the closed form of `block.position` has no finite value at t = 0 s", SimulationError);
+}
+
 TEST_CASE("an order that becomes too slow is not gone through to its end") {
   const Scene scene = scene_of(swings);
   const PriceListSettings settings{.tolerances = {1e-2, 1e-4, 1e-6, 1e-8}, .orders = {5, 1}, .runs = 1, .too_slow = 3};

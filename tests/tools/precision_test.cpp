@@ -52,6 +52,16 @@ TEST_CASE("precision --variants limits the order; `run --order` does the same") 
   CHECK(folder.shell("rheonet run -q scene.toml --order 2", 0).out != usual);
 }
 
+TEST_CASE("precision says when a closed form and the scene do not fit") {
+  const Folder folder(oscillator + "[exact]\n\"block.position\" = \"1e-3*cos(10*t)\"\n");
+  const std::string words = "rheonet precision scene.toml --accuracies 1e-3 --runs 1";
+  const Finished fits = folder.shell(words, 0);
+  CHECK(contains(fits.out, "errors of one record are measured by closed forms, from which a run to 1e-12 is off by up to "));
+  CHECK_FALSE(contains(fits.out, "note:"));
+  const Finished misfits = folder.shell(words + " --set k1.stiffness='\"101 N/m\"'", 0);
+  CHECK(contains(misfits.out, "note: that is too much for rounding, first at "));
+}
+
 TEST_CASE("precision refuses what it cannot do before it simulates") {
   const Folder folder(endless);
   const auto run = [&folder](const std::string& words) { return folder.shell("timeout 20 rheonet precision scene.toml " + words, 2).err; };

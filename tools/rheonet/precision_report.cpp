@@ -20,6 +20,8 @@ using Rows = std::vector<std::vector<std::string>>;
 
 // An error that is no larger than so many times what the reference and its check differ by is not known.
 constexpr double told = 2;
+// A run as tight as it can be is not this far from a true closed form.
+constexpr double doubtful_form = 1e-6;
 
 std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 
@@ -80,6 +82,29 @@ std::string table_of(const Scene& scene, const PriceList& list, const std::vecto
   return aligned(rows) + failures;
 }
 
+/// By what errors are measured, and how good that is.
+std::string yardstick_words(const Scene& scene, const PriceList& list) {
+  std::string text;
+  if (scene.exact.size() < scene.records.size()) {
+    text += fmt::format("  errors are measured by a run to {:g} of order up to {}; one of order up to {} is {} from it",
+                        list.reference.tolerance, list.reference.order, list.check.order, number(list.largest_doubt()));
+    text += list.largest_doubt() > 0 ? fmt::format(" (`{}`)\n", scene.records[worst_of(list.doubt)].path) : "\n";
+  }
+  if (scene.exact.empty()) return text;
+  const std::size_t worst = worst_of(list.off);
+  const RecordError& off = list.off[worst];
+  text += fmt::format("  errors of {} are measured by closed forms, from which a run to {:g} is off by up to {} (`{}`)\n",
+                      scene.exact.size() == scene.records.size() ? "all records"
+                      : scene.exact.size() == 1                  ? "one record"
+                                                                 : fmt::format("{} records", scene.exact.size()),
+                      list.reference.tolerance, number(off.relative()),
+                      scene.records[static_cast<std::size_t>(scene.exact[worst].record)].path);
+  if (off.relative() > doubtful_form)
+    text += fmt::format("  note: that is too much for rounding, first at {:g} s: either the form or the scene is not as it is meant\n",
+                        off.beyond);
+  return text;
+}
+
 /// "accuracy = 1e-05, order up to 3".
 std::string name_of(const PriceList& list, const Price& price) {
   const int usual = list.prices.front().method.order;
@@ -110,10 +135,7 @@ std::string recommendation(const Scene& scene, const PriceList& list) {
 std::string describe(const Scene& scene, const std::string& file, const PriceList& list) {
   std::string text = fmt::format("{}: {:g} s to {:g} s, asks for an accuracy of {:g}\n", printable(file), scene.start,
                                  scene.stop, scene.accuracy);
-  const auto furthest = worst_of(list.doubt);
-  text += fmt::format("  errors are measured by a run to {:g} of order up to {}; one of order up to {} is {} from it", 
-                      list.reference.tolerance, list.reference.order, list.check.order, number(list.largest_doubt()));
-  text += list.largest_doubt() > 0 ? fmt::format(" (`{}`)\n", scene.records[furthest].path) : "\n";
+  text += yardstick_words(scene, list);
   for (const auto& prices : by_order(list)) {
     const int order = prices.front()->method.order;
     if (order != list.prices.front().method.order) text += fmt::format("\norder up to {}\n", order);
