@@ -365,24 +365,28 @@ bool Dae::differentiated(int unknown) const {
   return std::find(ip_.begin(), ip_.end(), unknown) != ip_.end();
 }
 
+Dae::Subject Dae::subject(int unknown) const {
+  const auto index_of = [unknown](const std::vector<int>& unknowns) {
+    return static_cast<std::size_t>(std::find(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  };
+  using enum Subject::Kind;
+  if (const std::size_t n = index_of(iv_); n < iv_.size()) return {node, network_->scene_node[n]};
+  if (const std::size_t n = index_of(ix_); n < ix_.size()) return {node, network_->scene_node[n]};
+  if (const std::size_t j = index_of(ip_); j < ip_.size()) return {element, network_->deflections[j].element};
+  if (const std::size_t r = index_of(if_); r < if_.size()) return {element, network_->rates[r].element};
+  return {element, network_->blocks.blocks[at(drive_->blocks().block_of_state(index_of(iz_)))].element};
+}
+
 std::string Dae::describe(int unknown) const {
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    const std::string& name = network_->node_name(static_cast<NodeId>(n));
-    if (iv_[n] == unknown) return fmt::format("the velocity of node `{}`", name);
-    if (ix_[n] == unknown) return fmt::format("the position of node `{}`", name);
+  const auto is = [unknown](const std::vector<int>& unknowns) {
+    return std::find(unknowns.begin(), unknowns.end(), unknown) != unknowns.end();
+  };
+  const Scene& scene = *network_->scene;
+  const auto [kind, index] = subject(unknown);
+  if (kind == Subject::Kind::node) {
+    return fmt::format("the {} of node `{}`", is(iv_) ? "velocity" : "position", scene.nodes[at(index)].name);
   }
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
-    if (ip_[j] == unknown) return fmt::format("the force of `{}`", network_->name_of(network_->deflections[j]));
-  }
-  for (std::size_t r = 0; r < if_.size(); ++r) {
-    if (if_[r] == unknown) return fmt::format("the force of `{}`", network_->name_of(network_->rates[r]));
-  }
-  for (std::size_t k = 0; k < iz_.size(); ++k) {
-    if (iz_[k] != unknown) continue;
-    const int element = network_->blocks.blocks[at(drive_->blocks().block_of_state(k))].element;
-    return fmt::format("the output of `{}`", network_->scene->elements[at(element)].name);
-  }
-  return "an unknown";
+  return fmt::format("the {} of `{}`", is(iz_) ? "output" : "force", scene.elements[at(index)].name);
 }
 
 }  // namespace rheonet

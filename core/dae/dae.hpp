@@ -109,6 +109,14 @@ class Dae {
   int block_unknown(std::size_t state) const { return iz_[state]; }
   /// Gives the unknown forces of dashpots the values that belong to the velocities of y.
   void guess_forces(double t, double* y);
+  /// The node or element of the scene that an unknown belongs to.
+  struct Subject {
+    enum class Kind { node, element };
+    Kind kind;
+    int index;  ///< into Scene::nodes or Scene::elements
+    auto operator<=>(const Subject&) const = default;
+  };
+  Subject subject(int unknown) const;
   /// For messages: "the velocity of node `m`", "the deflection of `k1`".
   std::string describe(int unknown) const;
 

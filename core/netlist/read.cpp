@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/netlist/checks.hpp"
+#include "core/netlist/exact.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/expect.hpp"
 #include "core/netlist/group_names.hpp"
@@ -20,7 +21,8 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::vector<std::string> top_level{"title", "domain", "parameters", "check",    "elements",
-                                         "nodes", "models", "include",    "simulate", "expect"};
+                                         "nodes", "models", "include",    "simulate", "expect",
+                                         "exact"};
 
 bool is_top_level(const std::string& name) {
   return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
@@ -111,6 +113,8 @@ class Reader {
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
       read_claims(expect->value, environment, doubtful, context_, scene_);
+    if (const TomlEntry* exact = document_.find("exact"))
+      read_exact(exact->value, environment, doubtful, context_, scene_);
   }
 
   void read_title_and_domain() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -101,6 +102,13 @@ struct Claim {
   Spot spot;                   ///< of the claimed value
 };
 
+/// What a record is by a closed form, of `[exact]`.
+struct ExactRecord {
+  int record = 0;                               ///< into Scene::records
+  std::function<double(double t)> value = {};  ///< SI, at a time of the scene; NaN where the form has no finite value
+  Spot spot;
+};
+
 /// A netlist, checked and flattened: every value in SI, every reference resolved; models, series, parallel, repeat gone.
 struct Scene {
   std::string title;
@@ -115,6 +123,8 @@ struct Scene {
 
   std::vector<Record> claimed;  ///< what claims are about, each once
   std::vector<Claim> claims;    ///< of `[expect]`, in the order of the file
+
+  std::vector<ExactRecord> exact;
 
   enum class StartFrom {
     given,   ///< the start values of nodes and elements

@@ -310,6 +310,9 @@ std::string json_schema(Declarations declarations) {
   definitions["elements"] = described(named(std::move(element)), "one line, one element: the key is its name");
   definitions["model"] = model_schema();
   definitions["expect"] = expect_schema();
+  // Of k1.force without quotes, too.
+  definitions["exact"] = described(named({{"anyOf", {reference("value"), reference("exact")}}}),
+                                   "closed forms of records, over the parameters and the time t");
   const Json node = object({{"position", described(reference("value"), "at the start; 0 if absent")},
                             {"velocity", described(reference("value"), "at the start; 0 if absent")}});
 
@@ -329,6 +332,7 @@ std::string json_schema(Declarations declarations) {
       {"models", named(reference("model"))},
       {"simulate", simulate_schema()},
       {"expect", reference("expect")},
+      {"exact", reference("exact")},
   }));
   schema["$defs"] = std::move(definitions);
   return schema.dump(2);

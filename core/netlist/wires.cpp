@@ -44,9 +44,7 @@ class Connection {
       : loose_(loose), doubtful_(doubtful), context_(context), mistakes_(context.mistakes), scene_(scene) {}
 
   void make() {
-    const std::size_t before = mistakes_.errors();
-    find_sources();
-    if (mistakes_.errors() > before) return;
+    if (!find_sources()) return;
     find_units();
     for (std::size_t k = 0; k < scene_.blocks.size(); ++k) check_block(static_cast<int>(k));
     for (std::size_t k = 0, feed = 0; k < loose_.ends.size(); ++k)
@@ -59,7 +57,9 @@ class Connection {
     return *context_.declarations[at(scene_.elements[at(element)].declaration)];
   }
 
-  void find_sources() {
+  /// Whether all are found. What depends on a faulty element is not, without a further message.
+  bool find_sources() {
+    bool all = true;
     std::vector<std::string> names;
     for (const LooseEnd& end : loose_.ends) {
       names.push_back(end.path);
@@ -73,6 +73,7 @@ class Connection {
       if (block < 0 && dot != end.path.npos && end.path.substr(dot) == ".out")
         block = index.find(end.path.substr(0, dot)).block;
       if (end.block < 0) {
+        all = all && block >= 0;
         if (block < 0)
           refuse(end, index.find(end.path));
         else
@@ -80,8 +81,10 @@ class Connection {
         continue;
       }
       const int source = block < 0 ? sensed(end, index.find(end.path)) : block;
+      all = all && source >= 0;
       if (source >= 0) scene_.blocks[at(end.block)].inputs.push_back({block >= 0, source, end.wire->sign});
     }
+    return all;
   }
 
   /// A quantity of the network; -1 if it is none.

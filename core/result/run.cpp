@@ -6,6 +6,10 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include "core/network/network.hpp"
 #include "core/result/channels.hpp"
@@ -29,6 +33,7 @@ class Recorder final : public Observer {
         claimed_(network, scene_.claimed),
         claims_(scene_),
         row_(settings.row),
+        state_(settings.state),
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
         tells_(settings.events != nullptr),
@@ -65,7 +70,7 @@ class Recorder final : public Observer {
     start_ = t;
     y_ = y;
     yp_ = yp;
-    if (scene_.output_events) before_ = channels_.read(t, y, yp);
+    if (between_rows()) follow(t, channels_.read(t, y, yp));
   }
 
   void step(const Integrator& integrator) override {
@@ -86,7 +91,9 @@ class Recorder final : public Observer {
       });
     }
     last_ = &integrator;
-    if (scene_.output_events) before_ = channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator));
+    if (between_rows()) {
+      follow(integrator.time(), channels_.read(integrator.time(), integrator.y(), integrator.yp(), rate(integrator)));
+    }
   }
 
   void event(const Event& event) override {
@@ -143,6 +150,13 @@ class Recorder final : public Observer {
 
   static double rate(const Integrator& integrator) { return 1 / (integrator.time() - integrator.previous_time()); }
 
+  /// Somebody wants to know the records at steps.
+  bool between_rows() const { return scene_.output_events || state_; }
+  void follow(double t, const std::vector<double>& values) {
+    if (scene_.output_events) before_ = values;
+    if (state_) state_(scene_time(event_time(t)), values);
+  }
+
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
 
   void write(double t, const std::vector<double>& values) {
@@ -161,7 +175,7 @@ class Recorder final : public Observer {
   std::vector<std::string> names_;
   Channels channels_, claimed_;
   Claims claims_;
-  std::function<void(double, const std::vector<double>&)> row_;
+  std::function<void(double, const std::vector<double>&)> row_, state_;
   CsvWriter csv_, events_;
   bool tells_;  ///< of events
   EnergyAccount energy_;
@@ -177,7 +191,41 @@ class Recorder final : public Observer {
 // What is missing of the energy may be so many times the accuracy asked for before it is told.
 constexpr double loose_account = 10;
 
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+// Of this thread alone: simulations may run side by side.
+double cpu_seconds() {
+  std::timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The profile in the user's names.
+std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene, const std::vector<Summary::Switched>& switched) {
+  std::map<std::pair<bool, std::string>, Summary::Profiled> lines;
+  const auto line = [&lines](bool node, const std::string& name) -> Summary::Profiled& {
+    Summary::Profiled& result = lines[{node, name}];
+    result.name = name;
+    result.node = node;
+    return result;
+  };
+  const auto put = [](Summary::Profiled& result, const Profile::Counts& counts) {
+    result.steps = counts.steps;
+    result.rejected = counts.rejected;
+    result.diverged = counts.diverged;
+    result.starts = counts.starts;
+  };
+  for (const auto& [subject, counts] : profile.counts()) {
+    const bool node = subject.kind == Dae::Subject::Kind::node;
+    const std::size_t k = static_cast<std::size_t>(subject.index);
+    put(line(node, node ? scene.nodes[k].name : scene.elements[k].name), counts);
+  }
+  for (const Summary::Switched& s : switched) line(false, s.element).switched = s.times;
+  std::vector<Summary::Profiled> result;
+  for (auto& [key, value] : lines) result.push_back(std::move(value));
+  const auto attempts = [](const Summary::Profiled& p) { return std::tuple(p.steps + p.rejected + p.diverged, p.starts, p.switched); };
+  std::stable_sort(result.begin(), result.end(), [&](const auto& p, const auto& q) { return attempts(p) > attempts(q); });
+  put(result.emplace_back(), profile.others());
+  return result;
+}
 
 }  // namespace
 
@@ -188,13 +236,16 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   SimulationStatistics statistics;
+  Profile profile;
   try {
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
-                           .accuracy = scene.accuracy,
+                           .accuracy = settings.tolerance.value_or(scene.accuracy),
+                           .order = settings.order,
                            .switch_times = settings.events != nullptr,
                            .interrupt = settings.interrupt,
-                           .progress = settings.progress},
+                           .progress = settings.progress,
+                           .profile = settings.profile ? &profile : nullptr},
                           recorder);
   } catch (...) {
     try {
@@ -215,6 +266,10 @@ Summary run(const Scene& scene, const RunSettings& settings) {
   summary.restarts = statistics.integrator.restarts;
   summary.switched = recorder.switched();
   for (const Summary::Switched& s : summary.switched) summary.events += s.times;
+  if (settings.profile) {
+    summary.profile = named(profile, scene, summary.switched);
+    summary.steps_of_order.assign(profile.orders().begin(), profile.orders().end());
+  }
   summary.supplied = recorder.energy().supplied();
   summary.stored = recorder.energy().stored();
   summary.dissipated = recorder.energy().dissipated();
@@ -250,7 +305,7 @@ StartReport check(const Scene& scene) {
   const Network network = build_network(scene);
   Blind blind;
   const SimulationSettings settings{
-      .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}};
+      .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}, .profile = nullptr};
   const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, blind);
   StartReport report{.notes = network.notes, .chosen = statistics.chosen};
   report.notes.insert(report.notes.end(), statistics.notes.begin(), statistics.notes.end());

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,15 @@ struct RunSettings {
   std::FILE* csv = nullptr;     ///< receives the rows as they come; nullptr: nowhere
   std::FILE* events = nullptr;  ///< receives what switches, as it does: time, element, event, direction
   std::function<void(double time, const std::vector<double>& values)> row = {};  ///< is called with each row
+  /// Is called with the records at the start, at the end of each step, and after each instant at which they may jump:
+  /// two calls at one time are the two sides of it.
+  std::function<void(double time, const std::vector<double>& values)> state = {};
   const std::atomic<bool>* interrupt = nullptr;  ///< becomes true when the user wants to stop: the run throws SimulationError
   std::function<void(double fraction)> progress =
       {};  ///< called now and then with the fraction of the run that is done
+  std::optional<double> tolerance = {};  ///< the integrator works to this accuracy in place of the scene's; > 0
+  int order = 5;                         ///< of the integration method, at most; 1 to 5
+  bool profile = false;                  ///< finds out what the steps are spent on: Summary::profile
 };
 
 /// What a run took, and its energy account [J].
@@ -33,6 +40,14 @@ struct Summary {
   long events = 0;    ///< how often an element switched: see core/solve/switches.hpp
   long restarts = 0;  ///< of the integrator
   std::vector<Switched> switched;  ///< the elements that did, the busiest first
+  /// What a node or element has to do with the number of steps: see core/solve/profile.hpp.
+  struct Profiled {
+    std::string name;  ///< "" for what has no one to blame: steps without an error, the first start
+    bool node = false;
+    long steps = 0, rejected = 0, diverged = 0, switched = 0, starts = 0;
+  };
+  std::vector<Profiled> profile;     ///< if asked for: those with the most attempted steps first, the nameless one last
+  std::vector<long> steps_of_order;  ///< if asked for: [k] of order k
   double supplied = 0;    ///< by motions and forces
   double stored = 0;      ///< gain of kinetic and elastic energy since the start
   double dissipated = 0;
@@ -41,7 +56,7 @@ struct Summary {
                           ///< be compared with
   std::vector<Finding> findings;  ///< what has become of each of the scene's claims
   double wall_seconds = 0;
-  double cpu_seconds = 0;
+  double cpu_seconds = 0;  ///< of the thread that called `run`
   std::vector<std::string> notes;  ///< what was assumed, and what a user should know of the result
 };
 

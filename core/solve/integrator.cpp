@@ -43,7 +43,7 @@ struct Integrator::Implementation {
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
-  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, int dense)
+  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const Options& options)
       : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y) {
     const sunindextype n = dae.size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
@@ -55,7 +55,7 @@ struct Integrator::Implementation {
     require(IDASetUserData(ida, this), "IDASetUserData");
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
-    past.sparse = n > dense;
+    past.sparse = n > options.dense;
     if (past.sparse) {
       matrix = SUNSparseMatrix(n, n, dae.pattern().entries(), CSC_MAT, context);
       linear = SUNLinSol_KLU(ny, matrix, context);
@@ -67,6 +67,7 @@ struct Integrator::Implementation {
     require(IDASetLinearSolver(ida, linear, matrix), "IDASetLinearSolver");
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
+    require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
@@ -169,21 +170,41 @@ struct Integrator::Implementation {
     return 0;
   }
 
+  Failures failures() const {
+    Failures f;
+    IDAGetNumErrTestFails(ida, &f.error_tests);
+    IDAGetNumNonlinSolvConvFails(ida, &f.convergence);
+    return f;
+  }
+
   Statistics present() const {
     Statistics s;
-    long solver_failures = 0;
     IDAGetNumSteps(ida, &s.steps);
-    IDAGetNumErrTestFails(ida, &s.rejected);
-    IDAGetNumNonlinSolvConvFails(ida, &solver_failures);
     IDAGetNumResEvals(ida, &s.residuals);
     IDAGetNumJacEvals(ida, &s.jacobians);
-    s.rejected += solver_failures;
+    const Failures f = failures();
+    s.rejected = f.error_tests + f.convergence;
     return s;
+  }
+
+  /// The unknown with the largest error estimate, of those that `counts` is true of.
+  template <class Counts>
+  int worst(Counts counts) const {
+    if (IDAGetEstLocalErrors(ida, nw) < 0) return -1;
+    int worst = -1;
+    double largest = 0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const double error = std::abs(work[i]) / tolerance[i];
+      if (error <= largest || !counts(static_cast<int>(i))) continue;
+      largest = error;
+      worst = static_cast<int>(i);
+    }
+    return worst;
   }
 };
 
-Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, int dense)
-    : impl_(std::make_unique<Implementation>(dae, events, tolerance, dense)) {}
+Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const Options& options)
+    : impl_(std::make_unique<Implementation>(dae, events, tolerance, options)) {}
 
 Integrator::~Integrator() = default;
 
@@ -258,17 +279,19 @@ void Integrator::interpolate(double t, int derivative, std::vector<double>& out)
 }
 
 int Integrator::worst_unknown() const {
-  if (IDAGetEstLocalErrors(impl_->ida, impl_->nw) < 0) return -1;
-  int worst = -1;
-  double largest = 0;
-  for (std::size_t i = 0; i < impl_->work.size(); ++i) {
-    const double error = std::abs(impl_->work[i]) / impl_->tolerance[i];
-    if (error > largest) {
-      largest = error;
-      worst = static_cast<int>(i);
-    }
-  }
-  return worst;
+  return impl_->worst([](int) { return true; });
+}
+
+int Integrator::limiting_unknown() const {
+  return impl_->worst([this](int unknown) { return impl_->dae.differentiated(unknown); });
+}
+
+Integrator::Failures Integrator::failures() const { return impl_->failures(); }
+
+int Integrator::last_order() const {
+  int order = 0;
+  require(IDAGetLastOrder(impl_->ida, &order), "IDAGetLastOrder");
+  return order;
 }
 
 Integrator::Statistics Integrator::statistics() const {

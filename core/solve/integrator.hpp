@@ -30,10 +30,16 @@ class Integrator {
 
   /// Up to this many unknowns a dense matrix is factorised faster than KLU does it: see tools/bench/linear_algebra.md.
   static constexpr int dense_limit = 4;
+  /// The order of the method goes up to this at most.
+  static constexpr int highest_order = 5;
 
-  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step. Linear algebra is
-  /// dense up to `dense` unknowns.
-  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, int dense = dense_limit);
+  struct Options {
+    int order = highest_order;  ///< from 1: the order goes no higher
+    int dense = dense_limit;    ///< linear algebra is dense up to so many unknowns
+  };
+
+  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step.
+  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const Options& options);
   ~Integrator();
 
   /// Starts afresh at t from a consistent state. The first step is h.
@@ -54,6 +60,15 @@ class Integrator {
   void interpolate(double t, int derivative, std::vector<double>& out) const;
   /// The unknown with the largest error estimate relative to its tolerance in the last attempted step.
   int worst_unknown() const;
+  /// The same of those alone that the error test looks at; -1 if none has an error.
+  int limiting_unknown() const;
+  /// Attempts at a step that were rejected since the last restart.
+  struct Failures {
+    long error_tests = 0;  ///< its error was too large
+    long convergence = 0;  ///< its equations could not be solved
+  };
+  Failures failures() const;
+  int last_order() const;  ///< of the last step
 
   struct Statistics {
     long steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;

@@ -12,6 +12,7 @@
 #include "core/dae/steady.hpp"
 #include "core/dae/time_grain.hpp"
 #include "core/network/index.hpp"
+#include "core/solve/fastest_rate.hpp"
 #include "core/solve/fired.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
@@ -51,7 +52,7 @@ class Run {
         state_(begin_.state),
         instant_(network, classified_, drive_),
         tolerances_(network, local_share * settings.accuracy),
-        systems_(network, classified_, drive_, needed, modes_, tolerances_),
+        systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order}),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
         softening_(network, classified_) {
@@ -113,7 +114,7 @@ class Run {
     const double t = stretch(from);
     if (t >= drive_.next_break()) {
       for (const Drive::Break& b : drive_.breaks(t)) {
-        observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+        tell({t, b.element, b.jumps ? "jump" : "corner", b.direction});
       }
     } else if (t >= settings_.stop) {
       return t;
@@ -148,7 +149,7 @@ class Run {
     drive_.remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
     for (const std::string& note : check_ties(dae, t)) note_once(note);
     for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
-      if (t > 0) observer_.event(event);
+      if (t > 0) tell(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
   }
@@ -197,6 +198,7 @@ class Run {
         system_->consistency.project(t, y_);
         system_->consistency.derivative(t, y_, yp_);
         leave(t);
+        if (settings_.profile) settings_.profile->blame_failure(system_->integrator);
         if (gets_nowhere(t, {solver()}) || headway_.failing(t, glimpse * horizon(t))) fail(outcome);
         restart(t, until, shrink);
         continue;
@@ -206,6 +208,7 @@ class Run {
         outcome = Integrator::Outcome::event;
       }
       t = system_->integrator.time();
+      if (settings_.profile) settings_.profile->step(system_->integrator);
       observer_.step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
@@ -226,10 +229,17 @@ class Run {
         continue;
       }
       switch_memories(t);
+      if (settings_.profile) settings_.profile->blame(fired_);
       if (gets_nowhere(t, fired_)) report_chatter(t);
       if (t >= until) return until;
       restart(t, until, shrink);
     }
+  }
+
+  /// Of what restarts the integrator.
+  void tell(const Event& event) {
+    if (settings_.profile) settings_.profile->blame({event.element});
+    observer_.event(event);
   }
 
   /// A cause of restarts that is no element.
@@ -262,23 +272,6 @@ class Run {
     if (system_->dae.rough()) softening_.apply(tolerances_.unresolved_velocity());
   }
 
-  /// The fastest rate at which the network itself changes [1/s]. A power law at rest has a slope of 0 or infinity: there it
-  /// is what the forces are a moment later that counts.
-  double fastest_rate(double t, double ahead, const std::vector<double>& ypp) {
-    Consistency& consistency = system_->consistency;
-    if (!system_->dae.rough()) return consistency.fastest_rate(t, horizon(t), y_, yp_);
-    std::vector<double> y = y_, yp(y.size());
-    // Where the drive starts from rest nothing has changed yet to first order.
-    for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * (yp_[i] + ahead / 2 * ypp[i]);
-    try {
-      consistency.project(t + ahead, y);
-      consistency.derivative(t + ahead, y, yp);
-      return consistency.fastest_rate(t + ahead, horizon(t), y, yp);
-    } catch (const SimulationError&) {  // no state of the network: it was a guess
-      return consistency.fastest_rate(t, horizon(t), y_, yp_);
-    }
-  }
-
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance
   /// (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
   void restart(double t, double until, double shrink) {
@@ -286,7 +279,7 @@ class Run {
     std::vector<double> ypp;
     system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
     if (tolerances_.blind()) {
-      const double rate = fastest_rate(t, ahead, ypp);
+      const double rate = fastest_rate(system_->dae, system_->consistency, t, horizon(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
     }
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
@@ -309,6 +302,7 @@ class Run {
     const bool turns = omega > 0 && system_->events.sticks();
     const double turn = turns ? longest_angle / omega : std::numeric_limits<double>::infinity();
     system_->integrator.limit_step(std::min(turn, drive_.past().shortest()));
+    if (settings_.profile) settings_.profile->restart(system_->dae);
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }
 

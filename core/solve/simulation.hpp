@@ -8,6 +8,7 @@
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/solve/integrator.hpp"
+#include "core/solve/profile.hpp"
 #include "core/solve/switches.hpp"
 
 namespace rheonet {
@@ -31,9 +32,11 @@ class Observer {
 struct SimulationSettings {
   double stop = 1;  ///< s; the start is at 0
   double accuracy = 1e-6;
+  int order = Integrator::highest_order;  ///< of the method, at most: see Integrator::Options
   bool switch_times = true;  ///< when within a step a pair has yielded is wanted, not only that it has
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress;
+  Profile* profile = nullptr;  ///< finds out what steps are spent on
 };
 
 struct SimulationStatistics {

@@ -11,16 +11,16 @@ constexpr std::size_t most_kept = 64;
 }  // namespace
 
 System::System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
-               Tolerances& tolerances)
+               Tolerances& tolerances, const Integrator::Options& options)
     : structure(std::move(s)),
       dae(network, structure, drive, needed),
       consistency(dae),
       events(dae, consistency, tolerances, modes),
-      integrator(dae, events, tolerances.values()) {}
+      integrator(dae, events, tolerances.values(), options) {}
 
 Systems::Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
-                 const Modes& modes, Tolerances& tolerances)
-    : network_(network), drive_(drive), needed_(needed), modes_(modes), tolerances_(tolerances) {
+                 const Modes& modes, Tolerances& tolerances, const Integrator::Options& options)
+    : network_(network), drive_(drive), needed_(needed), modes_(modes), tolerances_(tolerances), options_(options) {
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network.deflections[at(laws.first) + i];
@@ -41,7 +41,7 @@ System& Systems::of_modes() {
       systems_.clear();
     }
     found = systems_.emplace(key, std::make_unique<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
-                                                           tolerances_)).first;
+                                                           tolerances_, options_)).first;
   }
   return *found->second;
 }

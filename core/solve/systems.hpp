@@ -21,7 +21,7 @@ struct System {
   Integrator integrator;
 
   System(const Network& network, Structure s, Drive& drive, const std::vector<char>& needed, const Modes& modes,
-         Tolerances& tolerances);
+         Tolerances& tolerances, const Integrator::Options& options);
 };
 
 /// The systems of the modes that a run has been in: some are kept, for when their modes come back.
@@ -29,7 +29,7 @@ class Systems {
  public:
   /// `classified` is the network's structure with every slider slipping. All must outlive this.
   Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
-          const Modes& modes, Tolerances& tolerances);
+          const Modes& modes, Tolerances& tolerances, const Integrator::Options& options);
 
   /// That of the present modes, of sliders and of laws that are constant forces now. Valid until the next call. Throws
   /// SimulationError as `analyse` does.
@@ -43,6 +43,7 @@ class Systems {
   const std::vector<char>& needed_;
   const Modes& modes_;
   Tolerances& tolerances_;
+  const Integrator::Options options_;
   /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
   std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
   std::map<std::vector<char>, std::unique_ptr<System>> systems_;

@@ -31,6 +31,7 @@ scene.toml:4:58: error: unknown key `in` of a `generator`
   its keys are `type`, `signal` and `repeat`
 )~"},
       {R"~(a = { type = "gain", in = ["j.force", "shaft.velocity"], gain = 2 }
+b = { type = "gain", in = "a", gain = 2 }
 )~",
        R"~(
 scene.toml:4:27: error: `a` takes in 1 signal, but `in` names 2

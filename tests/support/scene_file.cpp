@@ -21,7 +21,7 @@ double SceneFile::value(const std::string& element, const std::string& parameter
   return 0;
 }
 
-SceneFile run_file(const std::string& path, const std::vector<std::string>& overrides) {
+Scene scene_of_file(const std::string& path, const std::vector<std::string>& overrides) {
   const std::filesystem::path folder = std::filesystem::path(RHEONET_SOURCE_DIR) / "netlists";
   ReadOptions options;
   options.overrides = overrides;
@@ -29,7 +29,11 @@ SceneFile run_file(const std::string& path, const std::vector<std::string>& over
   const ReadResult read = read_scene(folder / path, declarations(), options);
   for (const Diagnostic& diagnostic : read.diagnostics) FAIL_CHECK(format(diagnostic, read.sources));
   REQUIRE(read.scene);
-  SceneFile file{*read.scene, {}, {}};
+  return *read.scene;
+}
+
+SceneFile run_file(const std::string& path, const std::vector<std::string>& overrides) {
+  SceneFile file{scene_of_file(path, overrides), {}, {}};
   file.rows = simulate(file.scene, &file.summary);
   return file;
 }

@@ -19,8 +19,9 @@ struct SceneFile {
   double value(const std::string& element, const std::string& parameter) const;
 };
 
-/// `path` counts from the folder netlists; each override is "PATH=VALUE", as after --set. Fails the test if the scene
-/// is refused.
+/// A netlist of the project. `path` counts from the folder netlists; each override is "PATH=VALUE", as after --set. Fails
+/// the test if the scene is refused.
+Scene scene_of_file(const std::string& path, const std::vector<std::string>& overrides = {});
 SceneFile run_file(const std::string& path, const std::vector<std::string>& overrides = {});
 
 }  // namespace rheonet::test

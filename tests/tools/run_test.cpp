@@ -79,6 +79,18 @@ TEST_CASE("--events writes what switches, and the summary counts it") {
   CHECK(contains(folder.shell("rheonet run --help").out, "--events"));
 }
 
+TEST_CASE("--profile says what the steps are spent on, beside the same rows") {
+  const Folder folder(switching);
+  const Finished plain = folder.shell("rheonet run scene.toml -q", 0), result = folder.shell("rheonet run scene.toml -q --profile", 0);
+  CHECK(result.out == plain.out);
+  CHECK(plain.err == "");
+  CAPTURE(result.err);
+  CHECK(contains(result.err, "what limits the steps"));
+  CHECK(contains(result.err, "\n  s1 "));
+  CHECK(contains(result.err, "\n  hand "));
+  CHECK(contains(result.err, "steps by order: 1: "));
+}
+
 TEST_CASE("a run that fails leaves its events, and says so") {
   const Folder folder(overcome);
   const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv", 1);

@@ -24,6 +24,8 @@ for scene in teaching/relaxation thesis/sfm-loops thesis/viscometer; do
 done
 memcheck 0 compare "$netlists/thesis/compare/vfm.toml" "$netlists/thesis/compare/maxwell.toml" -o "$folder/rows.csv"
 memcheck 0 run "$netlists/thesis/compare/bingham-by-nodes.toml" -o "$folder/rows.csv"
+memcheck 0 run "$netlists/teaching/relaxation.toml" --certify --accuracy 1e-8 --profile -o "$folder/rows.csv" --events "$folder/events.csv"
+memcheck 0 precision "$netlists/teaching/relaxation.toml" --accuracies 1e-2,1e-4 --runs 1 -o "$folder/rows.csv" --plot "$folder/prices.svg"
 memcheck 0 check -v "$netlists/teaching/creep.toml"
 memcheck 2 check "$netlists/teaching/creep.toml" --set maxwell.stifness=3 --set simulate.stop='"3 kg"'
 echo "no error, no leak"

@@ -63,7 +63,7 @@ double time_per_step(int masses, int dense) {
     Dae dae(network, structure, begin_state.drive, std::vector<char>(scene.nodes.size(), 0));
     NoEvents events;
     const std::vector<double> tolerance(static_cast<std::size_t>(dae.size()), 1e-7);
-    Integrator integrator(dae, events, tolerance, dense);
+    Integrator integrator(dae, events, tolerance, {.dense = dense});
     std::vector<double> y, yp;
     begin_state.drive.enter(0);
     dae.enter(0, begin_state.state, modes, y);

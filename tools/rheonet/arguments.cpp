@@ -5,6 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <functional>
 #include <map>
 
 #include "core/netlist/characters.hpp"
@@ -29,8 +31,8 @@ constexpr const char* of_run =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
     "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written, or a claim of its [expect] fails; 2 the scene or the command line\n"
-    "is wrong.";
+    "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
+    "2 the scene or the command line is wrong.";
 constexpr const char* of_check =
     "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
     "line is wrong.";
@@ -45,6 +47,13 @@ constexpr const char* of_compare =
     "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
     "the comparison was interrupted (the values of RANGE up to there are kept), or the output not be written;\n"
     "2 a scene or the command line is wrong.";
+
+constexpr const char* of_precision =
+    "For instance:\n"
+    "  rheonet precision scene.toml\n"
+    "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n\n"
+    "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
+    "written; 2 the scene or the command line is wrong.";
 
 constexpr const char* of_plot =
     "For instance:\n"
@@ -139,6 +148,26 @@ double read_number(const char* option, const std::string& text) {
   return value;
 }
 
+int read_whole(const char* option, const std::string& text, int least, int most) {
+  const double value = read_number(option, text);
+  if (value >= least && value <= most && value == std::floor(value)) return static_cast<int>(value);
+  throw WrongCommandLine{fmt::format("`{}` takes a whole number from {} to {}, not `{}`", option, least, most, text), ""};
+}
+
+/// Each once, from the loosest on.
+std::vector<double> read_accuracies(const std::vector<std::string>& texts) {
+  const char* const option = "--accuracies";
+  std::vector<double> values;
+  for (const std::string& text : texts) {
+    values.push_back(read_number(option, text));
+    if (!(values.back() >= 1e-12 && values.back() <= 0.1))
+      throw WrongCommandLine{fmt::format("`{}` takes numbers from 1e-12 to 0.1, not `{}`", option, text), ""};
+  }
+  std::sort(values.begin(), values.end(), std::greater<>());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
 ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
   say("error: {}\n", printable(mistake.message));
@@ -189,7 +218,8 @@ void add_plot(CLI::App* command, Arguments& arguments) {
 /// The commands and options as CLI11 knows them, and what it reads into.
 struct CommandLine {
   Arguments arguments;
-  std::optional<std::string> accuracy, within;
+  std::optional<std::string> accuracy, within, order, runs;
+  std::vector<std::string> accuracies;
   CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet"};
 
@@ -202,6 +232,7 @@ struct CommandLine {
     add_run();
     add_check();
     add_compare();
+    add_precision();
     CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", of_plot);
     add_plot(plot, arguments);
     add_overrides(plot);
@@ -242,7 +273,24 @@ struct CommandLine {
     run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")
         ->type_name("FILE");
     add_accuracy(run);
+    run->add_flag("--certify", arguments.certify,
+                  "estimate the error of each record by a much tighter run, and tighten until it is as accurate as asked");
+    run->add_flag("--profile", arguments.profile, "say which elements and nodes the steps are spent on");
+    run->add_option("--order", order, "of the integration method, at most: 1 to 5, if not given 5")->type_name("N");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
+  }
+  void add_precision() {
+    CLI::App* precision =
+        add_command("precision", "simulate a scene at many accuracies and say what each costs and gives", of_precision);
+    add_scene(precision);
+    add_accuracy(precision);
+    add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
+             "E,...");
+    precision->add_option("--runs", runs, "of each accuracy, whose CPU time is taken; 5 if not given")->type_name("N");
+    precision->add_flag("--variants", arguments.variants, "also with the order of the method limited to 4, 3 and 2");
+    precision->add_option("-o,--output", arguments.overlay, "where the list goes as CSV; `-` is standard output")
+        ->type_name("FILE");
+    precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");
   }
   void add_check() {
     CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
@@ -284,7 +332,7 @@ struct CommandLine {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   CommandLine line;
-  auto& [arguments, accuracy, within, app] = line;
+  auto& [arguments, accuracy, within, order, runs, accuracies, app] = line;
 
   words = with_every_set(words);
   std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
@@ -301,6 +349,9 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     refuse_extra_words(app);
     if (accuracy) arguments.accuracy = read_number("--accuracy", *accuracy);
     if (within) arguments.within = read_number("--within", *within);
+    if (order) arguments.order = read_whole("--order", *order, 1, 5);
+    if (runs) arguments.runs = read_whole("--runs", *runs, 1, 1000);
+    arguments.accuracies = read_accuracies(accuracies);
     if (within && !(*arguments.within >= 0))
       throw WrongCommandLine{fmt::format("`--within` must be at least 0, but is {}", *within), ""};
     if (app.get_subcommands().empty())
@@ -313,6 +364,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   const std::map<std::string, Command> commands = {{"run", Command::run},
                                                    {"check", Command::check},
                                                    {"compare", Command::compare},
+                                                   {"precision", Command::precision},
                                                    {"plot", Command::plot},
                                                    {"draw", Command::draw},
                                                    {"components", Command::components},

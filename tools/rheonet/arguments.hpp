@@ -12,7 +12,7 @@ enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input =
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, plot, draw, components, schema };
+  enum class Command { run, check, compare, precision, plot, draw, components, schema };
 
   Command command = Command::run;
   std::string scene;
@@ -26,6 +26,12 @@ struct Arguments {
   std::string figure;                  ///< where `run` draws its records; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
+  bool certify = false;                ///< of `run`
+  bool profile = false;                ///< of `run`
+  int order = 5;                       ///< of the integration method in `run`, at most
+  std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
+  int runs = 5;                        ///< of `precision`, for each accuracy
+  bool variants = false;               ///< of `precision`
   bool quiet = false;
   bool verbose = false;
   std::string type;  ///< of `components`; "": all

@@ -13,6 +13,9 @@ ExitStatus check_scene(const Arguments& arguments);
 /// `rheonet compare`: runs several scenes and says how far they are from the first.
 ExitStatus compare_scenes(const Arguments& arguments);
 
+/// `rheonet precision`: says what accuracy costs in a scene.
+ExitStatus price_scene(const Arguments& arguments);
+
 /// `rheonet plot`: draws curves of scenes and of CSV files.
 ExitStatus plot_results(const Arguments& arguments);
 

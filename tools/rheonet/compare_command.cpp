@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "core/netlist/characters.hpp"
@@ -91,7 +90,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
 void run_all(Compared& compared, const std::string& override, const std::atomic<bool>& interrupted) {
   for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
     try {
-      compared.courses.push_back(run_to_memory(compared.scenes[i], interrupted));
+      compared.courses.push_back(run_to_memory(compared.scenes[i], {.interrupt = &interrupted}));
     } catch (const SimulationError& error) {
       report(error, compared.sources[i]);
       say("  {}{}{}{} simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ", printable(override),
@@ -115,15 +114,6 @@ void look(const Compared& compared, const std::string& value, Furthest& furthest
       if (!furthest.name.empty() && d.relative() <= furthest.difference.relative()) continue;
       furthest = {name_of(compared.pairings[p], other), d, value};
     }
-}
-
-/// `row`: what a line of it is called.
-void write(Output& output, const std::string& text, const char* row) {
-  std::fwrite(text.data(), 1, text.size(), output.file());
-  if (const int error = output.close(); error != 0) {
-    say("error: cannot write to {}: {}\n{}", output.name(), std::strerror(error), output.kept(row));
-    throw Ended{not_simulated};
-  }
 }
 
 /// What there is to say and to write.
@@ -195,7 +185,7 @@ ExitStatus compare(const Arguments& arguments) {
   if (judged) found.text += '\n' + verdict(*arguments.within, found.furthest, variation ? variation->path : "");
   // Data on standard output are for a program to read: the report is then a message beside them.
   arguments.overlay == "-" ? say("{}", found.text) : fmt::print("{}", found.text);
-  if (output) write(*output, found.data, row);
+  if (output && !write_all(*output, found.data, row)) return not_simulated;
   if (found.ended) {
     if (output) say("{}", output->kept(row));
     return found.ended->status;

@@ -56,33 +56,4 @@ std::vector<Pairing> shared_records(const Scene& first, const std::vector<Column
   return pairings;
 }
 
-Course run_to_memory(const Scene& scene, const std::atomic<bool>& interrupted) {
-  Course course;
-  const auto keep = [&course](double time, const std::vector<double>& values) {
-    course.times.push_back(time);
-    course.rows.push_back(values);
-  };
-  course.summary = run(scene, {.row = keep, .interrupt = &interrupted});
-  return course;
-}
-
-Difference difference(const Course& first, std::size_t first_column, const Course& second, std::size_t second_column) {
-  Difference result;
-  double squares = 0;
-  const std::size_t rows = std::min(first.rows.size(), second.rows.size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    const double a = first.rows[row][first_column], b = second.rows[row][second_column];
-    const double apart = std::abs(b - a);
-    squares += apart * apart;
-    result.scale = std::max({result.scale, std::abs(a), std::abs(b)});
-    if (row > 0 && apart <= result.largest) continue;
-    result.largest = apart;
-    result.time = first.times[row];
-    result.first = a;
-    result.second = b;
-  }
-  result.rms = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(rows, 1)));
-  return result;
-}
-
 }  // namespace rheonet::tool

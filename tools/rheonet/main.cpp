@@ -25,6 +25,8 @@ ExitStatus carry_out(const Arguments& arguments) {
       return check_scene(arguments);
     case Command::compare:
       return compare_scenes(arguments);
+    case Command::precision:
+      return price_scene(arguments);
     case Command::plot:
       return plot_results(arguments);
     case Command::draw:

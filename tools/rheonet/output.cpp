@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <string_view>
 #include <system_error>
 
@@ -93,6 +94,13 @@ int Output::close() {
     if (created_ && !touched_) ::unlink(path_.c_str());
   }
   return error_;
+}
+
+bool write_all(Output& output, const std::string& text, const char* row) {
+  std::fwrite(text.data(), 1, text.size(), output.file());
+  const int error = output.close();
+  if (error != 0) say("error: cannot write to {}: {}\n{}", output.name(), std::strerror(error), output.kept(row));
+  return error == 0;
 }
 
 std::unique_ptr<Output> open_output(const std::string& path) {

@@ -45,4 +45,7 @@ class Output {
 /// Opens it; nullptr, and an error message, if that is not possible.
 std::unique_ptr<Output> open_output(const std::string& path);
 
+/// Writes a text and closes; false, and an error message, if not all is written. `row`: what a line of it is called.
+bool write_all(Output& output, const std::string& text, const char* row);
+
 }  // namespace rheonet::tool

@@ -8,8 +8,10 @@
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
+#include "core/result/certify.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/run.hpp"
+#include "tools/rheonet/certificate.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/figure_file.hpp"
@@ -93,18 +95,26 @@ ExitStatus run_scene(const Arguments& arguments) {
   Progress progress(!arguments.quiet && !outputs.rows->is_terminal());
   const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
-    const Summary summary = run(*read.scene, {.csv = outputs.rows->file(),
-                                              .events = outputs.events ? outputs.events->file() : nullptr,
-                                              .row = on_row,
-                                              .interrupt = &interrupted,
-                                              .progress = on_progress});
+    const RunSettings settings{.csv = outputs.rows->file(),
+                               .events = outputs.events ? outputs.events->file() : nullptr,
+                               .row = on_row,
+                               .interrupt = &interrupted,
+                               .progress = on_progress,
+                               .order = arguments.order,
+                               .profile = arguments.profile};
+    std::optional<Certificate> certificate;
+    if (arguments.certify) certificate = certify(*read.scene, settings);
+    const Summary summary = certificate ? certificate->summary : run(*read.scene, settings);
     progress.erase();
     if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
     if (!arguments.quiet) {
       say("{}: {:g} s to {:g} s\n{}", printable(arguments.scene), read.scene->start, read.scene->stop,
           describe(summary, outputs.rows->rows(), outputs.rows->name()));
     }
-    return report_claims(*read.scene, summary, read.sources, arguments.quiet) ? done : not_as_claimed;
+    if (arguments.profile) say("{}", describe_profile(summary));
+    const bool as_claimed = report_claims(*read.scene, summary, read.sources, arguments.quiet);
+    const bool certified = !certificate || report_certificate(*read.scene, *certificate, arguments.quiet);
+    return as_claimed && certified ? done : not_as_claimed;
   } catch (const SimulationError& error) {
     progress.erase();
     const bool closed = outputs.close();

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "tools/rheonet/table.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -67,6 +71,40 @@ std::string describe(const Summary& s, long rows, const std::string& destination
       "energy missing", s.missing,
       s.largest > 0 ? fmt::format("  {:.1e} of the largest energy in the run", std::abs(s.missing) / s.largest) : "");
   for (const std::string& note : s.notes) text += fmt::format("  note: {}\n", note);
+  return text;
+}
+
+std::string describe_profile(const Summary& summary) {
+  constexpr std::size_t most = 16;
+  std::vector<std::vector<std::string>> rows{
+      {"what limits the steps", "", "steps", "share", "too large an error", "not solved", "switches", "starts"}};
+  const double all = static_cast<double>(std::max(summary.steps, 1L));
+  const auto line = [&](const std::string& name, const std::string& kind, const Summary::Profiled& p) {
+    rows.push_back({name, kind, grouped(p.steps), fmt::format("{:.1f} %", 100 * static_cast<double>(p.steps) / all),
+                    grouped(p.rejected), grouped(p.diverged), grouped(p.switched), grouped(p.starts)});
+  };
+  Summary::Profiled rest;
+  long left_out = 0;
+  for (const Summary::Profiled& p : summary.profile) {
+    if (p.name.empty()) {
+      if (p.steps + p.rejected + p.diverged + p.starts > 0) line("nobody", "", p);
+    } else if (rows.size() <= most) {
+      line(p.name, p.node ? "node" : "element", p);
+    } else {
+      ++left_out;
+      rest.steps += p.steps;
+      rest.rejected += p.rejected;
+      rest.diverged += p.diverged;
+      rest.switched += p.switched;
+      rest.starts = std::max(rest.starts, p.starts);  // several have a part in one
+    }
+  }
+  if (left_out > 0) line(fmt::format("{} others", left_out), "", rest);
+  std::string text = aligned(rows) + "  steps by order:";
+  for (std::size_t order = 1; order < summary.steps_of_order.size(); ++order) {
+    text += fmt::format(" {}: {}", order, grouped(summary.steps_of_order[order])) +
+            (order + 1 < summary.steps_of_order.size() ? "," : "\n");
+  }
   return text;
 }
 

@@ -12,4 +12,7 @@ std::string in_time_units(double seconds);
 /// What a run took and where the energy went, one line each, for a person to read.
 std::string describe(const Summary& summary, long rows, const std::string& destination);
 
+/// What its steps were spent on, of a run that found out.
+std::string describe_profile(const Summary& summary);
+
 }  // namespace rheonet::tool

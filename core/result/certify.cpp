@@ -1,0 +1,201 @@
+#include "core/result/certify.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <future>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/result/csv.hpp"
+
+namespace rheonet {
+
+namespace {
+
+constexpr double factor = Certificate::factor;
+// The tightest tolerance that leaves doubles some room: that of Scene::accuracy.
+constexpr double tightest = 1e-12;
+// Of quotients of tolerances.
+constexpr double rounding = 1e-9;
+
+/// A stream into memory.
+class Spool {
+ public:
+  Spool() : file_(open_memstream(&text_, &size_)) {
+    if (!file_) throw std::bad_alloc();
+  }
+  ~Spool() {
+    std::fclose(file_);
+    std::free(text_);
+  }
+  Spool(const Spool&) = delete;
+  Spool& operator=(const Spool&) = delete;
+
+  std::FILE* file() { return file_; }
+  void copy_to(std::FILE* out, const char* what) {
+    if (!out || std::fflush(file_) != 0 || size_ == 0) return;
+    if (std::fwrite(text_, 1, size_, out) == size_ && std::fflush(out) == 0) return;
+    throw WriteError(std::string(what) + " cannot be written: " + std::strerror(errno));
+  }
+
+ private:
+  char* text_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE* file_;
+};
+
+/// A run to one tolerance, its output held back.
+struct Attempt {
+  double tolerance = 0;
+  Yardstick yardstick;
+  Spool rows, events;
+  std::optional<Yardstick> other;  ///< the same by another order, where that is needed to measure others
+  std::exception_ptr failure;      ///< none if it has come to the end
+
+  void hand_over(const RunSettings& settings) {
+    // What cannot be written of the one must not cost the other.
+    try {
+      events.copy_to(settings.events, "the events");
+    } catch (const WriteError&) {
+      rows.copy_to(settings.csv, "the results");
+      throw;
+    }
+    rows.copy_to(settings.csv, "the results");
+    if (!settings.row) return;
+    const Course& course = yardstick.course;
+    for (std::size_t i = 0; i < course.times.size(); ++i) settings.row(course.times[i], course.rows[i]);
+  }
+};
+
+class Certification {
+ public:
+  Certification(const Scene& scene, const RunSettings& settings)
+      : scene_(scene), settings_(settings), shift_(scene.accuracy * (scene.stop - scene.start)) {}
+
+  Certificate go() {
+    const double first = std::max(scene_.accuracy, factor * tightest);
+    RunSettings silent = settings_;
+    silent.progress = {};
+    auto beside = std::async(std::launch::async, [&] { return attempt(silent, first); });
+    std::shared_ptr<Attempt> tighter = measuring_run(first / factor), measured = beside.get();
+    count(*measured);
+    count(*tighter);
+    while (!tighter->failure) {
+      if (!measured->failure && measure(measured, *tighter)) break;
+      if (!has_tighter(tighter->tolerance)) break;
+      measured = std::exchange(tighter, measuring_run(tighter->tolerance / factor));
+      count(*tighter);
+    }
+    if (!kept_) kept_ = measured;
+    kept_->hand_over(settings_);
+    if (kept_->failure) std::rethrow_exception(kept_->failure);
+    result_.summary = kept_->yardstick.course.summary;
+    if (tighter->failure) say_why(tighter->failure);
+    return std::move(result_);
+  }
+
+ private:
+  std::shared_ptr<Attempt> attempt(RunSettings settings, double tolerance) const {
+    auto result = std::make_shared<Attempt>();
+    result->tolerance = tolerance;
+    settings.tolerance = tolerance;
+    settings.csv = settings.csv ? result->rows.file() : nullptr;
+    settings.events = settings.events ? result->events.file() : nullptr;
+    try {
+      result->yardstick = run_as_yardstick(scene_, shift_, std::move(settings));
+    } catch (const SimulationError&) {
+      result->failure = std::current_exception();
+    }
+    return result;
+  }
+
+  /// One that others are measured by.
+  std::shared_ptr<Attempt> measuring_run(double tolerance) const {
+    if (tolerance > Certificate::rounding_shows * (1 + rounding)) return attempt(settings_, tolerance);
+    auto beside = std::async(std::launch::async, [&] {
+      const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
+      return run_as_yardstick(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order});
+    });
+    std::shared_ptr<Attempt> result = attempt(settings_, tolerance);
+    try {
+      result->other = beside.get();
+    } catch (const SimulationError&) {
+      result->failure = std::current_exception();
+    }
+    return result;
+  }
+
+  void count(const Attempt& done) {
+    result_.runs += done.other ? 2 : 1;
+    result_.cpu_seconds += done.yardstick.course.summary.cpu_seconds;
+    if (done.other) result_.cpu_seconds += done.other->course.summary.cpu_seconds;
+  }
+
+  static bool has_tighter(double tolerance) { return tolerance / factor > (1 - rounding) * tightest; }
+
+  /// Whether the run is as accurate as it should be.
+  bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {
+    const ErrorMeasure as_promised{
+        .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - Certificate::own_error)};
+    const Course& course = measured->yardstick.course;
+    std::vector<RecordError> errors = record_errors(scene_, course, tighter.yardstick, as_promised);
+    if (tighter.other) count_other(errors, record_errors(scene_, course, *tighter.other, as_promised));
+    const std::size_t worst = worst_of(errors);
+    const RecordError error = errors.empty() ? RecordError{} : errors[worst];
+    result_.rounds.push_back({measured->tolerance, worst, error});
+    result_.holds = error.relative() <= scene_.accuracy;
+    double until = not_given;
+    for (const RecordError& e : errors) until = std::fmin(until, e.beyond);
+    // Where errors have grown as large as the records themselves, how large they are says nothing; for how long they are
+    // small does.
+    if (kept_ && !result_.holds && until <= result_.until) return false;
+    kept_ = measured;
+    result_.kept = result_.rounds.size() - 1;
+    result_.until = until;
+    result_.errors = std::move(errors);
+    return result_.holds;
+  }
+
+  /// Raises errors to what a third run says, whose distances `others` are.
+  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others) const {
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      RecordError& error = errors[k];
+      const RecordError& other = others[k];
+      const double independent = (1 - Certificate::own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
+      if (independent <= error.largest) continue;
+      error.largest = independent;
+      error.time = other.time;
+      if (error.relative() > scene_.accuracy) error.beyond = std::fmin(error.beyond, other.beyond);
+    }
+  }
+
+  /// What ended the run that should have measured.
+  void say_why(const std::exception_ptr& failure) {
+    if (settings_.interrupt && *settings_.interrupt) std::rethrow_exception(failure);
+    try {
+      std::rethrow_exception(failure);
+    } catch (const SimulationError& error) {
+      result_.obstacle = error.what();
+    }
+  }
+
+  const Scene& scene_;
+  const RunSettings& settings_;
+  const double shift_;  ///< of a jump, as much as the accuracy allows [s]
+  std::shared_ptr<Attempt> kept_;
+  Certificate result_;
+};
+
+}  // namespace
+
+Certificate certify(const Scene& scene, const RunSettings& settings) { return Certification(scene, settings).go(); }
+
+}  // namespace rheonet

@@ -1,0 +1,141 @@
+#include "core/result/yardstick.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace rheonet {
+
+namespace {
+
+using Instants = std::vector<Yardstick::Instant>;
+
+// A jump explains a distance of up to so many times itself: from its other side the record may have gone on a little.
+constexpr double explained = 2;
+// Roundings of the largest value of its kind that a record may be off by: it may be a difference of such values.
+constexpr double grains = 16;
+// A record of less than this share of the accuracy, of the largest of its kind, of which no digit is certain, is nothing
+// but the error of the others: it has no size of its own. (As in core/solve/tolerances.cpp: floor_of_kind.)
+constexpr double share_of_kind = 1e-4;
+
+/// Gathers what makes a yardstick of a run.
+class Watch {
+ public:
+  Watch(const Scene& scene, double near, Yardstick& result) : scene_(scene), near_(near), result_(result) {
+    result_.largest.assign(scene.records.size(), 0);
+  }
+
+  void row(const std::vector<double>& values) { see(values); }
+
+  void state(double t, const std::vector<double>& values) {
+    see(values);
+    if (t == last_time_ && values != last_ && near_a_row(t)) result_.instants.push_back({t, last_, values});
+    last_time_ = t;
+    last_ = values;
+  }
+
+ private:
+  void see(const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      result_.largest[k] = std::max(result_.largest[k], std::abs(values[k]));
+    }
+  }
+  bool near_a_row(double t) const {
+    const double row = std::round((t - scene_.start) / scene_.output_every) * scene_.output_every + scene_.start;
+    return std::abs(t - row) <= near_;
+  }
+
+  const Scene& scene_;
+  double near_;
+  Yardstick& result_;
+  double last_time_ = not_given;
+  std::vector<double> last_;
+};
+
+/// Distance of a value from what a record is at t, one-sided at its jumps.
+double distance(double value, double truth, std::size_t column, double t, const Instants& instants, double shift) {
+  double result = std::abs(value - truth);
+  const auto first = std::lower_bound(instants.begin(), instants.end(), t - shift,
+                                      [](const Yardstick::Instant& i, double time) { return i.time < time; });
+  for (auto i = first; i != instants.end() && i->time <= t + shift; ++i) {
+    if (explained * std::abs(i->after[column] - i->before[column]) < result) continue;
+    result = std::min({result, std::abs(value - i->before[column]), std::abs(value - i->after[column])});
+  }
+  return result;
+}
+
+/// The rows that two runs have at the same times, the last of those at one time: visit(row of a, row of b).
+template <class Visit>
+void visit_common(const Course& a, const Course& b, Visit visit) {
+  const auto last_at_its_time = [](const Course& c, std::size_t row) {
+    return row + 1 == c.times.size() || c.times[row + 1] > c.times[row];
+  };
+  for (std::size_t i = 0, j = 0; i < a.times.size() && j < b.times.size();) {
+    if (a.times[i] < b.times[j] || !last_at_its_time(a, i)) {
+      ++i;
+    } else if (b.times[j] < a.times[i] || !last_at_its_time(b, j)) {
+      ++j;
+    } else {
+      visit(i++, j++);
+    }
+  }
+}
+
+/// Of each record the largest value of any that has its unit.
+std::vector<double> largest_of_kind(const Scene& scene, const std::vector<double>& largest) {
+  std::map<std::string, double> of_unit;
+  for (std::size_t k = 0; k < largest.size(); ++k) {
+    double& most = of_unit[unit_text(scene, scene.records[k])];
+    most = std::max(most, largest[k]);
+  }
+  std::vector<double> result;
+  for (const Record& record : scene.records) result.push_back(of_unit[unit_text(scene, record)]);
+  return result;
+}
+
+}  // namespace
+
+Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings) {
+  Yardstick result;
+  Watch watch(scene, near, result);
+  settings.state = [&watch](double time, const std::vector<double>& values) { watch.state(time, values); };
+  result.course = run_to_memory(scene, std::move(settings));
+  for (const std::vector<double>& row : result.course.rows) watch.row(row);
+  return result;
+}
+
+std::vector<RecordError> record_errors(const Scene& scene, const Course& course, const Yardstick& truth,
+                                       const ErrorMeasure& measure) {
+  const std::vector<double> kind = largest_of_kind(scene, truth.largest);
+  std::vector<RecordError> errors(scene.records.size());
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    RecordError& error = errors[k];
+    error.scale = truth.largest[k];
+    const double rounding = grains * std::numeric_limits<double>::epsilon() * kind[k];
+    visit_common(course, truth.course, [&](std::size_t row, std::size_t true_row) {
+      const double t = course.times[row];
+      double off = distance(course.rows[row][k], truth.course.rows[true_row][k], k, t, truth.instants, measure.shift);
+      off = off <= rounding ? 0 : measure.factor * off;
+      if (std::isnan(error.beyond) && off > measure.allowed * error.scale) error.beyond = t;
+      if (off <= error.largest) return;
+      error.largest = off;
+      error.time = t;
+    });
+    const double noise = share_of_kind * measure.allowed * kind[k];
+    if (error.largest > error.scale / 2 && std::max(error.largest, error.scale) <= noise) {
+      error.scale = kind[k];
+      error.beyond = not_given;
+    }
+  }
+  return errors;
+}
+
+std::size_t worst_of(const std::vector<RecordError>& errors) {
+  const auto less = [](const RecordError& a, const RecordError& b) { return a.relative() < b.relative(); };
+  return static_cast<std::size_t>(std::max_element(errors.begin(), errors.end(), less) - errors.begin());
+}
+
+}  // namespace rheonet

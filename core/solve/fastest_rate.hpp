@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dae/consistency.hpp"
+#include "core/dae/dae.hpp"
+
+namespace rheonet {
+
+/// A consistent state and its derivatives.
+struct Motion { const std::vector<double>&y, &yp, &ypp; };
+
+/// The fastest rate at which a network itself changes at t [1/s]; `horizon` is the time until something is known to happen
+/// [s]. A power law at rest has a slope of 0 or infinity: there it is what the forces are a moment later that counts, the
+/// time `ahead` [s].
+double fastest_rate(const Dae& dae, Consistency& consistency, double t, double horizon, const Motion& motion, double ahead);
+
+}  // namespace rheonet

@@ -1,0 +1,204 @@
+// The error that is estimated against the error that is made.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <future>
+#include <string>
+#include <vector>
+
+#include "core/network/error.hpp"
+#include "core/result/certify.hpp"
+#include "tests/support/check.hpp"
+#include "tests/support/scene_file.hpp"
+#include "tests/support/simulate.hpp"
+#include "tests/tools/scenes.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+/// Certifies a scene and keeps its rows.
+struct Certified {
+  Certificate certificate;
+  std::vector<double> times;
+  std::vector<std::vector<double>> rows;
+
+  explicit Certified(const Scene& scene) {
+    certificate = certify(scene, {.row = [this](double t, const std::vector<double>& values) {
+                            times.push_back(t);
+                            rows.push_back(values);
+                          }});
+  }
+  /// Largest error of a record, in parts of `scale`.
+  double error(std::size_t record, double scale, const std::function<double(double)>& exact) const {
+    double worst = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) worst = std::max(worst, std::abs(rows[i][record] - exact(times[i])));
+    return worst / scale;
+  }
+};
+
+/// Chua's circuit, scaled to three integrators: M. Komuro, R. Tokunaga, T. Matsumoto, L. O. Chua, A. Hotta, Int. J.
+/// Bifurcation and Chaos 1 (1991) 139. Two of its motions part e-fold in about 3 s.
+std::string chua(double stop) {
+  return fmt::format(R"([elements]
+x = {{ type = "integrator", in = "dx", gain = 15.6, initial = 0.7 }}
+y = {{ type = "integrator", in = "dy" }}
+z = {{ type = "integrator", in = "y", gain = -28 }}
+dx = {{ type = "sum", in = ["y", "-x", "-steep", "-flat"] }}
+dy = {{ type = "sum", in = ["x", "-y", "z"] }}
+bend = {{ type = "limiter", in = "x", upper = 1 }}
+steep = {{ type = "gain", in = "bend", gain = -0.429 }}
+flat = {{ type = "gain", in = "x", gain = -0.714 }}
+k = {{ type = "spring", between = ["a", "ground"], stiffness = 1 }}
+[simulate]
+stop = {}
+output = {{ every = 0.1 }}
+record = ["x.out", "y.out", "z.out"]
+)",
+                     stop);
+}
+
+}  // namespace
+
+TEST_CASE("the estimate is at least the error that is made, and not much more") {
+  // One scene that keeps all its errors, and one that forgets them.
+  constexpr double w = 10, B = 3.7, k = 41;
+  struct Case {
+    std::string scene;
+    double scale;
+    std::function<double(double)> exact;
+  };
+  const Case cases[] = {
+      {block_on_spring + "stop = 7.3\noutput = { points = 331 }\nrecord = [\"block.position\"]\n", 1e-3,
+       [](double t) { return 1e-3 * std::cos(w * t); }},
+      {fmt::format("[elements]\npull = {{ type = \"motion\", at = \"a\", velocity = 1 }}\n"
+                   "oil = {{ type = \"vfm\", between = [\"a\", \"ground\"], damping = {}, stiffness = {} }}\n"
+                   "[simulate]\nstop = 0.7\noutput = {{ points = 200 }}\nrecord = [\"oil.force\"]\n",
+                   B, k),
+       B * (1 - std::exp(-0.7 * k / B)), [](double t) { return B * (1 - std::exp(-t * k / B)); }},
+  };
+  for (const Case& c : cases) {
+    for (const double accuracy : accuracies) {
+      CAPTURE(c.scene);
+      CAPTURE(accuracy);
+      const Certified run(scene_of(c.scene, accuracy));
+      REQUIRE(run.certificate.holds);
+      REQUIRE(run.certificate.errors.size() == 1);
+      const double made = run.error(0, c.scale, c.exact), estimated = run.certificate.errors[0].relative();
+      CHECK(made <= accuracy);
+      CHECK(made <= estimated);
+      CHECK(estimated <= 1.6 * made + 5e-11);
+      CHECK(run.certificate.runs == (accuracy < 1e-7 ? 3 : 2));
+      CHECK(run.certificate.errors[0].scale == doctest::Approx(c.scale).epsilon(1e-3));
+      CHECK(std::isnan(run.certificate.until));
+    }
+  }
+}
+
+TEST_CASE("rows and events are those of one run, the one that was measured, to the last bit") {
+  for (const std::string netlist : {"teaching/oscillator-forced", "thesis/viscometer", "thesis/compare/bingham-by-nodes"}) {
+    CAPTURE(netlist);
+    const Scene scene = scene_of_file(netlist + ".toml");
+    const Certified certified(scene);
+    REQUIRE(certified.certificate.holds);
+    const Course plain = run_to_memory(scene, {.tolerance = certified.certificate.result().tolerance});
+    CHECK(certified.times == plain.times);
+    CHECK(certified.rows == plain.rows);
+    CHECK(certified.certificate.summary.steps == plain.summary.steps);
+  }
+}
+
+TEST_CASE("where the first run is not accurate enough a tighter one takes its place") {
+  const Scene scene = scene_of(chua(20), 1e-3);
+  const Certified certified(scene);
+  const Certificate& certificate = certified.certificate;
+  REQUIRE(certificate.holds);
+  REQUIRE(certificate.rounds.size() > 1);
+  CHECK(certificate.kept == certificate.rounds.size() - 1);
+  CHECK(certificate.runs >= static_cast<int>(certificate.rounds.size()) + 1);
+  CHECK(certificate.rounds.front().tolerance == 1e-3);
+  CHECK(certificate.rounds.front().error.relative() > 1e-3);
+  for (std::size_t i = 1; i < certificate.rounds.size(); ++i) {
+    CHECK(certificate.rounds[i].tolerance == doctest::Approx(certificate.rounds[i - 1].tolerance / Certificate::factor));
+  }
+  // Against a run that is as tight as it can be, and knows nothing of this.
+  const Course truth = run_to_memory(scene, {.tolerance = 1e-12});
+  for (std::size_t k = 0; k < 3; ++k) {
+    double off = 0, scale = 0;
+    for (std::size_t i = 0; i < truth.rows.size(); ++i) {
+      off = std::max(off, std::abs(certified.rows[i][k] - truth.rows[i][k]));
+      scale = std::max(scale, std::abs(truth.rows[i][k]));
+    }
+    CHECK(off <= 1e-3 * scale);
+  }
+}
+
+TEST_CASE("chaos is not certified: what is kept is good for as long as it says") {
+  const Scene scene = scene_of(chua(90), 1e-4);
+  const Certified certified(scene);
+  const Certificate& certificate = certified.certificate;
+  CHECK_FALSE(certificate.holds);
+  CHECK(certificate.obstacle.empty());
+  CHECK(certificate.rounds.back().tolerance / Certificate::factor == doctest::Approx(1e-12).epsilon(1e-6));
+  CHECK(certificate.rounds.back().error.relative() > 0.1);
+  REQUIRE(certificate.until > 10);
+  REQUIRE(certificate.until < 90);
+  // By another method, of lower order: before that time both agree, and not long after it they do not.
+  const Course other = run_to_memory(scene, {.tolerance = 1e-12, .order = 4});
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < other.times.size(); ++i) {
+    const double off = std::abs(certified.rows[i][0] - other.rows[i][0]) / certificate.errors[0].scale;
+    (other.times[i] < certificate.until ? before : after) = std::max(other.times[i] < certificate.until ? before : after, off);
+  }
+  CHECK(before <= 1e-4);
+  CHECK(after > 1e-2);
+}
+
+TEST_CASE("an accuracy near the end of double precision is certified by looser runs, or not at all") {
+  const Certified reached(scene_of(oscillator, 2e-11));
+  CHECK(reached.certificate.holds);
+  CHECK(reached.certificate.result().tolerance == doctest::Approx(1e-10));
+  const Certified beyond(scene_of(oscillator, 1e-12));
+  CHECK_FALSE(beyond.certificate.holds);
+  CHECK(beyond.certificate.rounds.size() == 1);
+  CHECK(beyond.certificate.errors.front().relative() < 1e-9);
+}
+
+TEST_CASE("a scene that cannot be simulated leaves the rows up to there, as `run` does") {
+  const Scene scene = scene_of(overcome);
+  const auto written = [&](auto&& simulate_to) {
+    std::FILE* file = std::tmpfile();
+    CHECK_THROWS_AS(simulate_to(RunSettings{.csv = file}), SimulationError);
+    const Trajectory rows = read_rows(file);
+    std::fclose(file);
+    return rows.columns;
+  };
+  const auto certified = written([&](const RunSettings& settings) { certify(scene, settings); });
+  CHECK(certified == written([&](const RunSettings& settings) { run(scene, settings); }));
+  CHECK(certified.at("time").size() == 3);
+}
+
+TEST_CASE("simulations side by side do not know of each other") {
+  std::vector<Scene> scenes;
+  for (const std::string netlist : {"teaching/creep", "thesis/viscometer-servo-dry", "thesis/combined-friction",
+                                    "thesis/solid-friction", "thesis/laws/vfm-delay"}) {
+    scenes.push_back(scene_of_file(netlist + ".toml"));
+  }
+  std::vector<std::future<Course>> beside;
+  for (int copy = 0; copy < 2; ++copy) {
+    for (const Scene& scene : scenes) {
+      beside.push_back(std::async(std::launch::async, [&scene] { return run_to_memory(scene); }));
+    }
+  }
+  for (std::size_t k = 0; k < beside.size(); ++k) {
+    const Course course = beside[k].get();
+    CAPTURE(scenes[k % scenes.size()].title);
+    CHECK(course.rows == run_to_memory(scenes[k % scenes.size()]).rows);
+  }
+}
+
+}  // namespace rheonet::test

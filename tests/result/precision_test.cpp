@@ -1,0 +1,120 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/network/error.hpp"
+#include "core/result/precision.hpp"
+#include "tests/support/simulate.hpp"
+#include "tests/tools/scenes.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+/// x = 1 mm cos(10 t), over some swings.
+const std::string swings = block_on_spring + "stop = 3.7\noutput = { points = 211 }\nrecord = [\"block.position\"]\n";
+
+double true_error(const Scene& scene, const Method& method) {
+  const Course course = run_to_memory(scene, {.tolerance = method.tolerance, .order = method.order});
+  double worst = 0;
+  for (std::size_t i = 0; i < course.times.size(); ++i)
+    worst = std::max(worst, std::abs(course.rows[i][0] - 1e-3 * std::cos(10 * course.times[i])) / 1e-3);
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a price list gives the errors that a closed form tells, and the costs of such runs") {
+  const Scene scene = scene_of(swings, 1e-5);
+  const PriceList list = price_list(scene, {.tolerances = {1e-5, 1e-9, 1e-2, 1e-7}, .orders = {5, 3}, .runs = 3, .too_slow = 1e3});
+  REQUIRE(list.prices.size() == 8);
+  REQUIRE(list.doubt.size() == 1);
+  // Two runs that share no step: each is off by about as much as they differ.
+  CHECK(true_error(scene, list.reference) <= 4 * list.largest_doubt());
+  CHECK(list.largest_doubt() < 1e-9);
+  CHECK(list.check.order != list.reference.order);
+  for (std::size_t i = 0; i < list.prices.size(); ++i) {
+    const Price& p = list.prices[i];
+    CAPTURE(p.method.tolerance);
+    CAPTURE(p.method.order);
+    CHECK(p.failure.empty());
+    CHECK(p.method.order == (i < 4 ? 5 : 3));
+    if (i % 4 > 0) CHECK(p.method.tolerance < list.prices[i - 1].method.tolerance);
+    const double error = true_error(scene, p.method);
+    CHECK(std::abs(p.error() - error) <= 4 * list.largest_doubt() + 1e-3 * error);
+    CHECK(p.meets == (error <= 1e-5));
+    const Course again = run_to_memory(scene, {.tolerance = p.method.tolerance, .order = p.method.order});
+    CHECK(p.summary.steps == again.summary.steps);
+    CHECK(p.summary.residual_evaluations == again.summary.residual_evaluations);
+    REQUIRE(p.cpu_seconds.size() == 3);
+    CHECK(p.cpu_seconds.front() > 0);
+    CHECK(std::is_sorted(p.cpu_seconds.begin(), p.cpu_seconds.end()));
+  }
+  // A lower order has to step more.
+  CHECK(list.prices[7].summary.steps > 3 * list.prices[3].summary.steps);
+  const Price* best = list.cheapest();
+  REQUIRE(best);
+  CHECK(best->meets);
+  for (const Price& p : list.prices) CHECK((!p.meets || p.cpu_quantile(0.5) >= best->cpu_quantile(0.5)));
+  REQUIRE(list.own(scene));
+  CHECK(list.own(scene)->method.tolerance == 1e-5);
+  CHECK(list.own(scene)->method.order == 5);
+}
+
+TEST_CASE("where a scene has a closed form, errors are measured by it") {
+  const auto with_form = [](const std::string& form) {
+    return scene_of(swings + "[exact]\n\"block.position\" = \"" + form + "\"\n");
+  };
+  const PriceListSettings settings{.tolerances = {1e-3}, .orders = {5}, .runs = 1};
+  const Scene scene = with_form("1e-3*cos(10*t)");
+  const PriceList list = price_list(scene, settings);
+  const double error = true_error(scene, {1e-3, 5});
+  CHECK(list.prices.front().error() == doctest::Approx(error).epsilon(1e-9));
+  CHECK(list.largest_doubt() == 0);
+  REQUIRE(list.off.size() == 1);
+  CHECK(list.off[0].relative() < 1e-9);
+  CHECK(list.off[0].relative() == doctest::Approx(true_error(scene, list.reference)).epsilon(1e-3));
+  // A wrong form is taken at its word, but not in silence.
+  const PriceList wrong = price_list(with_form("1e-3*cos(10*t) + 1e-5*sin(10*t)"), settings);
+  CHECK(wrong.prices.front().error() == doctest::Approx(1e-2).epsilon(1e-2));
+  CHECK(wrong.off[0].relative() == doctest::Approx(1e-2).epsilon(1e-2));
+  CHECK_THROWS_WITH_AS(price_list(with_form("1e-3*cos(10*t) + 0*sqrt(t - 1)"), settings),
+                       "the closed form of `block.position` has no finite value at t = 0 s", SimulationError);
+}
+
+TEST_CASE("an order that becomes too slow is not gone through to its end") {
+  const Scene scene = scene_of(swings);
+  const PriceListSettings settings{.tolerances = {1e-2, 1e-4, 1e-6, 1e-8}, .orders = {5, 1}, .runs = 1, .too_slow = 3};
+  const PriceList list = price_list(scene, settings);
+  CHECK(list.prices.size() >= 5);
+  CHECK(list.prices.size() < 8);
+  CHECK(list.prices.back().method.order == 1);
+}
+
+TEST_CASE("what the reference cannot tell is not granted") {
+  // Near the end of double precision two references differ by more than is asked for.
+  const Scene scene = scene_of(swings, 1e-12);
+  const PriceList list = price_list(scene, {.tolerances = {1e-12}, .orders = {5}, .runs = 1});
+  CHECK(list.largest_doubt() > 1e-12);
+  CHECK(list.cheapest() == nullptr);
+  CHECK(list.own(scene) != nullptr);
+}
+
+TEST_CASE("quantiles of the times that were measured") {
+  Price price;
+  CHECK(price.cpu_quantile(0.5) == 0);
+  price.cpu_seconds = {1, 2, 4, 8};
+  CHECK(price.cpu_quantile(0) == 1);
+  CHECK(price.cpu_quantile(0.5) == 3);
+  CHECK(price.cpu_quantile(0.25) == doctest::Approx(1.75));
+  CHECK(price.cpu_quantile(1) == 8);
+}
+
+TEST_CASE("a scene that cannot be simulated has no prices; an interrupt ends the list") {
+  CHECK_THROWS_AS(price_list(scene_of(overcome), {.tolerances = {1e-3}, .orders = {5}}), SimulationError);
+  const std::atomic<bool> interrupted = true;
+  CHECK_THROWS_AS(price_list(scene_of(swings), {.tolerances = {1e-3}, .orders = {5}, .interrupt = &interrupted}), SimulationError);
+}
+
+}  // namespace rheonet::test

@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "core/result/precision.hpp"
+#include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/figure_file.hpp"
+#include "tools/rheonet/interrupt.hpp"
+#include "tools/rheonet/output.hpp"
+#include "tools/rheonet/precision_report.hpp"
+#include "tools/rheonet/progress.hpp"
+#include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+/// Those that are asked for, and the scene's own: what it costs is to be compared with.
+std::vector<double> tolerances_of(const Arguments& arguments, const Scene& scene) {
+  std::vector<double> result = arguments.accuracies;
+  if (result.empty()) result = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
+  if (std::find(result.begin(), result.end(), scene.accuracy) == result.end()) result.push_back(scene.accuracy);
+  return result;
+}
+
+ExitStatus draw(const Scene& scene, const PriceList& list, const std::string& path) {
+  plot::Look look;
+  look.title = scene.title;
+  look.logarithmic_x = look.logarithmic_y = look.marks = true;
+  try {
+    return write_figure(curves(list), look, path);
+  } catch (const plot::Mistake& mistake) {
+    report(mistake);
+    return not_simulated;
+  }
+}
+
+}  // namespace
+
+ExitStatus price_scene(const Arguments& arguments) {
+  ReadOptions options = options_of(arguments);
+  options.claims = false;  // they are about the scene's own accuracy
+  const ReadResult read = read_and_report(arguments.scene, options);
+  if (!read.scene) return wrong_input;
+  const Scene& scene = *read.scene;
+  if (!arguments.figure.empty() && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
+  if (is_source(arguments.overlay, "--output", read.sources)) return wrong_input;
+  std::unique_ptr<Output> output;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
+
+  Progress progress(true);
+  PriceList list;
+  try {
+    list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
+                              .orders = arguments.variants ? std::vector<int>{5, 4, 3, 2} : std::vector<int>{5},
+                              .runs = arguments.runs,
+                              .interrupt = &end_on_signals(),
+                              .progress = [&progress](double fraction) { progress.update(fraction); }});
+  } catch (const SimulationError& error) {
+    progress.erase();
+    report(error, read.sources);
+    return not_simulated;
+  }
+  progress.erase();
+  const std::string text = describe(scene, arguments.scene, list);
+  // Data on standard output are for a program to read: the report is then a message beside them.
+  arguments.overlay == "-" || arguments.figure == "-" ? say("{}", text) : fmt::print("{}", text);
+  if (output && !write_all(*output, table(scene, list), "row")) return not_simulated;
+  return arguments.figure.empty() ? done : draw(scene, list, arguments.figure);
+}
+
+}  // namespace rheonet::tool
