@@ -5,7 +5,7 @@ namespace {
 
 std::optional<Misfit> upside_down(std::span<const double> v) {
   if (v[1] <= v[0]) return {};
-  return Misfit{"upper", "is less than `lower`"};
+  return Misfit{"upper", "is less than `lower`, which is -upper unless it is given"};
 }
 
 const RegisterComponent registered({

@@ -35,7 +35,8 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   before_limits_ = out_;
   side_.assign(out_.size(), 0);
   check_sensors(network, classified);
-  find_slopes(side_, slope_, rate_slope_);
+  // Of magnitudes: in `x - limiter(x)` all cancels, until it limits.
+  find_slopes(side_, true, slope_, rate_slope_);
   const auto nonzero = [](const std::vector<double>& slopes) {
     std::vector<char> flags;
     for (const double s : slopes) flags.push_back(s != 0);
@@ -43,6 +44,7 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   };
   depends_ = nonzero(slope_);
   rate_depends_ = nonzero(rate_slope_);
+  find_slopes(side_, false, slope_, rate_slope_);
   refuse_loops(network, classified);
   find_channels();
 }
@@ -250,14 +252,15 @@ double BlockSignals::rate(std::size_t k) const {
   return block.law.gain * input(block).value - block.law.leak * state[k].value;
 }
 
-void BlockSignals::find_slopes(const std::vector<signed char>& side, std::vector<double>& slope,
+/// With `magnitudes` of the gains nothing cancels.
+void BlockSignals::find_slopes(const std::vector<signed char>& side, bool magnitudes, std::vector<double>& slope,
                                std::vector<double>& rate_slope) const {
   const std::size_t n = atoms();
   slope.assign(out_.size() * n, 0);
   rate_slope.assign(state.size() * n, 0);
   const auto add_inputs = [&](const Blocks::Block& block, double* row) {
     for (const Blocks::Input& in : block.inputs) {
-      const double factor = block.law.gain * in.sign;
+      const double factor = magnitudes ? std::abs(block.law.gain) : block.law.gain * in.sign;
       if (!in.from_block) {
         if (blocks_->sensors[at(in.index)].motion < 0) row[state.size() + at(in.index)] += factor;
         continue;
@@ -278,7 +281,7 @@ void BlockSignals::find_slopes(const std::vector<signed char>& side, std::vector
     const Blocks::Block& block = blocks_->blocks[at(state_blocks_[k])];
     double* row = rate_slope.data() + k * n;
     add_inputs(block, row);
-    row[k] -= block.law.leak;
+    row[k] += magnitudes ? block.law.leak : -block.law.leak;
   }
 }
 
@@ -307,7 +310,7 @@ void BlockSignals::choose() {
     side_[at(limit.block)] = v > law.upper ? 1 : v < law.lower ? -1 : 0;
   }
   for (const Fired& fired : fired_) side_[at(fired.block)] = fired.side;
-  if (side_ != before) find_slopes(side_, slope_, rate_slope_);
+  if (side_ != before) find_slopes(side_, false, slope_, rate_slope_);
 }
 
 }  // namespace rheonet

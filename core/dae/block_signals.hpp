@@ -100,7 +100,8 @@ class BlockSignals {
   double find_reach(int block) const;
   void mark_past(int block);
   bool of_time_alone(int block) const;
-  void find_slopes(const std::vector<signed char>& side, std::vector<double>& slope, std::vector<double>& rate_slope) const;
+  void find_slopes(const std::vector<signed char>& side, bool magnitudes, std::vector<double>& slope,
+                   std::vector<double>& rate_slope) const;
   Dual input(const Blocks::Block& block) const;
   Dual limited(const Blocks::Block& block, Dual v) const;
   Dual earlier(int block, double t, double aside, const Past& past) const;

@@ -185,7 +185,7 @@ class Explainer {
   TextError error(std::string_view part, std::string message, bool plain) const {
     const auto at = static_cast<std::size_t>(part.data() - text_.data());
     return {count_characters(text_.substr(0, at)), std::move(message),
-            plain ? "a parameter without a unit counts as a pure number here: give it one" : ""};
+            plain ? "what has no unit counts as a pure number here: make it a parameter with its unit" : ""};
   }
 
   std::optional<TextError> alike(const Part& a, const Part& b, std::string_view what) const {

@@ -115,6 +115,28 @@ TEST_CASE("a limiter on one side, and one that nothing reaches") {
   CHECK(error(run, "wide.out", [](double t) { return -2 * std::sin(2 * pi * t); }) < 1e-12);
 }
 
+TEST_CASE("a dead band is felt beyond its bound, though within it all cancels") {
+  // A governor: above w the force brakes with B.
+  constexpr double w = 0.53, B = 1.3e4, F = 3.1, m = 1.2;
+  const std::string text = fmt::format(
+      "[elements]\nm = {{ type = \"mass\", at = \"m\", mass = {} }}\npush = {{ type = \"force\", at = \"m\", force = {} }}\n"
+      "lim = {{ type = \"limiter\", in = \"m.velocity\", upper = {} }}\n"
+      "over = {{ type = \"sum\", in = [\"m.velocity\", \"-lim\"] }}\n"
+      "g = {{ type = \"gain\", in = \"over\", gain = {} }}\n"
+      "brake = {{ type = \"force\", at = \"m\", force = {{ block = \"g\" }} }}\n[simulate]\nstop = 0.6\noutput = {{ points = 61 }}\n",
+      m, F, w, -B);
+  const double reached = w * m / F;
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(accuracy);
+    Summary summary;
+    const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+    CHECK(summary.steps < 500);
+    CHECK(error(run, "m.velocity", [&](double t) {
+            return t < reached ? F / m * t : w + F / B * (1 - std::exp(-B / m * (t - reached)));
+          }) < 10 * accuracy);
+  }
+}
+
 TEST_CASE("gain and sum: signs, and a signal that is taken in twice") {
   const Trajectory run = simulate(scene(
       "u = { type = \"generator\", signal = { ramp = 0.7 } }\nv = { type = \"generator\", signal = 1.3 }\n"

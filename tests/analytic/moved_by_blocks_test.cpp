@@ -230,6 +230,10 @@ TEST_CASE("motions that no block can give, with their place and what would mend 
   says(refused("h = { type = \"gain\", in = \"k.force\", gain = 1 }\n" + m),
        "the velocity of `m` follows at the same instant from `k.force`, of which it is not known how fast it changes, so that no "
        "acceleration would be known; put a `lag` between them");
+  // Within the limits the two cancel.
+  says(refused("l = { type = \"limiter\", in = \"k.force\", upper = 0.3 }\n"
+               "d = { type = \"sum\", in = [\"k.force\", \"-l\"] }\nh = { type = \"gain\", in = \"d\", gain = 1 }\n" + m),
+       "the velocity of `m` follows at the same instant from `k.force`");
   says(refused("h = { type = \"gain\", in = \"b.velocity\", gain = 1 }\n" + m), "the velocity of `m` follows at the same instant from `b.velocity`");
   says(refused("h = { type = \"gain\", in = \"a.velocity\", gain = 1 }\n" + m), "block `h` needs its own output at the same instant; put a `lag` between");
   CHECK_EQ(refused("h = { type = \"lag\", in = \"k.force\", time_constant = 1, gain = \"2 s/kg\" }\n" + m), "");

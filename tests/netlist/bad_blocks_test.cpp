@@ -171,7 +171,7 @@ scene.toml:4:60: error: `time_constant` must be greater than 0, but is 0
       {R"~(l = { type = "limiter", in = "shaft.velocity", upper = "2 rad/s", lower = "3 rad/s" }
 )~",
        R"~(
-scene.toml:4:56: error: `upper` is less than `lower`
+scene.toml:4:56: error: `upper` is less than `lower`, which is -upper unless it is given
     4 | l = { type = "limiter", in = "shaft.velocity", upper = "2 rad/s", lower = "3 rad/s" }
       |                                                        ^
 )~"},

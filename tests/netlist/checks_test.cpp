@@ -147,7 +147,7 @@ scene.toml:10:14: error: check `less`: `k` is a stiffness (N/m), `a` is a length
 scene.toml:11:14: error: check `plain`: `a` is a length (m), `3` is a pure number: they cannot be compared
    11 | plain = "a > 3"
       |              ^
-  a parameter without a unit counts as a pure number here: give it one
+  what has no unit counts as a pure number here: make it a parameter with its unit
 scene.toml:12:14: error: check `named`: unknown name `bound`
    12 | named = "k < bound"
       |              ^

@@ -136,7 +136,7 @@ TEST_CASE("unlike things are not added, compared or put into functions") {
   CHECK(error.offset == 7);
   error = refusal("L + 1e-3");
   CHECK(error.message == "`L` is a length (m), `1e-3` is a pure number: they cannot be added");
-  CHECK(refusal("L + c").hint == "a parameter without a unit counts as a pure number here: give it one");
+  CHECK(refusal("L + c").hint == "what has no unit counts as a pure number here: make it a parameter with its unit");
   error = refusal("2*sin(L)");
   CHECK(error.message == "`sin` takes a pure number, but `L` is a length (m)");
   CHECK(error.offset == 6);
