@@ -39,6 +39,9 @@ constexpr double lookahead_of_cycle = 0.01;
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
 
+// What takes so many steps takes seconds.
+constexpr double many_steps = 3e5;
+
 class Run {
  public:
   Run(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings, Observer& observer)
@@ -102,6 +105,11 @@ class Run {
       throw;
     }
     softening_.begin(drive_, state_.velocity);
+    if (const double steps = settings_.stop / drive_.past().shortest(); steps > many_steps) {
+      statistics_.notes.push_back(fmt::format(
+          "no step can be longer than the shortest delay, {:.3g} s: this run takes {:.1e} of them; without a delay as short as "
+          "that hardly anything would be different", drive_.past().shortest(), steps));
+    }
     if (!given) return;
     const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
     const StartWords words = describe_start(begin_, network_, classified_, view.velocity);

@@ -123,6 +123,22 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
 )");
 }
 
+TEST_CASE("a delay so short that the run takes millions of steps is told before") {
+  const Folder folder;
+  const auto notes = [&](const std::string& delay) {
+    folder.write("scene.toml", "[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n"
+                               "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3 }\n"
+                               "late = { type = \"delay\", in = \"m.velocity\", delay = \"" + delay + "\" }\n"
+                               "g = { type = \"gain\", in = \"late\", gain = \"-0.2 N*s/m\" }\n"
+                               "f = { type = \"force\", at = \"a\", force = { block = \"g\" } }\n[simulate]\nstop = 3\n");
+    const Finished result = folder.shell("rheonet check scene.toml");
+    CHECK(result.status == 0);
+    return result.out + result.err;
+  };
+  CHECK(!contains(notes("1 ms"), "delay"));
+  CHECK(contains(notes("1 ns"), "no step can be longer than the shortest delay, 1e-09 s: this run takes 3.0e+09 of them"));
+}
+
 TEST_CASE("check -v lists what was not given and had to be chosen") {
   const Folder folder;
   folder.write("scene.toml", R"([elements]
