@@ -305,6 +305,20 @@ TEST_CASE("a drawing has values up to 45 elements, unless they are not wanted; n
   CHECK(!contains(names, "kN/m"));
 }
 
+TEST_CASE("a limiter says that it limits to both sides, or to one") {
+  const auto texts = [](const char* limits) {
+    std::string all;
+    const Scene scene = scene_from(std::string("[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n"
+                                               "lim = { type = \"limiter\", in = \"m.velocity\", ") + limits +
+                                   " }\ng = { type = \"gain\", in = \"lim\", gain = \"-2 N*s/m\" }\n"
+                                   "f = { type = \"force\", at = \"a\", force = { block = \"g\" } }\n");
+    for (const Label& label : schematic(scene, {}).labels) all += label.text + '|';
+    return all;
+  };
+  CHECK(contains(texts("upper = 0.3"), "|±300 mm/s|"));
+  CHECK(contains(texts("upper = 0.3, lower = 0.1"), "|U = 300 mm/s|"));
+}
+
 TEST_CASE("an SVG is well-formed XML that names each element and each node, and is the same each time") {
   const Scene scene = scene_from(zener + servo);
   const std::string text = svg(schematic(scene, {.title = "a < b & \"c\"\x01\xff"}), scene);

@@ -91,6 +91,15 @@ bool goes_without_saying(const SceneElement& element, std::size_t i) {
   return false;
 }
 
+/// Whether another parameter is the opposite of this one, because nobody said anything else: it stands for both.
+bool both_ways(const SceneElement& element, std::size_t i) {
+  const std::vector<Parameter>& parameters = declaration_of(element).parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (parameters[k].opposite && parameters[k].same_as == parameters[i].name && goes_without_saying(element, k)) return true;
+  }
+  return false;
+}
+
 /// The shape of a signal, and how large and how fast it is.
 struct Shape {
   const std::string& unit;
@@ -176,8 +185,8 @@ Caption caption_of(const Scene& scene, int index, bool with_values) {
     if (signal != signals.end())
       said.emplace_back(symbol, signal_of(scene, index, static_cast<std::size_t>(signal - signals.begin())));
     else if (!goes_without_saying(element, i))
-      said.emplace_back(symbol,
-                        engineering(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i])));
+      said.emplace_back(symbol, (both_ways(element, i) ? "±" : "") +
+                                    engineering(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i])));
   }
   const bool several = said.size() > 1;
   for (const auto& [symbol, value] : said) caption.values.push_back(several ? symbol + " = " + value : value);
