@@ -67,7 +67,9 @@ void NetworkEvents::find_pseudoplastic() {
   for (Watched& law : watched_) {
     const Branch& b = structure.deflections[at(law.branch)];
     const auto found = between.find(std::minmax(b.a, b.b));
-    if (found == between.end()) continue;
+    // A mass comes to rest against it in a finite time, and its law is softened there: the velocity is what is known.
+    const bool heavy = structure.kind[at(b.a)] == Kind::massive || structure.kind[at(b.b)] == Kind::massive;
+    if (found == between.end() || heavy) continue;
     law.beside = found->second;
     law.sign = structure.rates[at(law.beside)].a == b.a ? 1 : -1;
   }
