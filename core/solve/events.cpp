@@ -67,9 +67,7 @@ void NetworkEvents::find_pseudoplastic() {
   for (Watched& law : watched_) {
     const Branch& b = structure.deflections[at(law.branch)];
     const auto found = between.find(std::minmax(b.a, b.b));
-    // A mass comes to rest against it in a finite time, and its law is softened there: the velocity is what is known.
-    const bool heavy = structure.kind[at(b.a)] == Kind::massive || structure.kind[at(b.b)] == Kind::massive;
-    if (found == between.end() || heavy) continue;
+    if (found == between.end()) continue;
     law.beside = found->second;
     law.sign = structure.rates[at(law.beside)].a == b.a ? 1 : -1;
   }
@@ -85,7 +83,7 @@ NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& vie
   const double resolved = noises_resolved * plain.noise, most = dashpot.force_at(i, resolved);
   const double force = law.sign * view.rate_force[at(law.beside)];
   return {std::abs(force) < most ? resolved * (force / most) : plain.velocity,
-          std::min(plain.noise, resolved * (tolerances_.force_noise(law.beside) / most))};
+          std::clamp(resolved * (tolerances_.force_noise(law.beside) / most), std::numeric_limits<double>::min(), plain.noise)};
 }
 
 int NetworkEvents::element(std::size_t k) const {
