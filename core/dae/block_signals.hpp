@@ -30,8 +30,11 @@ class BlockSignals {
   const std::vector<double>& delays() const { return delays_; }
   double reach() const { return reach_; }
   std::size_t channels() const { return channel_count_; }
-  /// What the channels of the past hold now.
-  const std::vector<double>& remembered();
+  /// What the channels of the past hold now, where nodes have these velocities [m/s].
+  const std::vector<Past::Known>& remembered(const std::vector<double>& velocity);
+  /// The longest step [s]: no delay of what moves freely that a prescribed motion follows from is shorter, as its
+  /// acceleration must be known beforehand.
+  double longest_step() const;
 
   // --- Functions of time.
   /// Generators go over to the stretches that begin at t. Returns when the next of them ends [s].
@@ -42,6 +45,9 @@ class BlockSignals {
   std::vector<Generator> generators() const;
   /// What generators and delays put out at t, and what sensors tell of prescribed motions, with rates.
   void evaluate_time(double t, const Past& past);
+  /// What delays shorter than the time since the last step put out follows from the present too: anew, with the states
+  /// and what sensors tell now. After `evaluate_time`, and while that `past` has not changed.
+  void look_back();
 
   /// Whether a delay puts out something else just after t than just before, of functions of time alone: these nothing
   /// smoothes on their way.
@@ -65,7 +71,9 @@ class BlockSignals {
   std::size_t atoms() const { return state.size() + sensed.size(); }
   double slope(int block, std::size_t atom) const { return slope_[at(block) * atoms() + atom]; }
   double rate_slope(std::size_t k, std::size_t atom) const { return rate_slope_[k * atoms() + atom]; }
-  /// Whether an output (or the rate of a state) can depend on an atom at all.
+  /// Brings them up to date with what delays look back to.
+  void update_slopes();
+  /// Whether an output can depend on an atom at all, at the same instant.
   bool depends(int block, std::size_t atom) const { return depends_[at(block) * atoms() + atom] != 0; }
   bool depends(int block) const {
     for (std::size_t atom = 0; atom < atoms(); ++atom) {
@@ -73,7 +81,9 @@ class BlockSignals {
     }
     return false;
   }
-  bool rate_depends(std::size_t k, std::size_t atom) const { return rate_depends_[k * atoms() + atom] != 0; }
+  /// The same of an output, or of the rate of a state, through delays shorter than a step as well.
+  bool couples(int block, std::size_t atom) const { return couples_[at(block) * atoms() + atom] != 0; }
+  bool rate_couples(std::size_t k, std::size_t atom) const { return rate_couples_[k * atoms() + atom] != 0; }
 
   // --- Limiters. Each bound that is finite has an event.
   struct Limit { int block; bool upper; };
@@ -99,13 +109,25 @@ class BlockSignals {
   void find_channels();
   double find_reach(int block) const;
   void mark_past(int block);
+  void mark_inputs(const Blocks::Block& block);
   bool of_time_alone(int block) const;
-  void find_slopes(const std::vector<signed char>& side, bool magnitudes, std::vector<double>& slope,
+  void find_slopes(bool magnitudes, const std::vector<double>& of_delays, std::vector<double>& slope,
                    std::vector<double>& rate_slope) const;
+  void find_dependence();
+  bool feeds_motion(int block) const;
   Dual input(const Blocks::Block& block) const;
   Dual limited(const Blocks::Block& block, Dual v) const;
-  Dual earlier(int block, double t, double aside, const Past& past) const;
-  Dual earlier_input(const Blocks::Block& block, double t, double aside, const Past& past) const;
+  /// A look back from `now` [s]. Derivatives are by time or, if it is not -1, by an atom as it is now.
+  struct Look {
+    const Past& past;
+    double now, aside;
+    int atom = -1;
+    bool present = false;  ///< something that was found follows from the present
+    Dual seen(double value, double rate) const { return atom < 0 ? Dual(value, rate) : Dual(value); }
+  };
+  Dual earlier(int block, double t, Look& look) const;
+  Dual earlier_input(const Blocks::Block& block, double t, Look& look) const;
+  Dual remembered_at(std::size_t atom, int channel, double t, Look& look) const;
   Dual motion_at(const Blocks::Sensor& sensor, const Stretch& stretch, double t) const;
   bool senses(int block, std::vector<char>& seen) const;
   double settle(int block, std::vector<char>& seen);
@@ -122,14 +144,17 @@ class BlockSignals {
   std::vector<int> state_channel_, sensor_channel_;
   std::vector<char> visited_;
   std::size_t channel_count_ = 0;
-  std::vector<double> remembered_;
+  std::vector<Past::Known> remembered_;
   std::vector<Dual> out_, before_limits_;
   std::vector<signed char> side_;
   std::vector<Limit> limits_;
   struct Fired { int block; signed char side; };
   std::vector<Fired> fired_;
-  std::vector<double> slope_, rate_slope_;
-  std::vector<char> depends_, rate_depends_;
+  std::vector<double> slope_, rate_slope_, delay_slope_;
+  std::vector<char> depends_, couples_, rate_couples_;
+  std::vector<char> present_;       ///< of each delay: it follows from the present too
+  const Past* past_ = nullptr;      ///< of the last `evaluate_time`, at time now_ [s] and to the side aside_ of it
+  double now_ = 0, aside_ = 0;
   std::vector<double> before_run_;  ///< what each block has put out before the run, if that began in a steady state
 };
 

@@ -180,17 +180,35 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   }
 }
 
-void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
-  Row r{.row = row, .position = position, .flow_begin = static_cast<int>(flows_.size()), .flow_end = 0,
-        .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0,
-        .delayed = position ? -1 : drive_->past().index_of(loop.branch)};
+Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
+  Terms terms{.flow_begin = static_cast<int>(flows_.size()), .flow_end = 0,
+              .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0};
   flows_.insert(flows_.end(), loop.flows.begin(), loop.flows.end());
   for (const Structure::Term& term : loop.velocities) {
     // The reference of a group has no velocity of its own.
     if (structure_->kind[at(term.index)] == Kind::known || iv_[at(term.index)] >= 0) velocities_.push_back(term);
   }
-  r.flow_end = static_cast<int>(flows_.size());
-  r.velocity_end = static_cast<int>(velocities_.size());
+  terms.flow_end = static_cast<int>(flows_.size());
+  terms.velocity_end = static_cast<int>(velocities_.size());
+  return terms;
+}
+
+void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
+  Row r{.row = row, .position = position, .terms = add_terms(loop),
+        .delayed = position ? -1 : drive_->past().index_of(loop.branch), .now = {}};
+  if (r.delayed >= 0) {
+    const Past::Delayed& delayed = drive_->past().delayed()[at(r.delayed)];
+    const Branch& b = structure_->deflections[at(loop.branch)];
+    Structure::Loop now{.branch = -1, .flows = {}, .velocities = {}};
+    const auto add = [&](NodeId node, double sign) {
+      const Structure::Loop end = minus_velocity(*structure_, node);
+      for (const auto& [index, own] : end.flows) now.flows.push_back({index, sign * own});
+      for (const auto& [index, own] : end.velocities) now.velocities.push_back({index, sign * own});
+    };
+    if (delayed.free_a) add(b.a, 1);
+    if (delayed.free_b) add(b.b, -1);
+    r.now = add_terms(now);
+  }
   rows_.push_back(r);
 }
 
@@ -254,14 +272,21 @@ void Dae::build_pattern() {
   }
   for (const Row& row : rows_) {
     if (row.position) put(row.row, row.row, 0, 1);
-    for (int k = row.flow_begin; k < row.flow_end; ++k) {
+    for (int k = row.terms.flow_begin; k < row.terms.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
       flow_entries_.push_back({builder.ticket(row.row, ip_[at(j)]), j, sign});
       std::size_t i = 0;
       if (batch_of(j, i).creeps(i)) depend(row.row, ip_[at(j)], Source::creep, j, sign);
     }
-    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
+    }
+    const auto feel = [&](int column, int branch, double sign) {
+      if (column >= 0) felt_entries_.push_back({builder.ticket(row.row, column), row.delayed, branch, sign});
+    };
+    for (int k = row.now.flow_begin; k < row.now.flow_end; ++k) feel(ip_[at(flows_[at(k)].index)], flows_[at(k)].index, flows_[at(k)].sign);
+    for (int k = row.now.velocity_begin; k < row.now.velocity_end; ++k) {
+      feel(iv_[at(velocities_[at(k)].index)], -1, velocities_[at(k)].sign);
     }
   }
 
@@ -283,6 +308,7 @@ void Dae::build_pattern() {
     fixed_mass_[at(entry[at(d.ticket)])] += d.mass;
   }
   for (FlowEntry& f : flow_entries_) f.entry = entry[at(f.entry)];
+  for (FeltEntry& f : felt_entries_) f.entry = entry[at(f.entry)];
   for (Follower& f : followers_) {
     f.own_entry = entry[at(f.own_entry)];
     f.leader_entry = entry[at(f.leader_entry)];

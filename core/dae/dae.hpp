@@ -152,9 +152,11 @@ class Dae {
  private:
   enum class Source : char { force, creep, rate };
   struct Scatter { int entry; Source source; int index; double sign; };
-  /// A loop or a position: terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_, and
-  /// minus what a delayed branch feels (an index into Drive::felt, -1 for none).
-  struct Row { int row; bool position; int flow_begin, flow_end, velocity_begin, velocity_end, delayed; };
+  /// Terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
+  struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
+  /// A loop or a position; minus what a delayed branch feels (an index into Drive::felt, -1 for none), of which `now` is the
+  /// negated velocity of its free ends at present.
+  struct Row { int row; bool position; Terms terms; int delayed; Terms now; };
 
   /// Branches between the same ends that are held still together have one velocity, 0, and so one sign of it between -1
   /// and 1 (Filippov: the same mixture of both directions for all of them). The first carries the equation w = 0, the
@@ -198,6 +200,8 @@ class Dae {
   void number_unknowns();
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
+  Terms add_terms(const Structure::Loop& loop);
+  double sum_of(const Terms& terms, const double* yp) const;
   void build_pattern();
   // evaluate.cpp
   void gather(double t, const double* y);
@@ -225,9 +229,12 @@ class Dae {
   Pattern pattern_;
   std::vector<double> constant_, mass_;  ///< of each entry of the pattern
   struct FlowEntry { int entry, branch; double sign; };
+  /// An entry of what a delayed branch feels of the present: a flow, or (`branch` is -1) a velocity.
+  struct FeltEntry { int entry, delayed, branch; double sign; };
   std::vector<Parallel> parallels_;        ///< of two or more
   std::vector<Follower> followers_;
   std::vector<FlowEntry> flow_entries_;    ///< coefficients of p' that vanish while their branch is held still
+  std::vector<FeltEntry> felt_entries_;
   std::vector<double> fixed_mass_;         ///< mass_ without those
   std::vector<double> moving_;             ///< of each deflection branch: 1, or 0 while it is held still
   std::vector<Scatter> scatter_;

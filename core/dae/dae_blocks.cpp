@@ -28,7 +28,7 @@ void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t sou
                  std::size_t branch) {
   const BlockSignals& blocks = drive_->blocks();
   for (std::size_t atom = 0; row >= 0 && atom < blocks.atoms(); ++atom) {
-    if (!(of_rate ? blocks.rate_depends(source, atom) : blocks.depends(static_cast<int>(source), atom))) continue;
+    if (!(of_rate ? blocks.rate_couples(source, atom) : blocks.couples(static_cast<int>(source), atom))) continue;
     for (const AtomTerm& term : terms_of_atom(atom)) {
       if (term.column < 0) continue;
       const bool plain = by == Coupling::By::itself;
@@ -75,7 +75,7 @@ void Dae::couple_motions(PatternBuilder& builder) {
     }
   }
   for (const Row& row : rows_) {
-    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       const auto [node, sign] = velocities_[at(k)];
       if (const Network::Motion* m = mover(node)) couple(builder, row.row, false, at(m->block), sign * m->sign);
     }
@@ -133,12 +133,15 @@ void Dae::feel_blocks(const double* y) {
       }
     }
   }
+  blocks.look_back();
   blocks.run(true);
   drive_->apply_blocks();
 }
 
 void Dae::block_jacobian(double* values) const {
-  const BlockSignals& blocks = drive_->blocks();
+  if (couplings_.empty()) return;
+  BlockSignals& blocks = drive_->blocks();
+  blocks.update_slopes();
   for (const Coupling& c : couplings_) {
     const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
     const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;

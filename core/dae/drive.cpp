@@ -11,7 +11,7 @@ Drive::Drive(const Network& network, const Structure& classified, double start, 
       stop_(network.scene->stop - network.scene->start),
       moves_by_blocks_(false),
       blocks_(network, classified),
-      past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels()) {
+      past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels(), blocks_.longest_step()) {
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
@@ -29,6 +29,7 @@ Drive::Drive(const Network& network, const Structure& classified, double start, 
   force.resize(forces_.size());
   force_rate = force;
   felt.resize(past_.delayed().size());
+  felt_now = felt;
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -100,7 +101,11 @@ void Drive::evaluate(double t) {
     force[i] = forces_[i].piece.value(t);
     force_rate[i] = forces_[i].piece.rate(t);
   }
-  for (std::size_t k = 0; k < felt.size(); ++k) felt[k] = past_.felt(k, t);
+  for (std::size_t k = 0; k < felt.size(); ++k) {
+    const Past::Felt f = past_.felt(k, t);
+    felt[k] = f.known.value;
+    felt_now[k] = f.present.value;
+  }
   if (blocks_.any()) look_ahead(t);
 }
 

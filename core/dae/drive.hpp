@@ -48,7 +48,7 @@ class Drive {
   /// The state of blocks that do not change, for a start at t from rest or in steady motion.
   void settle_blocks(double t, State& state);
   /// What has been at t, for what comes later: after a break, and after each step, with blocks evaluated there.
-  void remember(double t, const std::vector<double>& velocity) { past_.remember(t, velocity, blocks_.remembered()); }
+  void remember(double t, const std::vector<double>& velocity) { past_.remember(t, velocity, blocks_.remembered(velocity)); }
 
   /// What delayed branches feel. An event at t is a break of it too.
   Past& past() { return past_; }
@@ -60,8 +60,8 @@ class Drive {
   std::vector<double> velocity, acceleration;  ///< as for forces: of what a block gives the rate may be partial
   // For each force:
   std::vector<double> force, force_rate;  ///< of one that a block gives the rate is partial, at constant unknowns
-  // For each delayed branch of `past`:
-  std::vector<double> felt;
+  // For each delayed branch of `past`: what it feels is `felt` and `felt_now` times the velocity that its free ends have now.
+  std::vector<double> felt, felt_now;
 
   /// The next instant after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its
   /// sign (-1: ground); infinite if there is none. No crossing is missed, however short the time to the next one.

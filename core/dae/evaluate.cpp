@@ -68,6 +68,18 @@ void Dae::evaluate_forces(double t, const double* y) {
   sum_forces();
 }
 
+double Dae::sum_of(const Terms& terms, const double* yp) const {
+  double sum = 0;
+  for (int k = terms.flow_begin; k < terms.flow_end; ++k) {
+    const auto [j, sign] = flows_[at(k)];
+    sum += sign * moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]);
+  }
+  for (int k = terms.velocity_begin; k < terms.velocity_end; ++k) {
+    sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
+  }
+  return sum;
+}
+
 void Dae::residual(double t, const double* y, const double* yp, double* r) {
   evaluate_forces(t, y);
 
@@ -85,15 +97,11 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     if (if_[k] >= 0) r[if_[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
   }
   for (const Row& row : rows_) {
-    double sum = (row.position ? yp[row.row] : 0) - (row.delayed < 0 ? 0 : drive_->felt[at(row.delayed)]);
-    for (int k = row.flow_begin; k < row.flow_end; ++k) {
-      const auto [j, sign] = flows_[at(k)];
-      sum += sign * moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]);
-    }
-    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
-      sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
-    }
-    r[row.row] = sum;
+    r[row.row] = sum_of(row.terms, yp);
+    if (row.position) r[row.row] += yp[row.row];
+    if (row.delayed < 0) continue;
+    const double now = drive_->felt_now[at(row.delayed)];
+    r[row.row] += (now == 0 ? 0 : now * sum_of(row.now, yp)) - drive_->felt[at(row.delayed)];
   }
   for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - drive_->blocks().rate(k);
   for (const Follower& f : followers_) {
@@ -140,7 +148,7 @@ void Dae::magnitudes(double* r) const {
     }
   }
   for (const Row& row : rows_) {
-    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);
     }
   }
@@ -159,6 +167,10 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
     const std::vector<double>& d = s.source == Source::force ? df_ : s.source == Source::creep ? dc_ : rate_d_;
     const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
     values[s.entry] += weight * d[at(s.index)];
+  }
+  for (const FeltEntry& f : felt_entries_) {
+    const double now = f.sign * drive_->felt_now[at(f.delayed)];
+    values[f.entry] += f.branch < 0 ? now : now * moving_[at(f.branch)] * (cj + dc_[at(f.branch)]);
   }
   block_jacobian(values);
   share_jacobian(cj, yp, values, false);
@@ -203,6 +215,9 @@ void Dae::consistency_matrix(double t, const double* y, double* values) {
   for (std::size_t e = 0; e < constant_.size(); ++e) {
     if (differential_[at(pattern_.row[e])]) values[e] = mass_[e];
   }
+  for (const FeltEntry& f : felt_entries_) {
+    if (f.branch >= 0) values[f.entry] += f.sign * drive_->felt_now[at(f.delayed)] * moving_[at(f.branch)];
+  }
   share_jacobian(0, nullptr, values, true);
 }
 
@@ -226,7 +241,7 @@ void Dae::time_derivative(double* r) const {
   }
   for (const Row& row : rows_) {  // loops through branches that are held still, all of them
     if (differential_[at(row.row)]) continue;
-    for (int k = row.velocity_begin; k < row.velocity_end; ++k) {
+    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];
     }
   }

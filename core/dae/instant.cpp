@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dae/time_grain.hpp"
+#include "core/network/time_grain.hpp"
 #include "core/network/index.hpp"
 #include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
@@ -17,6 +17,7 @@ namespace {
 
 // How far ahead it is looked: a share of the time until something is known to happen, and of the network's own times.
 constexpr double share_of_horizon = 1e-7;
+constexpr double least_of_network = 1e-12;
 constexpr double share_of_network = 1e-3;
 // Energies that differ by this share are equal.
 constexpr double link_rounding = 1e-9;
@@ -141,7 +142,8 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
     if (m == 0 && damping[n] > 0) fastest = std::max(fastest, stiffness[n] / damping[n]);
   }
   double ahead = share_of_horizon * horizon;
-  if (fastest > 0) ahead = std::min(ahead, share_of_network / fastest);
+  // In less time than that what springs do would be lost in the rounding of what dashpots do.
+  if (fastest > 0) ahead = std::clamp(ahead, least_of_network / fastest, share_of_network / fastest);
   return std::max(ahead, time_grain(t));
 }
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/dae/polynomial.hpp"
-#include "core/dae/time_grain.hpp"
+#include "core/network/time_grain.hpp"
 
 namespace rheonet {
 
@@ -15,8 +15,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
 constexpr int most_levels = 6;
 
-// Velocities that differ by this share of their magnitudes are one.
-constexpr double jump_rounding = 1e-12;
+// Points that count beside the present. Between the last of many and the present a polynomial through them magnifies what their
+// rounding and the integrator's errors are by up to 3: where no mass smoothes what comes back through the delay that grows
+// from step to step, or holds the steps down. Through 3 and the present it is 1.6.
+constexpr std::size_t points_before = 3;
 
 /// The last one that has begun by t; nullptr if none has (before the run).
 template <class Items>
@@ -27,16 +29,14 @@ auto* current(Items& items, double t) {
 
 }  // namespace
 
-Past::Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels)
+Past::Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit)
     : index_of_(network.deflections.size(), -1),
       delays_(delays),
       channels_(channels),
       track_of_(network.nodes(), -1),
       track_of_motion_(network.motions.size(), -1),
-      shortest_(infinity),
+      longest_step_(limit),
       longest_(reach) {
-  // What is a function of time alone is known beyond the end of a step.
-  if (channels > 0) shortest_ = *std::min_element(delays.begin(), delays.end());
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const double delay = laws.batch->delay(i);
@@ -44,14 +44,14 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
       const int branch = laws.first + static_cast<int>(i);
       const Branch& b = network.deflections[static_cast<std::size_t>(branch)];
       index_of_[static_cast<std::size_t>(branch)] = static_cast<int>(delayed_.size());
-      delayed_.push_back({branch, b.a, b.b, delay});
+      delayed_.push_back({branch, b.a, b.b, delay, false, false});
       delays_.push_back(delay);
       longest_ = std::max(longest_, delay);
       for (NodeId node : {b.a, b.b}) {
         int& track = track_of_[static_cast<std::size_t>(node)];
         if (track >= 0 || node == ground) continue;
         track = static_cast<int>(tracks_.size());
-        tracks_.push_back({.node = node, .motion = -1, .before = 0, .stretches = {}, .runs = {}, .moves = {}});
+        tracks_.push_back({.node = node, .motion = -1, .before = 0, .stretches = {}, .curve = {}, .moves = {}});
       }
     }
   }
@@ -59,13 +59,19 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
   delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
   taken_.assign(delayed_.size(), -infinity);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
-    if (network.motions[m].block >= 0) continue;  // as any other node
+    if (network.motions[m].block >= 0) {  // as any other node, but its velocity is no unknown
+      for (const Delayed& d : delayed_) {
+        if (d.a == network.motions[m].node || d.b == network.motions[m].node) longest_step_ = std::min(longest_step_, d.delay);
+      }
+      continue;
+    }
     track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
     if (track_of_motion_[m] >= 0) tracks_[static_cast<std::size_t>(track_of_motion_[m])].motion = static_cast<int>(m);
   }
-  const auto given = [&](NodeId node) { return node == ground || track(node)->motion >= 0; };
-  for (const Delayed& d : delayed_) {
-    if (!given(d.a) || !given(d.b)) shortest_ = std::min(shortest_, d.delay);
+  const auto free = [&](NodeId node) { return node != ground && track(node)->motion < 0; };
+  for (Delayed& d : delayed_) {
+    d.free_a = free(d.a);
+    d.free_b = free(d.b);
   }
 }
 
@@ -100,8 +106,8 @@ void Past::mark(double t, bool fresh) {
       runs.push_back({t, {}});
     }
   };
-  for (Track& track : tracks_) begin_run(track.runs);
-  for (std::deque<Run>& runs : channels_) begin_run(runs);
+  for (Track& track : tracks_) begin_run(track.curve.runs);
+  for (Curve& curve : channels_) begin_run(curve.runs);
   find_next_break();
 }
 
@@ -112,22 +118,26 @@ void Past::follow(std::size_t m, double t, const Piece& piece, bool position) {
   track.stretches.push_back({t, piece, position});
 }
 
-bool Past::append(std::deque<Run>& runs, double t, double v) {
+bool Past::append(Curve& curve, double t, Known known) const {
+  std::deque<Run>& runs = curve.runs;
+  const double v = known.value;
+  curve.largest = std::max(curve.largest, std::abs(v));
   if (runs.empty()) return false;
   std::vector<Point>& points = runs.back().points;
   bool jumps = false;
   if (points.empty() && runs.size() > 1) {
     const std::vector<Point>& earlier = std::prev(runs.end(), 2)->points;
-    jumps = !earlier.empty() && std::abs(v - earlier.back().v) > jump_rounding * (std::abs(v) + std::abs(earlier.back().v));
+    jumps = !earlier.empty() && std::abs(v - earlier.back().v) > least_jump_ * curve.largest;
   }
-  if (points.empty() || t > points.back().t) points.push_back({t, v});
+  if (points.empty() || t > points.back().t) points.push_back({t, v, known.rate});
   return jumps;
 }
 
-void Past::remember(double t, const std::vector<double>& velocity, const std::vector<double>& channels) {
+void Past::remember(double t, const std::vector<double>& velocity, const std::vector<Known>& channels) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   bool jumps = false;
   for (Track& track : tracks_) {
-    if (track.motion < 0) jumps = append(track.runs, t, velocity[static_cast<std::size_t>(track.node)]) || jumps;
+    if (track.motion < 0) jumps = append(track.curve, t, {velocity[static_cast<std::size_t>(track.node)], unknown}) || jumps;
   }
   for (std::size_t k = 0; k < channels_.size(); ++k) jumps = append(channels_[k], t, channels[k]) || jumps;
   // What jumps is as sharp as at first, whatever it has come through.
@@ -164,9 +174,9 @@ void Past::forget(double t) {
   for (Track& track : tracks_) {
     while (track.stretches.size() > 1 && track.stretches[1].t < needed) track.stretches.pop_front();
     while (!track.moves.empty() && track.moves.front().t < needed) track.moves.pop_front();
-    forget_runs(track.runs);
+    forget_runs(track.curve.runs);
   }
-  for (std::deque<Run>& runs : channels_) forget_runs(runs);
+  for (Curve& curve : channels_) forget_runs(curve.runs);
 }
 
 std::size_t Past::held() const {
@@ -176,9 +186,9 @@ std::size_t Past::held() const {
   };
   for (const Track& track : tracks_) {
     sum += track.stretches.size() + track.moves.size();
-    add(track.runs);
+    add(track.curve.runs);
   }
-  for (const std::deque<Run>& runs : channels_) add(runs);
+  for (const Curve& curve : channels_) add(curve.runs);
   return sum;
 }
 
@@ -193,48 +203,63 @@ void Past::find_next_break() {
   }
 }
 
-/// The polynomial through the points around t.
-Dual Past::interpolate(const Run& run, double t) {
+/// The polynomial through the points around t; beyond the last one the present is the next.
+Past::Felt Past::interpolate(const Run& run, double t, double now) {
   const std::vector<Point>& points = run.points;
-  if (points.empty()) return 0;
-  const std::size_t count = std::min(step_points, points.size());
+  if (points.empty()) return {0, 0};
   const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
+  const bool beyond = after == points.end() && now > points.back().t;
+  const std::size_t count = std::min(beyond ? points_before : step_points, points.size());
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t first = std::min(middle > count / 2 ? middle - count / 2 : 0, points.size() - count);
-  double times[step_points] = {}, velocities[step_points] = {};
-  for (std::size_t k = 0; k < count; ++k) {
-    times[k] = points[first + k].t;
-    velocities[k] = points[first + k].v;
+  Dual times[step_points];
+  for (std::size_t k = 0; k < count; ++k) times[k] = points[first + k].t;
+  const std::size_t all = beyond ? count + 1 : count;
+  if (beyond) times[count] = Dual(now, 1);  // it goes on as t does
+  const auto through = [&](double Point::*what, double last) {
+    Dual values[step_points];
+    for (std::size_t k = 0; what && k < count; ++k) values[k] = points[first + k].*what;
+    if (beyond) values[count] = last;
+    return rheonet::interpolate(times, values, all, Dual(t, 1));
+  };
+  Felt felt{through(&Point::v, 0), beyond ? through(nullptr, 1) : Dual(0)};
+  // The slope of a polynomial is less exact than rates that are known.
+  const auto rate_known = [](const Point& p) { return !std::isnan(p.rate); };
+  if (!beyond && std::all_of(points.begin() + static_cast<std::ptrdiff_t>(first),
+                             points.begin() + static_cast<std::ptrdiff_t>(first + count), rate_known)) {
+    felt.known.derivative = through(&Point::rate, 0).value;
   }
-  return rheonet::interpolate(times, velocities, count, Dual(t, 1));
+  return felt;
 }
 
 // At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
 // was before.
-double Past::velocity(NodeId node, double t, double aside) const {
-  if (node == ground) return 0;
+Past::Felt Past::velocity(NodeId node, double t, double aside, double now) const {
+  if (node == ground) return {0, 0};
   const Track& track = tracks_[static_cast<std::size_t>(track_of_[static_cast<std::size_t>(node)])];
   const double side = t + aside;
   if (track.motion >= 0) {
     const Stretch* stretch = current(track.stretches, side);
-    if (!stretch) return track.before;
-    return stretch->position ? stretch->piece.rate(t) : stretch->piece.value(t);
+    if (!stretch) return {track.before, 0};
+    return {stretch->position ? stretch->piece.rate(t) : stretch->piece.value(t), 0};
   }
-  const Run* run = current(track.runs, side);
-  return run ? interpolate(*run, t).value : track.before;
+  const Run* run = current(track.curve.runs, side);
+  return run ? interpolate(*run, t, now) : Felt{track.before, 0};
 }
 
-double Past::felt(std::size_t k, double t) const {
+Past::Felt Past::felt(std::size_t k, double t) const {
   const Delayed& d = delayed_[k];
-  return velocity(d.a, t - d.delay, aside(t)) - velocity(d.b, t - d.delay, aside(t));
+  const Felt a = velocity(d.a, t - d.delay, aside(t), t), b = velocity(d.b, t - d.delay, aside(t), t);
+  // Free ends are remembered at the same instants, so that the present counts as much for one as for the other.
+  return {a.known - b.known, d.free_a ? a.present : b.present};
 }
 
 // t - delay has the rounding of t, also where it is nearly 0.
 double Past::aside(double t) const { return t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t); }
 
-Dual Past::channel(std::size_t k, double t, double aside) const {
-  const Run* run = current(channels_[k], t + aside);
-  return run ? interpolate(*run, t) : Dual(0);
+Past::Felt Past::channel(std::size_t k, double t, double aside, double now) const {
+  const Run* run = current(channels_[k].runs, t + aside);
+  return run ? interpolate(*run, t, now) : Felt{0, 0};
 }
 
 double Past::take_steps(std::size_t k, double t) {

@@ -10,42 +10,52 @@
 namespace rheonet {
 
 /// How fast the ends of delayed branches have moved, for as long as the longest delay: what such a branch feels is then a
-/// given function of time. Where nothing lies between a time and its delay a step must be no longer than the delay.
+/// given function of time. Where a step is longer than a delay, what is looked for lies between the last point and the
+/// present, and depends on the present as well.
 ///
 /// Prescribed motions are remembered by their stretches, exactly. Of other nodes the velocity is remembered at each step
-/// and interpolated between breaks, over as many points as the integrator's highest order uses. A break (a jump, a corner,
+/// and interpolated between breaks, over as many points as the integrator's highest order uses; the present is one of them
+/// where it is needed. A break (a jump, a corner,
 /// an event) comes again one delay later, and once more after that: mostly each time in a higher derivative, until it is
 /// too smooth to matter.
 class Past {
  public:
   /// Besides the velocities of nodes it remembers `channels` other values, as far back as `reach`; what breaks comes again
-  /// after each of `delays` [s].
-  Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels);
+  /// after each of `delays` [s]. No step may be longer than `limit` [s] (infinite: none of them limits it).
+  Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit);
 
-  struct Delayed { int branch; NodeId a, b; double delay; };
+  /// A delayed branch; `free` says which of its ends are no function of time alone.
+  struct Delayed { int branch; NodeId a, b; double delay; bool free_a, free_b; };
   const std::vector<Delayed>& delayed() const { return delayed_; }
   /// The number in `delayed` of a deflection branch of the network, -1 for others.
   int index_of(int branch) const { return index_of_[static_cast<std::size_t>(branch)]; }
-  /// The shortest delay of what is no function of time alone [s], and so the longest step; infinite if there is none.
-  double shortest() const { return shortest_; }
+  /// The longest step [s]: as long as a delay behind which the present is not looked for; infinite if there is none.
+  double longest_step() const { return longest_step_; }
 
+  /// A jump of less than this share of the largest value so far is none: an integrator's error leaves as much.
+  void disregard(double share) { least_jump_ = share; }
   /// Until t = 0 all nodes have moved at these velocities (one for each node) [m/s].
   void begin(const std::vector<double>& velocity);
   /// A break at t, and the stretches of the motions that begin there. It is a fresh one, or comes of one a delay ago.
   void mark(double t, bool fresh);
   /// From t on motion number `m` of the network moves along `piece`, the stretch of its position or of its velocity.
   void follow(std::size_t m, double t, const Piece& piece, bool position);
+  /// A value and how fast it changes; NaN for a rate that is not known.
+  struct Known { double value, rate; };
   /// The nodes (all of the network) have these velocities at t: after a break, and after each step.
-  void remember(double t, const std::vector<double>& velocity, const std::vector<double>& channels);
+  void remember(double t, const std::vector<double>& velocity, const std::vector<Known>& channels);
   /// At t the nodes have moved by these distances in no time [m].
   void moved(double t, const std::vector<double>& distance);
 
   /// The next instant after the last break at which something comes through [s]; infinite if there is none.
   double next_break() const { return next_break_; }
-  /// What branch number k of `delayed` feels at t [m/s].
-  double felt(std::size_t k, double t) const;
-  /// What a channel was at t, and its rate; `aside` as far as rounding goes to the side of t that is meant [s].
-  Dual channel(std::size_t k, double t, double aside) const;
+  /// What depends on the present as `known + present * (what it is now)`; with rates.
+  struct Felt { Dual known, present; };
+  /// What branch number k of `delayed` feels at t [m/s]; of the present it needs the velocities of its free ends.
+  Felt felt(std::size_t k, double t) const;
+  /// What a channel was at t, and its rate, if it is `now` [s]; `aside` as far as rounding goes to the side of t that is
+  /// meant [s].
+  Felt channel(std::size_t k, double t, double aside, double now) const;
   /// To which side of a break it counts now that t is looked at [s].
   double aside(double t) const;
   /// By how much its ends have come apart in no time, as it feels it: what has come through by t since it was last asked [m].
@@ -57,22 +67,23 @@ class Past {
  private:
   struct Break { double t; int level; };       ///< level: how often it has come through a delay
   struct Stretch { double t; Piece piece; bool position; };
-  struct Point { double t, v; };
+  struct Point { double t, v, rate; };
   struct Run { double t; std::vector<Point> points; };  ///< between two breaks
+  struct Curve { std::deque<Run> runs; double largest = 0; };
   struct Move { double t, distance; };
   struct Track {
     NodeId node;
     int motion = -1;
     double before = 0;  ///< velocity until t = 0
     std::deque<Stretch> stretches;
-    std::deque<Run> runs;
+    Curve curve;
     std::deque<Move> moves;
   };
   Track* track(NodeId node);
-  double velocity(NodeId node, double t, double aside) const;  ///< of the stretch that t + aside lies in
-  static Dual interpolate(const Run& run, double t);
+  Felt velocity(NodeId node, double t, double aside, double now) const;  ///< of the stretch that t + aside lies in
+  static Felt interpolate(const Run& run, double t, double now);
   /// Returns whether the value jumps where a run begins.
-  static bool append(std::deque<Run>& runs, double t, double v);
+  bool append(Curve& curve, double t, Known known) const;
   void forget(double t);
   void find_next_break();
 
@@ -80,12 +91,12 @@ class Past {
   std::vector<int> index_of_;   ///< of each deflection branch, -1
   std::vector<double> delays_;  ///< those that there are, of branches and of blocks, each once [s]
   std::vector<Track> tracks_;
-  std::vector<std::deque<Run>> channels_;
+  std::vector<Curve> channels_;
   std::vector<int> track_of_;   ///< of each node, -1
   std::vector<int> track_of_motion_;  ///< of each, -1
   std::deque<Break> breaks_;
   std::vector<double> taken_;  ///< of each delayed branch: up to when steps have been taken [s]
-  double shortest_, longest_ = 0;
+  double longest_step_, longest_ = 0, least_jump_ = 1e-12;
   double since_ = 0;           ///< the last break [s]
   double next_break_ = std::numeric_limits<double>::infinity();
 };

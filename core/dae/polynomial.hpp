@@ -8,9 +8,9 @@ namespace rheonet {
 inline constexpr std::size_t step_points = 6;
 
 /// The value at x of the polynomial through `count` points (t[k], v[k]) at different t, by Newton's divided differences,
-/// which take the place of v. With a Dual x it comes with its derivative.
+/// which take the place of v. With Duals it comes with its derivative by what x and the points depend on.
 template <class T>
-T interpolate(const double* t, double* v, std::size_t count, T x) {
+T interpolate(const T* t, T* v, std::size_t count, T x) {
   for (std::size_t order = 1; order < count; ++order) {
     for (std::size_t k = count - 1; k >= order; --k) v[k] = (v[k] - v[k - 1]) / (t[k] - t[k - order]);
   }

@@ -7,11 +7,11 @@
 
 #include "core/network/index.hpp"
 #include "core/network/network.hpp"
+#include "core/network/resolved.hpp"
 
 namespace rheonet {
 
 namespace {
-
 
 class Finder {
  public:
@@ -74,7 +74,7 @@ class Finder {
   void add(const SceneBlock& made) {
     const SceneElement& element = scene_.elements[at(made.element)];
     Blocks::Block block{.element = made.element,
-                        .law = components()[at(element.declaration)]->block(element.values),
+                        .law = components()[at(element.declaration)]->block(resolved_values(scene_, element)),
                         .generates = !element.signals.empty(),
                         .signal = {},
                         .inputs = {}};

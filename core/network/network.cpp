@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/network/resolved.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -67,9 +69,21 @@ std::vector<Reduced> laws_of(const Scene& scene) {
                                                                "connect one end elsewhere or leave it out",
                                                                scene.nodes[static_cast<std::size_t>(element.a)].name)));
     }
-    laws.push_back(take_limits(declared, element.values));
+    laws.push_back(take_limits(declared, resolved_values(scene, element)));
   }
   return laws;
+}
+
+void tell_lost_times(Network& network) {
+  for (const SceneElement& element : network.scene->elements) {
+    const std::vector<double> values = resolved_values(*network.scene, element);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (values[k] != 0 || !(element.values[k] > 0)) continue;
+      const Declaration& declared = components()[static_cast<std::size_t>(element.declaration)]->declaration;
+      network.notes.push_back(fmt::format("`{}` of {:.3g} s is left out: it is less than what tells the times of this run apart",
+                                          element.name + "." + declared.parameters[k].name, element.values[k]));
+    }
+  }
 }
 
 /// Nodes between pairs are left out.
@@ -167,6 +181,7 @@ Network build_network(const Scene& scene) {
     }
   }
   number_nodes(network);
+  tell_lost_times(network);
   ByComponent deflections, rates;
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };

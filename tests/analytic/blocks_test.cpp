@@ -209,6 +209,31 @@ TEST_CASE("delayed feedback: the method of steps") {
   }
 }
 
+// The same where T is much less than a step: by the Laplace transform x = exp(l (t + T))/(1 + l T) with l = -k exp(-l T),
+// the root next to 0, as soon as t is some delays; the other roots are gone then.
+TEST_CASE("delayed feedback through a delay much shorter than a step") {
+  constexpr double k = 1.37;
+  for (const double T : {1e-2, 1e-4, 1e-7, 1e-12}) {
+    CAPTURE(T);
+    double l = -k;
+    for (int j = 0; j < 50; ++j) l = -k * std::exp(-l * T);
+    const std::string text = scene(fmt::format("x = {{ type = \"integrator\", in = \"rate\", initial = 1 }}\n"
+                                               "late = {{ type = \"delay\", in = \"x\", delay = {}, initial = 1 }}\n"
+                                               "rate = {{ type = \"gain\", in = \"late\", gain = {} }}",
+                                               T, -k),
+                                   5, 11);
+    for (const double accuracy : accuracies) {
+      Summary summary;
+      const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+      double worst = 0;
+      for (std::size_t row = 1; row < run.time().size(); ++row)
+        worst = std::max(worst, std::abs(run["x.out"][row] - std::exp(l * (run.time()[row] + T)) / (1 + l * T)));
+      CHECK(worst <= accuracy);
+      CHECK_LT(summary.steps, 1000);
+    }
+  }
+}
+
 TEST_CASE("blocks that start steady: a lag at its end, a delay of what has always been") {
   const std::string blocks =
       "g = { type = \"generator\", signal = { cosine = 3, frequency = 0.5 } }\n"

@@ -18,7 +18,7 @@ struct Remembering {
   Network network;
   Past past;
 
-  Remembering() : scene(make()), network(build_network(scene)), past(network, {}, 0, 0) { past.begin({0, 0, 0}); }
+  Remembering() : scene(make()), network(build_network(scene)), past(network, {}, 0, 0, HUGE_VAL) { past.begin({0, 0, 0}); }
   static Scene make() {
     SceneBuilder b;
     b.at("m", "mass", "free", {{"mass", 1}});
@@ -27,6 +27,11 @@ struct Remembering {
     return b.finish(1, 1, 1e-6);
   }
   void remember(double t, double v) { past.remember(t, {0, v, 0}, {}); }
+  double felt(double t) const {
+    const Past::Felt f = past.felt(0, t);
+    CHECK_EQ(f.present.value, 0);
+    return f.known.value;
+  }
 };
 
 double quintic(double t) { return 0.3 - 1.7 * t + t * t * (2.1 - t * (0.8 + t * (1.3 - 0.9 * t))); }
@@ -44,7 +49,7 @@ TEST_CASE("past: polynomials up to the highest order of the integrator are remem
     for (const double back : {0.0, 0.003, 0.011, 0.3}) {
       const double now = std::max(t - back, 0.2);
       if (now - delay < 0.25 || now > t) continue;  // the first steps have fewer points
-      CHECK(r.past.felt(0, now) == doctest::Approx(quintic(now - delay)).epsilon(1e-11));
+      CHECK(r.felt(now) == doctest::Approx(quintic(now - delay)).epsilon(1e-11));
     }
   }
 }
@@ -70,16 +75,45 @@ TEST_CASE("past: what is remembered is bounded by the delay, however long the ru
   CHECK_LT(most, 3 * delay / step);
 }
 
-TEST_CASE("past: a delay of given motions alone limits no step") {
+TEST_CASE("past: beyond the last step the present is one more point, with its weight, and rates are those of the whole") {
+  const auto cubic = [](double t) { return 0.3 - t * (1.7 - t * (2.1 - 0.8 * t)); };
+  const auto slope = [](double t) { return -1.7 + t * (4.2 - 2.4 * t); };
   Remembering r;
-  CHECK_EQ(r.past.shortest(), delay);
+  r.past.mark(0, true);
+  double t = 0;
+  r.remember(0, cubic(0));
+  for (int k = 1; k < 9; ++k) {
+    t += 0.1 + 0.05 * k;
+    r.remember(t, cubic(t));
+  }
+  for (const double step : {1.2 * delay, 1.7 * delay, 5 * delay}) {
+    const double now = t + step, then = now - delay;
+    const Past::Felt f = r.past.felt(0, now);
+    CHECK(f.present.value != 0);
+    const Dual felt = f.known + f.present * Dual(cubic(now), slope(now));
+    CHECK_EQ(felt.value, doctest::Approx(cubic(then)).epsilon(1e-11));
+    CHECK_EQ(felt.derivative, doctest::Approx(slope(then)).epsilon(1e-10));
+  }
+  CHECK_EQ(r.past.felt(0, t + 0.9 * delay).present.value, 0);
+}
+
+TEST_CASE("past: rates that are known are told; no step is longer than what is said") {
   SceneBuilder b;
-  b.motion("drive", "moved", "velocity", Signal(Signal::Constant{0}));
-  b.between("v", "vfm", "moved", "ground", {{"damping", 2}, {"stiffness", 3}, {"delay", delay}});
+  b.at("m", "mass", "free", {{"mass", 1}});
   const Scene scene = b.finish(1, 1, 1e-6);
   const Network network = build_network(scene);
-  CHECK(std::isinf(Past(network, {}, 0, 0).shortest()));
-  CHECK_EQ(Past(network, {0.2, 0.1}, 0.3, 1).shortest(), 0.1);  // of blocks that take in what moves freely
+  Past past(network, {delay}, delay, 2, delay);
+  past.begin({0, 0});
+  past.mark(0, true);
+  for (int k = 0; k < 9; ++k) {
+    const double t = 0.1 * k;
+    past.remember(t, {0, 0}, {{std::sin(9 * t), 100 + t}, {std::sin(9 * t), std::nan("")}});
+  }
+  CHECK_EQ(past.channel(0, 0.43, 0, 0.8).known.derivative, doctest::Approx(100.43).epsilon(1e-12));
+  CHECK_EQ(past.channel(1, 0.43, 0, 0.8).known.derivative, doctest::Approx(9 * std::cos(9 * 0.43)).epsilon(0.05));
+  CHECK_EQ(past.channel(0, 0.43, 0, 0.8).known.value, past.channel(1, 0.43, 0, 0.8).known.value);
+  CHECK_EQ(past.longest_step(), delay);
+  CHECK(std::isinf(Remembering().past.longest_step()));
 }
 
 TEST_CASE("past: before the run nothing moves; the two sides of a jump, one delay later") {
@@ -88,14 +122,14 @@ TEST_CASE("past: before the run nothing moves; the two sides of a jump, one dela
   for (int k = 0; k <= 20; ++k) r.remember(0.05 * k, 1 + 0.05 * k);
   r.past.mark(1, true);
   for (int k = 0; k <= 6; ++k) r.remember(1 + 0.05 * k, -5.0);
-  CHECK_EQ(r.past.felt(0, delay / 2), 0);
+  CHECK_EQ(r.felt(delay / 2), 0);
   CHECK_EQ(r.past.next_break(), 1 + delay);
   const double through = 1 + delay;
-  CHECK_EQ(r.past.felt(0, through), doctest::Approx(2).epsilon(1e-12));  // a step that ends there
-  CHECK_EQ(r.past.felt(0, through - 0.01), doctest::Approx(1.99).epsilon(1e-12));
+  CHECK_EQ(r.felt(through), doctest::Approx(2).epsilon(1e-12));  // a step that ends there
+  CHECK_EQ(r.felt(through - 0.01), doctest::Approx(1.99).epsilon(1e-12));
   r.past.mark(through, false);
-  CHECK_EQ(r.past.felt(0, through), doctest::Approx(-5).epsilon(1e-12));  // one that begins there
-  CHECK_EQ(r.past.felt(0, through + 0.01), doctest::Approx(-5).epsilon(1e-12));
+  CHECK_EQ(r.felt(through), doctest::Approx(-5).epsilon(1e-12));  // one that begins there
+  CHECK_EQ(r.felt(through + 0.01), doctest::Approx(-5).epsilon(1e-12));
 }
 
 TEST_CASE("past: a smooth break comes through a few times, one that jumps again and again") {

@@ -7,8 +7,8 @@
 
 using namespace rheonet;
 
-// Steps were no longer than a delay, also where what is delayed is known beforehand: a delay of 1e-10 s made 1e10 of them.
-TEST_CASE("a delay of what is given costs no steps; of what is not it keeps them short") {
+// Steps were no longer than a delay: one of 1e-10 s made 1e10 of them.
+TEST_CASE("a delay costs no steps, of what is given and of what moves freely") {
   constexpr double B = 0.7, T1 = 0.1, V = 1.3;
   const auto run = [&](double delay, const char* other) {
     Summary summary;
@@ -29,5 +29,6 @@ stop = 0.5
   const long steps = run(1e-10, "ground");
   CHECK(steps < 1000);
   CHECK(run(1e-4, "ground") < 2 * steps);
-  CHECK(run(1e-4, "block") > 4000);
+  CHECK(run(1e-4, "block") < 2 * steps);
+  CHECK(run(1e-10, "block") < 2 * steps);
 }

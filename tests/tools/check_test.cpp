@@ -128,15 +128,16 @@ TEST_CASE("a delay so short that the run takes millions of steps is told before"
   const auto notes = [&](const std::string& delay) {
     folder.write("scene.toml", "[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n"
                                "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3 }\n"
-                               "late = { type = \"delay\", in = \"m.velocity\", delay = \"" + delay + "\" }\n"
-                               "g = { type = \"gain\", in = \"late\", gain = \"-0.2 N*s/m\" }\n"
-                               "f = { type = \"force\", at = \"a\", force = { block = \"g\" } }\n[simulate]\nstop = 3\n");
+                               "slow = { type = \"lag\", in = \"m.velocity\", time_constant = 0.1 }\n"
+                               "late = { type = \"delay\", in = \"slow\", delay = \"" + delay + "\" }\n"
+                               "f = { type = \"motion\", at = \"b\", velocity = { block = \"late\" } }\n"
+                               "c = { type = \"dashpot\", between = [\"a\", \"b\"], damping = 0.2 }\n[simulate]\nstop = 3\n");
     const Finished result = folder.shell("rheonet check scene.toml");
     CHECK(result.status == 0);
     return result.out + result.err;
   };
   CHECK(!contains(notes("1 ms"), "delay"));
-  CHECK(contains(notes("1 ns"), "no step can be longer than the shortest delay, 1e-09 s: this run takes 3.0e+09 of them"));
+  CHECK(contains(notes("1 ns"), "no step can be longer than the shortest delay behind which a prescribed motion or its velocity lies, 1e-09 s: this run takes 3.0e+09 of them"));
 }
 
 TEST_CASE("check -v lists what was not given and had to be chosen") {

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+/// The values of an element, where times that mean something at 0 too (a delay) are 0 if they are shorter than what tells
+/// the times of the run apart: nothing can come so much later. [SI]
+std::vector<double> resolved_values(const Scene& scene, const SceneElement& element);
+
+}  // namespace rheonet

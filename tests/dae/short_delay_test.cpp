@@ -1,0 +1,134 @@
+// Delays shorter than a step: what they put out lies between the last step and the present, and follows from both.
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/network/index.hpp"
+#include "tests/support/probe.hpp"
+#include "tests/support/random.hpp"
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+// Delayed elements at nodes of each kind, and delays of what each kind of sensor tells. All laws are linear, and so are the
+// equations: a difference quotient of theirs is exact. The last values are rates that follow from others.
+const char* const linear_scene = R"([parameters]
+d = "1e-4 s"
+[elements]
+m    = { type = "mass", at = "heavy", mass = 0.37 }
+k1   = { type = "spring", between = ["heavy", "loose"], stiffness = 131 }
+c1   = { type = "dashpot", between = ["loose", "also_loose"], damping = 3.7 }
+k2   = { type = "spring", between = ["also_loose", "end"], stiffness = 57 }
+v1   = { type = "vfm", between = ["loose", "heavy"], damping = 2.3, stiffness = 83, delay = "2*d" }
+v2   = { type = "vfm", between = ["also_loose", "thick"], damping = 1.3, stiffness = 41, delay = "3*d" }
+c2   = { type = "dashpot", between = ["heavy", "thick"], damping = 1.9 }
+c3   = { type = "dashpot", between = ["thick", "ground"], damping = 0.9 }
+far  = { type = "motion", at = "end", position = { sine = 0.031, frequency = 1.9 } }
+late = { type = "delay", in = "heavy.velocity", delay = "1*d" }
+more = { type = "delay", in = "sum", delay = "4*d" }
+hang = { type = "delay", in = "k2.force", delay = "2*d" }
+sum  = { type = "sum", in = ["pull", "-slow"] }
+pull = { type = "gain", in = "late", gain = "0.8 N*s/m" }
+lag  = { type = "lag", in = "hang", time_constant = 0.03 }
+slow = { type = "gain", in = "lag", gain = 0.3 }
+back = { type = "gain", in = "sum", gain = -1 }
+push = { type = "force", at = "heavy", force = { block = "back" } }
+draw = { type = "force", between = ["heavy", "thick"], force = { block = "more" } }
+[simulate]
+stop = 0.83
+output = { every = 0.01 }
+record = ["heavy.velocity", "loose.position", "v1.force", "v2.force", "draw.force"]
+)";
+
+}  // namespace
+
+TEST_CASE("with delays shorter than a step the Jacobian is exact, and so is y'") {
+  const Scene scene = scene_of(linear_scene, 1e-4);
+  Probe probe(scene);
+  Random random(3);
+  int felt = 0, coupled = 0, visits = 0;
+  probe.along(3, 2, [&](double t, const std::vector<double>& y, const std::vector<double>& yp) {
+    Dae& dae = probe.dae();
+    const std::size_t n = y.size();
+    ++visits;
+    std::vector<double> r(n), r_moved(n), moved(n), moved_rate(n), product(n, 0), dy(n), largest(n, 0);
+    dae.residual(t, y.data(), yp.data(), r.data());
+    const double cj = 300;
+    for (std::size_t i = 0; i < n; ++i) {
+      // A row of rates is met by y' to rounding.
+      if (dae.differential(static_cast<int>(i))) CHECK(std::abs(r[i]) < 1e-9);
+      dy[i] = random.uniform(-1, 1);
+      moved[i] = y[i] + dy[i];
+      moved_rate[i] = yp[i] + cj * dy[i];
+    }
+    std::vector<double> values(at(dae.pattern().entries()));
+    dae.jacobian(t, cj, y.data(), yp.data(), values.data());
+    for (std::size_t c = 0; c < n; ++c) {
+      for (int e = dae.pattern().column_start[c]; e < dae.pattern().column_start[c + 1]; ++e) {
+        const std::size_t row = at(dae.pattern().row[at(e)]);
+        product[row] += values[at(e)] * dy[c];
+        largest[row] = std::max(largest[row], std::abs(values[at(e)]));
+      }
+    }
+    for (const double now : dae.drive().felt_now) felt += now != 0;
+    for (std::size_t atom = 0; atom < dae.drive().blocks().atoms(); ++atom)
+      coupled += dae.drive().blocks().slope(dae.network().forces[1].block, atom) != 0;
+    dae.residual(t, moved.data(), moved_rate.data(), r_moved.data());
+    for (std::size_t i = 0; i < n; ++i) CHECK(std::abs(r_moved[i] - r[i] - product[i]) <= 1e-9 * (1 + largest[i]));
+  });
+  CHECK_GT(visits, 20);
+  CHECK_GT(felt, 100);
+  CHECK_GT(coupled, 100);
+}
+
+TEST_CASE("delays of every kind, far shorter than a step: they change what happens by as little as they are, and cost no steps") {
+  constexpr double accuracy = 1e-8;
+  const auto run = [&](const char* delay, long& steps) {
+    std::string text = linear_scene;
+    text.replace(text.find("1e-4 s"), 6, delay);
+    Summary summary;
+    const Trajectory rows = simulate(scene_of(text, accuracy), &summary);
+    steps = summary.steps;
+    return rows;
+  };
+  long none_steps = 0, steps = 0;
+  const Trajectory none = run("1e-13 s", none_steps);
+  for (const char* record : {"heavy.velocity", "loose.position", "v1.force", "v2.force", "draw.force"}) {
+    CAPTURE(record);
+    const auto change = [&](const char* delay) {
+      const Trajectory some = run(delay, steps);
+      CHECK_LT(steps, 2 * none_steps);
+      double worst = 0;
+      for (std::size_t row = 0; row < none.time().size(); ++row)
+        worst = std::max(worst, std::abs(some[record][row] - none[record][row]));
+      return worst;
+    };
+    const double large = change("4e-5 s"), small = change("1e-5 s");
+    CHECK_GT(small, 1e-5 * none.scale(record));
+    CHECK_EQ(large / small, doctest::Approx(4).epsilon(0.05));
+    CHECK_LE(change("1e-10 s"), 10 * accuracy * none.scale(record));
+    for (const char* delay : {"2e-14 s", "1e-14 s", "3e-15 s", "1e-20 s", "1e-300 s"}) CHECK_LE(change(delay), 2 * accuracy * none.scale(record));
+  }
+}
+
+TEST_CASE("a delay that the times of a run do not resolve is left out, and told") {
+  for (const double delay : {2e-14, 1e-15, 1e-300}) {
+    Summary summary;
+    (void)simulate(scene_of("[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\nv = { type = \"vfm\", between = "
+                            "[\"a\", \"ground\"], damping = 3, stiffness = 5, delay = " + fmt::format("{}", delay) +
+                            " }\n[nodes]\na = { velocity = 1 }\n[simulate]\nstop = 1\n"), &summary);
+    const bool told = std::any_of(summary.notes.begin(), summary.notes.end(), [&](const std::string& note) {
+      return note == fmt::format("`v.delay` of {:.3g} s is left out: it is less than what tells the times of this run apart", delay);
+    });
+    CHECK_EQ(told, delay < 1.4e-14);
+  }
+}
+
+}  // namespace rheonet::test
