@@ -36,6 +36,9 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   side_.assign(out_.size(), 0);
   present_.assign(out_.size(), 0);
   check_sensors(network, classified);
+  for (const Blocks::Sensor& sensor : blocks_->sensors) {
+    heavy_.push_back(sensor.what == What::velocity && classified.kind[at(sensor.index)] == Kind::massive);
+  }
   find_dependence();
   refuse_loops(network, classified);
 }
@@ -158,14 +161,17 @@ bool BlockSignals::breaks(double t, const Past& past) const {
   return false;
 }
 
-const std::vector<Past::Known>& BlockSignals::remembered(const std::vector<double>& velocity) {
+const std::vector<Past::Known>& BlockSignals::remembered(const std::vector<double>& velocity,
+                                                         const std::vector<double>& acceleration) {
   for (std::size_t k = 0; k < state_channel_.size(); ++k) {
     if (state_channel_[k] >= 0) remembered_[at(state_channel_[k])] = {state[k].value, rate(k)};
   }
   for (std::size_t k = 0; k < sensor_channel_.size(); ++k) {
     if (sensor_channel_[k] < 0) continue;
     const Blocks::Sensor& sensor = blocks_->sensors[k];
-    const double rate = sensor.what == What::position ? velocity[at(sensor.index)] : std::numeric_limits<double>::quiet_NaN();
+    const double rate = sensor.what == What::position ? velocity[at(sensor.index)]
+                        : heavy_[k]                    ? acceleration[at(sensor.index)]
+                                                       : std::numeric_limits<double>::quiet_NaN();
     remembered_[at(sensor_channel_[k])] = {sensed[k].value, rate};
   }
   return remembered_;

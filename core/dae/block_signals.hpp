@@ -30,8 +30,9 @@ class BlockSignals {
   const std::vector<double>& delays() const { return delays_; }
   double reach() const { return reach_; }
   std::size_t channels() const { return channel_count_; }
-  /// What the channels of the past hold now, where nodes have these velocities [m/s].
-  const std::vector<Past::Known>& remembered(const std::vector<double>& velocity);
+  /// What the channels of the past hold now, where nodes have these velocities [m/s] and accelerations [m/s^2], the latter
+  /// as far as masses have them.
+  const std::vector<Past::Known>& remembered(const std::vector<double>& velocity, const std::vector<double>& acceleration);
   /// The longest step [s]: no delay of what moves freely that a prescribed motion follows from is shorter, as its
   /// acceleration must be known beforehand.
   double longest_step() const;
@@ -135,6 +136,7 @@ class BlockSignals {
 
   const Network* network_;
   const Blocks* blocks_;
+  std::vector<char> heavy_;  ///< of each sensor: it tells the velocity of a mass
   std::vector<int> state_of_;      ///< of each block, -1
   std::vector<int> state_blocks_;
   std::vector<double> delays_;

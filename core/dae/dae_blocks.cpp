@@ -125,12 +125,10 @@ void Dae::feel_blocks(const double* y) {
       double slope = 0;
       blocks.sensed[k] = batch_of(place.index, i).force_along(i, view_.p[at(place.index)], 0, slope);
     } else if (place.role == Role::rate) {
-      for (const Laws<RateBatch>& laws : network_->rate_laws) {
-        const int i = place.index - laws.first;
-        if (i < 0 || at(i) >= laws.batch->size()) continue;
-        const double in = rate_in_[at(place.index)];
-        blocks.sensed[k] = if_[at(place.index)] >= 0 ? in : laws.batch->force_at(at(i), in);
-      }
+      std::size_t i = 0;
+      const RateBatch& law = network_->rate_of(place.index, i);
+      const double in = rate_in_[at(place.index)];
+      blocks.sensed[k] = if_[at(place.index)] >= 0 ? in : law.force_at(i, in);
     }
   }
   blocks.look_back();

@@ -165,11 +165,10 @@ void Drive::sense_network(const State& state) {
       double slope = 0;
       told = network_->batch_of(place.index, i).force_along(i, state.p[at(place.index)], 0, slope);
     }
-    for (const Laws<RateBatch>& laws : network_->rate_laws) {
-      const int i = place.index - laws.first;
-      if (place.role != Role::rate || i < 0 || at(i) >= laws.batch->size()) continue;
+    if (place.role == Role::rate) {
+      std::size_t i = 0;
       const Branch& b = network_->rates[at(place.index)];
-      told = laws.batch->force_at(at(i), state.velocity[at(b.a)] - state.velocity[at(b.b)]);
+      told = network_->rate_of(place.index, i).force_at(i, state.velocity[at(b.a)] - state.velocity[at(b.b)]);
     }
   }
 }

@@ -48,7 +48,9 @@ class Drive {
   /// The state of blocks that do not change, for a start at t from rest or in steady motion.
   void settle_blocks(double t, State& state);
   /// What has been at t, for what comes later: after a break, and after each step, with blocks evaluated there.
-  void remember(double t, const std::vector<double>& velocity) { past_.remember(t, velocity, blocks_.remembered(velocity)); }
+  void remember(double t, const std::vector<double>& velocity, const std::vector<double>& acceleration) {
+    past_.remember(t, velocity, blocks_.remembered(velocity, acceleration));
+  }
 
   /// What delayed branches feel. An event at t is a break of it too.
   Past& past() { return past_; }

@@ -29,10 +29,8 @@ class Finder {
       refuse(loop, loop.size() > 1 ? "make a loop in which each needs the output of another at the same instant; put a `lag` into it"
                                    : "needs its own output at the same instant; put a `lag` between");
     };
-    sort([](const Blocks::Block& b) { return b.breaks_loops(); }, refuse_loop);
-    const std::vector<int> order = result_.order;
+    result_.order = sort([](const Blocks::Block& b) { return b.breaks_loops(); }, refuse_loop);
     sort([](const Blocks::Block& b) { return b.law.state; }, refuse_delays);
-    result_.order = order;
     return std::move(result_);
   }
 
@@ -159,10 +157,10 @@ class Finder {
 
   /// Depth first: what a block needs comes before it. `stops` where an output needs no input of the same instant.
   template <class Stops, class Refuse>
-  void sort(const Stops& stops, const Refuse& refuse_loop) {
+  std::vector<int> sort(const Stops& stops, const Refuse& refuse_loop) const {
     enum : char { fresh, open, done };
     std::vector<char> mark(result_.blocks.size(), fresh);
-    result_.order.clear();
+    std::vector<int> order;
     for (std::size_t first = 0; first < mark.size(); ++first) {
       std::vector<std::pair<int, std::size_t>> path;  // blocks, and how many of their inputs have been looked at
       if (mark[first] == fresh) path.emplace_back(static_cast<int>(first), 0);
@@ -173,7 +171,7 @@ class Finder {
         while (next < block.inputs.size() && (stops(block) || !block.inputs[next].from_block || mark[at(block.inputs[next].index)] == done)) ++next;
         if (next == block.inputs.size()) {
           mark[at(index)] = done;
-          result_.order.push_back(index);
+          order.push_back(index);
           path.pop_back();
           continue;
         }
@@ -188,6 +186,7 @@ class Finder {
         path.emplace_back(needed, 0);
       }
     }
+    return order;
   }
 
   [[noreturn]] void refuse(const std::vector<int>& loop, const std::string& why) const {

@@ -158,7 +158,8 @@ class Run {
     dae.choose_limits(t, y_.data(), yp_.data());
     drive_.blocks().fire({});
     system_->consistency.derivative(t, y_, yp_);
-    drive_.remember(t, dae.view(t, y_.data(), yp_.data()).velocity);
+    const Dae::View& view = dae.view(t, y_.data(), yp_.data());
+    drive_.remember(t, view.velocity, view.acceleration);
     for (const std::string& note : check_ties(dae, t)) note_once(note);
     for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
@@ -224,7 +225,7 @@ class Run {
       observer_.step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
-      drive_.remember(t, view.velocity);
+      drive_.remember(t, view.velocity, view.acceleration);
       for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
         observer_.event(event);
       }

@@ -234,6 +234,48 @@ TEST_CASE("delayed feedback through a delay much shorter than a step") {
   }
 }
 
+// The force of a motion that comes through a delay is its mass times the acceleration of a while ago, as exact as all else.
+TEST_CASE("the force of a motion that follows a state or a mass of a while ago") {
+  constexpr double k = 30, m = 2, V = 1.3, T = 0.35, tau = 0.3, w = 4.4;
+  const double w0 = std::sqrt(k);
+  const std::string text = fmt::format(R"([elements]
+k    = {{ type = "spring", between = ["x", "ground"], stiffness = {} }}
+m    = {{ type = "mass", at = "x", mass = 1 }}
+then = {{ type = "delay", in = "x.velocity", delay = {} }}
+mv   = {{ type = "motion", at = "a", velocity = {{ block = "then" }} }}
+ma   = {{ type = "mass", at = "a", mass = {} }}
+g    = {{ type = "generator", signal = {{ sine = 1, frequency = {} }} }}
+lag  = {{ type = "lag", in = "g", time_constant = {} }}
+late = {{ type = "delay", in = "lag", delay = {} }}
+mw   = {{ type = "motion", at = "b", velocity = {{ block = "late" }} }}
+mb   = {{ type = "mass", at = "b", mass = {} }}
+[nodes]
+x = {{ velocity = {} }}
+[simulate]
+stop = 4
+output = {{ every = 0.01 }}
+record = ["mv.force", "mw.force"]
+)", k, T, m, w / (2 * std::numbers::pi), tau, T, m, V);
+  // The lag: T y' = sin(w t) - y from rest.
+  const auto lag_rate = [](double t) {
+    const double gain = 1 / (1 + w * w * tau * tau);
+    const double y = gain * (std::sin(w * t) - w * tau * (std::cos(w * t) - std::exp(-t / tau)));
+    return (std::sin(w * t) - y) / tau;
+  };
+  for (const double accuracy : accuracies) {
+    const Trajectory run = simulate(text, accuracy);
+    double mass = 0, state = 0;
+    for (std::size_t row = 0; row < run.time().size(); ++row) {
+      const double then = run.time()[row] - T;
+      if (std::abs(then) < 1e-9) continue;
+      mass = std::max(mass, std::abs(std::abs(run["mv.force"][row]) - (then < 0 ? 0 : m * V * w0 * std::abs(std::sin(w0 * then)))));
+      state = std::max(state, std::abs(std::abs(run["mw.force"][row]) - (then < 0 ? 0 : m * std::abs(lag_rate(then)))));
+    }
+    CHECK(mass <= accuracy * run.scale("mv.force"));
+    CHECK(state <= accuracy * run.scale("mw.force"));
+  }
+}
+
 TEST_CASE("blocks that start steady: a lag at its end, a delay of what has always been") {
   const std::string blocks =
       "g = { type = \"generator\", signal = { cosine = 3, frequency = 0.5 } }\n"
