@@ -6,8 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <queue>
+#include <set>
+#include <utility>
 
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -88,6 +89,7 @@ void Dae::number_unknowns() {
       for (NodeId node : {b.a, b.b}) softest[at(node)] = std::min(softest[at(node)], laws.batch->impulse(i));
     }
   }
+  const std::vector<char> told_by_others = told_by_dilatant_laws(told);
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
@@ -99,13 +101,32 @@ void Dae::number_unknowns() {
       // 0 needs that only where nothing else tells the velocities: its force is lost in the tolerance long before its
       // velocity is. So does one that is much stiffer than what it is in series with: the difference of the velocities of its
       // ends would have lost its digits.
-      const bool needed = std::isfinite(impulse) || told.find(b.a) != told.find(b.b);
+      const bool needed = std::isfinite(impulse) || (told.find(b.a) != told.find(b.b) && !told_by_others[at(laws.first) + i]);
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
       const bool by_force = linear ? stiff(b.a) || stiff(b.b) : needed && (massless(b.a) || massless(b.b));
       by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }
   }
+}
+
+/// Of each rate branch: a dilatant law that is solved for its velocity, as others like it tell that by their forces (on top of
+/// what `told` joins). Beside a law with a memory it may rest under load, where its force is 0 to more digits than there are.
+std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
+  std::vector<char> result(structure_->rates.size(), 0);
+  std::set<std::pair<NodeId, NodeId>> with_memory;
+  for (const Branch& b : structure_->deflections) with_memory.insert(std::minmax(b.a, b.b));
+  for (const bool beside : {false, true}) {
+    for (const Laws<RateBatch>& laws : network_->rate_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const Branch& b = structure_->rates[at(laws.first) + i];
+        if (std::isfinite(laws.batch->impulse(i)) || with_memory.count(std::minmax(b.a, b.b)) != beside) continue;
+        result[at(laws.first) + i] = beside && told.find(b.a) == told.find(b.b);
+        told.join(b.a, b.b);
+      }
+    }
+  }
+  return result;
 }
 
 void Dae::derive_positions(const std::vector<char>& needed) {

@@ -9,6 +9,7 @@
 #include "core/dae/state.hpp"
 #include "core/network/index.hpp"
 #include "core/network/network.hpp"
+#include "core/network/sets.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
@@ -198,6 +199,7 @@ class Dae {
   void block_jacobian(double* values) const;
 
   void number_unknowns();
+  std::vector<char> told_by_dilatant_laws(Sets told) const;
   void derive_positions(const std::vector<char>& needed);
   void add_row(int row, bool position, const Structure::Loop& loop);
   Terms add_terms(const Structure::Loop& loop);

@@ -133,7 +133,7 @@ bool ReferenceNetwork::search(const Input& input, const std::vector<double>& dir
   while (close && high > 1e-60 && blurred(-first)) at_high = go(high /= 16);
   while (at_high < 0.5 * first) {
     low = high, at_low = at_high;
-    if (close || (high *= 4) > 1e12) return false;
+    if (close || (high *= 4) > 1e30) return false;
     at_high = go(high);
   }
   // The function is convex: beyond its lowest point only these bounds on it tell that it is lower there than at the start,
