@@ -159,7 +159,8 @@ bool ReferenceRun::turns_ahead(double ahead) const {
 bool ReferenceRun::step(double after, int depth, double ahead) {
   const double before = t_, h = after - before;
   if (depth == bisections) halvings_ = 0;
-  if (halvings_ >= most_halvings || (depth == bisections && searches_ >= most_searches)) depth = 0;
+  // What turns in a jump does so in no time: there is nothing to be found but rounding.
+  if (at_instant_ || halvings_ >= most_halvings || (depth == bisections && searches_ >= most_searches)) depth = 0;
   const ReferenceNetwork start = network_;
   const ReferenceNetwork::Input given = input(before, after);
   const bool done = network_.step(given);
@@ -235,9 +236,11 @@ bool ReferenceRun::go() {
         // The row holds the values just after the instant.
         const double just_after = std::min(scene_.stop, t_ + instant * (scene_.stop - scene_.start));
         const double before = t_ + (just_after - t_) / instant_steps;
+        at_instant_ = true;
         if (just_after > t_ && !advance(before, 1)) return false;
         const std::vector<double> early = values();
         if (just_after > t_ && !advance(just_after, instant_steps - 1)) return false;
+        at_instant_ = false;
         record(&early);
         ++row;
       }

@@ -76,6 +76,7 @@ class ReferenceRun {
   std::vector<std::vector<ReferenceLaw::Piece>> pieces_;
   double t_ = 0;
   int halvings_ = 0;                  ///< in the present search for a turn
+  bool at_instant_ = false;  ///< in the short steps just after a break
   int searches_ = 0;
   double fork_ = INFINITY;
   std::optional<Step> first_turn_;  ///< of those within a step, the shortest step that shows it
