@@ -41,6 +41,7 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   }
   find_dependence();
   refuse_loops(network, classified);
+  find_longest_step(network, classified);
 }
 
 void BlockSignals::find_dependence() {
@@ -60,121 +61,17 @@ void BlockSignals::find_dependence() {
     state_channel_.assign(state.size(), -1);
     sensor_channel_.assign(sensed.size(), -1);
     mark_inputs(blocks_->blocks[k]);
-    for (std::size_t z = 0; z < state.size(); ++z) any[k * atoms() + z] = state_channel_[z] == 0;
-    for (std::size_t m = 0; m < sensed.size(); ++m) any[k * atoms() + state.size() + m] = sensor_channel_[m] == 0;
+    for (std::size_t atom = 0; atom < atoms(); ++atom) {
+      if ((atom < state.size() ? state_channel_[atom] : sensor_channel_[atom - state.size()]) < 0) continue;
+      any[k * atoms() + atom] = 1;
+      pairs_.push_back({k, atom});
+    }
   }
   find_slopes(true, any, slope_, rate_slope_);
   couples_ = nonzero(slope_);
   rate_couples_ = nonzero(rate_slope_);
   find_slopes(false, delay_slope_, slope_, rate_slope_);
   find_channels();
-}
-
-void BlockSignals::find_channels() {
-  state_channel_.assign(state.size(), -1);
-  sensor_channel_.assign(sensed.size(), -1);
-  visited_.assign(out_.size(), 0);
-  for (std::size_t k = 0; k < out_.size(); ++k) {
-    const Blocks::Block& block = blocks_->blocks[k];
-    if (block.law.delay == 0) continue;
-    reach_ = std::max(reach_, find_reach(static_cast<int>(k)));
-    mark_inputs(block);
-  }
-  for (std::vector<int>* channels : {&state_channel_, &sensor_channel_}) {
-    for (int& channel : *channels) {
-      if (channel == 0) channel = static_cast<int>(channel_count_++);
-    }
-  }
-  remembered_.resize(channel_count_);
-}
-
-/// How far back the output of a block may look. Loops always go through a state.
-double BlockSignals::find_reach(int index) const {
-  const Blocks::Block& block = blocks_->blocks[at(index)];
-  double reach = 0;
-  for (const Blocks::Input& in : block.inputs) {
-    if (in.from_block && !block.law.state) reach = std::max(reach, find_reach(in.index));
-  }
-  return reach + block.law.delay;
-}
-
-/// What a delay needs to know of the past of a block.
-void BlockSignals::mark_past(int index) {
-  if (std::exchange(visited_[at(index)], 1)) return;
-  if (state_of(index) >= 0) {
-    state_channel_[at(state_of(index))] = 0;
-  } else {
-    mark_inputs(blocks_->blocks[at(index)]);
-  }
-}
-
-void BlockSignals::mark_inputs(const Blocks::Block& block) {
-  for (const Blocks::Input& in : block.inputs) {
-    if (in.from_block) {
-      mark_past(in.index);
-    } else if (blocks_->sensors[at(in.index)].motion < 0) {
-      sensor_channel_[at(in.index)] = 0;
-    }
-  }
-}
-
-bool BlockSignals::of_time_alone(int index) const {
-  const Blocks::Block& block = blocks_->blocks[at(index)];
-  return !block.law.state && std::all_of(block.inputs.begin(), block.inputs.end(), [&](const Blocks::Input& in) {
-    return in.from_block ? of_time_alone(in.index) : blocks_->sensors[at(in.index)].motion >= 0;
-  });
-}
-
-/// The rates of blocks that give positions are blocks of their own, so that a state ends every way to a motion.
-bool BlockSignals::feeds_motion(int index) const {
-  const auto leads = [&](const auto& self, int to) -> bool {
-    if (to == index) return true;
-    const Blocks::Block& block = blocks_->blocks[at(to)];
-    return !block.law.state && std::any_of(block.inputs.begin(), block.inputs.end(),
-                                           [&](const Blocks::Input& in) { return in.from_block && self(self, in.index); });
-  };
-  return std::any_of(network_->motions.begin(), network_->motions.end(),
-                     [&](const Network::Motion& m) { return m.block >= 0 && leads(leads, m.block); });
-}
-
-double BlockSignals::longest_step() const {
-  double longest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < out_.size(); ++k) {
-    const double delay = blocks_->blocks[k].law.delay;
-    const int block = static_cast<int>(k);
-    if (delay > 0 && !of_time_alone(block) && feeds_motion(block)) longest = std::min(longest, delay);
-  }
-  return longest;
-}
-
-bool BlockSignals::breaks(double t, const Past& past) const {
-  constexpr double rounding = 1e-12;  // of values that are the same
-  const double side = time_grain(t);
-  const auto differ = [](double a, double b) { return std::abs(a - b) > rounding * (std::abs(a) + std::abs(b)); };
-  for (std::size_t k = 0; k < out_.size(); ++k) {
-    const int block = static_cast<int>(k);
-    if (blocks_->blocks[k].law.delay == 0 || !of_time_alone(block)) continue;
-    Look back{past, t, -side}, ahead{past, t, side};
-    const Dual before = earlier(block, t, back), after = earlier(block, t, ahead);
-    if (differ(before.value, after.value) || differ(before.derivative, after.derivative)) return true;
-  }
-  return false;
-}
-
-const std::vector<Past::Known>& BlockSignals::remembered(const std::vector<double>& velocity,
-                                                         const std::vector<double>& acceleration) {
-  for (std::size_t k = 0; k < state_channel_.size(); ++k) {
-    if (state_channel_[k] >= 0) remembered_[at(state_channel_[k])] = {state[k].value, rate(k)};
-  }
-  for (std::size_t k = 0; k < sensor_channel_.size(); ++k) {
-    if (sensor_channel_[k] < 0) continue;
-    const Blocks::Sensor& sensor = blocks_->sensors[k];
-    const double rate = sensor.what == What::position ? velocity[at(sensor.index)]
-                        : heavy_[k]                    ? acceleration[at(sensor.index)]
-                                                       : std::numeric_limits<double>::quiet_NaN();
-    remembered_[at(sensor_channel_[k])] = {sensed[k].value, rate};
-  }
-  return remembered_;
 }
 
 double BlockSignals::enter(double t) {
@@ -224,7 +121,6 @@ Dual BlockSignals::motion_at(const Blocks::Sensor& sensor, const Stretch& s, dou
 }
 
 void BlockSignals::evaluate_time(double t, const Past& past) {
-  past_ = &past;
   now_ = t;
   aside_ = past.aside(t);
   for (std::size_t k = 0; k < out_.size(); ++k) {
@@ -241,57 +137,6 @@ void BlockSignals::evaluate_time(double t, const Past& past) {
   for (std::size_t k = 0; k < moved_.size(); ++k) {
     if (!moved_[k].empty()) sensed[k] = motion_at(blocks_->sensors[k], moved_[k].back(), t);
   }
-}
-
-void BlockSignals::look_back() {
-  for (std::size_t k = 0; k < out_.size(); ++k) {
-    if (!present_[k]) continue;
-    Look look{*past_, now_, aside_};
-    out_[k] = earlier(static_cast<int>(k), now_, look);
-  }
-}
-
-/// What a block has put out at an earlier time.
-Dual BlockSignals::earlier(int index, double t, Look& look) const {
-  const Blocks::Block& block = blocks_->blocks[at(index)];
-  if (block.generates) {
-    const Stretch* stretch = current(generated_[at(index)], t + look.aside);
-    const Piece& piece = stretch ? stretch->piece : generated_[at(index)].front().piece;
-    return look.seen(piece.value(t), piece.rate(t));
-  }
-  if (block.law.state) {
-    const int z = state_of(index);
-    return remembered_at(at(z), state_channel_[at(z)], t, look);
-  }
-  if (block.law.delay > 0) {
-    const double then = t - block.law.delay;
-    if (then + look.aside >= 0) return earlier_input(block, then, look);
-    return before_run_.empty() ? block.law.initial : before_run_[at(index)];
-  }
-  return limited(block, Dual(block.law.gain) * earlier_input(block, t, look));
-}
-
-Dual BlockSignals::earlier_input(const Blocks::Block& block, double t, Look& look) const {
-  Dual u;
-  for (const Blocks::Input& in : block.inputs) {
-    const auto value = [&]() -> Dual {
-      if (in.from_block) return earlier(in.index, t, look);
-      const std::size_t k = at(in.index);
-      if (sensor_channel_[k] >= 0) return remembered_at(state.size() + k, sensor_channel_[k], t, look);
-      const Stretch* stretch = current(moved_[k], t + look.aside);
-      const Dual told = motion_at(blocks_->sensors[k], stretch ? *stretch : moved_[k].front(), t);
-      return look.seen(told.value, told.derivative);
-    }();
-    u = u + Dual(in.sign) * value;
-  }
-  return u;
-}
-
-Dual BlockSignals::remembered_at(std::size_t atom, int channel, double t, Look& look) const {
-  const Past::Felt f = look.past.channel(at(channel), t, look.aside, look.now);
-  look.present = look.present || f.present.value != 0;
-  const Dual then = f.known + f.present * (atom < state.size() ? state[atom] : sensed[atom - state.size()]);
-  return look.atom < 0 ? then : Dual(then.value, at(look.atom) == atom ? f.present.value : 0);
 }
 
 Dual BlockSignals::input(const Blocks::Block& block) const {
@@ -385,20 +230,6 @@ void BlockSignals::choose() {
   }
   for (const Fired& fired : fired_) side_[at(fired.block)] = fired.side;
   if (side_ != before) find_slopes(false, delay_slope_, slope_, rate_slope_);
-}
-
-void BlockSignals::update_slopes() {
-  bool change = false;
-  for (std::size_t k = 0; k < out_.size(); ++k) {
-    if (blocks_->blocks[k].law.delay == 0) continue;
-    for (std::size_t atom = 0; atom < atoms(); ++atom) {
-      Look look{*past_, now_, aside_, static_cast<int>(atom)};
-      const double slope = present_[k] ? earlier(static_cast<int>(k), now_, look).derivative : 0;
-      change = change || slope != delay_slope_[k * atoms() + atom];
-      delay_slope_[k * atoms() + atom] = slope;
-    }
-  }
-  if (change) find_slopes(false, delay_slope_, slope_, rate_slope_);
 }
 
 }  // namespace rheonet

@@ -33,9 +33,9 @@ class BlockSignals {
   /// What the channels of the past hold now, where nodes have these velocities [m/s] and accelerations [m/s^2], the latter
   /// as far as masses have them.
   const std::vector<Past::Known>& remembered(const std::vector<double>& velocity, const std::vector<double>& acceleration);
-  /// The longest step [s]: no delay of what moves freely that a prescribed motion follows from is shorter, as its
-  /// acceleration must be known beforehand.
-  double longest_step() const;
+  /// The longest step [s]: no delay is shorter that takes in what moves freely and that a prescribed motion follows from,
+  /// as its acceleration must be known beforehand; nor one that takes in what no mass keeps from jumping.
+  double longest_step() const { return longest_step_; }
 
   // --- Functions of time.
   /// Generators go over to the stretches that begin at t. Returns when the next of them ends [s].
@@ -47,8 +47,8 @@ class BlockSignals {
   /// What generators and delays put out at t, and what sensors tell of prescribed motions, with rates.
   void evaluate_time(double t, const Past& past);
   /// What delays shorter than the time since the last step put out follows from the present too: anew, with the states
-  /// and what sensors tell now. After `evaluate_time`, and while that `past` has not changed.
-  void look_back();
+  /// and what sensors tell now. After `evaluate_time`, with the same `past`.
+  void look_back(const Past& past);
 
   /// Whether a delay puts out something else just after t than just before, of functions of time alone: these nothing
   /// smoothes on their way.
@@ -72,18 +72,18 @@ class BlockSignals {
   std::size_t atoms() const { return state.size() + sensed.size(); }
   double slope(int block, std::size_t atom) const { return slope_[at(block) * atoms() + atom]; }
   double rate_slope(std::size_t k, std::size_t atom) const { return rate_slope_[k * atoms() + atom]; }
-  /// Brings them up to date with what delays look back to.
-  void update_slopes();
+  /// Brings them up to date with what delays look back to in `past`.
+  void update_slopes(const Past& past);
   /// Whether an output can depend on an atom at all, at the same instant.
   bool depends(int block, std::size_t atom) const { return depends_[at(block) * atoms() + atom] != 0; }
-  bool depends(int block) const {
+  /// The same of an output, or of the rate of a state, through delays shorter than a step as well.
+  bool couples(int block, std::size_t atom) const { return couples_[at(block) * atoms() + atom] != 0; }
+  bool couples(int block) const {
     for (std::size_t atom = 0; atom < atoms(); ++atom) {
-      if (depends(block, atom)) return true;
+      if (couples(block, atom)) return true;
     }
     return false;
   }
-  /// The same of an output, or of the rate of a state, through delays shorter than a step as well.
-  bool couples(int block, std::size_t atom) const { return couples_[at(block) * atoms() + atom] != 0; }
   bool rate_couples(std::size_t k, std::size_t atom) const { return rate_couples_[k * atoms() + atom] != 0; }
 
   // --- Limiters. Each bound that is finite has an event.
@@ -116,6 +116,7 @@ class BlockSignals {
                    std::vector<double>& rate_slope) const;
   void find_dependence();
   bool feeds_motion(int block) const;
+  void find_longest_step(const Network& network, const Structure& classified);
   Dual input(const Blocks::Block& block) const;
   Dual limited(const Blocks::Block& block, Dual v) const;
   /// A look back from `now` [s]. Derivatives are by time or, if it is not -1, by an atom as it is now.
@@ -140,7 +141,7 @@ class BlockSignals {
   std::vector<int> state_of_;      ///< of each block, -1
   std::vector<int> state_blocks_;
   std::vector<double> delays_;
-  double reach_ = 0;
+  double reach_ = 0, longest_step_ = std::numeric_limits<double>::infinity();
   std::vector<std::deque<Stretch>> generated_;  ///< of each block: the stretches of a generator, as far back as reach_
   std::vector<std::deque<Stretch>> moved_;      ///< of each sensor: those of a prescribed motion
   std::vector<int> state_channel_, sensor_channel_;
@@ -155,8 +156,9 @@ class BlockSignals {
   std::vector<double> slope_, rate_slope_, delay_slope_;
   std::vector<char> depends_, couples_, rate_couples_;
   std::vector<char> present_;       ///< of each delay: it follows from the present too
-  const Past* past_ = nullptr;      ///< of the last `evaluate_time`, at time now_ [s] and to the side aside_ of it
-  double now_ = 0, aside_ = 0;
+  struct Pair { std::size_t delay, atom; };
+  std::vector<Pair> pairs_;         ///< delays, and what they may follow from at present
+  double now_ = 0, aside_ = 0;      ///< the time of the last `evaluate_time`, and the side of it that was meant [s]
   std::vector<double> before_run_;  ///< what each block has put out before the run, if that began in a steady state
 };
 

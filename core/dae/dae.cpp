@@ -4,21 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
-#include <set>
-#include <utility>
-
 
 namespace rheonet {
-
-namespace {
-
-// A linear dashpot this much stiffer than another one at a massless end has a force of its own among the unknowns: what it
-// costs is one unknown, what it saves is as many digits.
-constexpr double stiff_in_series = 1e3;
-
-}  // namespace
 
 Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
     : network_(&network), structure_(&structure), drive_(&drive), bonds_(network, structure) {
@@ -55,152 +42,6 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   build_pattern();
 }
 
-void Dae::number_unknowns() {
-  const Network& network = *network_;
-  iv_.assign(network.nodes(), -1);
-  ix_ = iv_;
-  ip_.assign(network.deflections.size(), -1);
-  if_.assign(network.rates.size(), -1);
-  // Unknowns that belong together stand together: it keeps the columns of a chain near each other.
-  for (NodeId node : network.node_order) {
-    const int group = structure_->group[at(node)];
-    const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == node;
-    const Kind kind = structure_->kind[at(node)];
-    if (kind != Kind::known && kind != Kind::joined && !reference) iv_[at(node)] = size_++;
-  }
-  for (std::size_t j = 0; j < ip_.size(); ++j) {
-    if (!structure_->driven[j]) ip_[j] = size_++;
-  }
-  const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
-  const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
-  // Velocities that laws without a flat place tell from each other, or that masses and motions give; the softest linear
-  // dashpot at each node.
-  Sets told(network.nodes());
-  std::vector<double> softest(network.nodes(), std::numeric_limits<double>::infinity());
-  for (NodeId node : network.node_order) {
-    if (!massless(node)) told.join(node, ground);
-  }
-  for (const Laws<RateBatch>& laws : network.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = structure_->rates[at(laws.first) + i];
-      if (!std::isfinite(laws.batch->impulse(i))) continue;
-      told.join(b.a, b.b);
-      if (laws.batch->impulse(i) == 0) continue;
-      for (NodeId node : {b.a, b.b}) softest[at(node)] = std::min(softest[at(node)], laws.batch->impulse(i));
-    }
-  }
-  const std::vector<char> told_by_others = told_by_dilatant_laws(told);
-  for (const Laws<RateBatch>& laws : network.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = structure_->rates[at(laws.first) + i];
-      const double impulse = laws.batch->impulse(i);
-      const bool linear = impulse > 0 && std::isfinite(impulse);
-      rough_ = rough_ || !linear;
-      // Where the velocities are given or belong to masses the force follows from them. At a massless node the balance
-      // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for. One with slope
-      // 0 needs that only where nothing else tells the velocities: its force is lost in the tolerance long before its
-      // velocity is. So does one that is much stiffer than what it is in series with: the difference of the velocities of its
-      // ends would have lost its digits.
-      const bool needed = std::isfinite(impulse) || (told.find(b.a) != told.find(b.b) && !told_by_others[at(laws.first) + i]);
-      const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
-      const bool by_force = linear ? stiff(b.a) || stiff(b.b) : needed && (massless(b.a) || massless(b.b));
-      by_force_.push_back(by_force && b.a != b.b);
-      if (by_force_.back()) if_[at(laws.first) + i] = size_++;
-    }
-  }
-}
-
-/// Of each rate branch: a dilatant law that is solved for its velocity, as others like it tell that by their forces (on top of
-/// what `told` joins). Beside a law with a memory it may rest under load, where its force is 0 to more digits than there are.
-std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
-  std::vector<char> result(structure_->rates.size(), 0);
-  std::set<std::pair<NodeId, NodeId>> with_memory;
-  for (const Branch& b : structure_->deflections) with_memory.insert(std::minmax(b.a, b.b));
-  for (const bool beside : {false, true}) {
-    for (const Laws<RateBatch>& laws : network_->rate_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        const Branch& b = structure_->rates[at(laws.first) + i];
-        if (std::isfinite(laws.batch->impulse(i)) || with_memory.count(std::minmax(b.a, b.b)) != beside) continue;
-        result[at(laws.first) + i] = beside && told.find(b.a) == told.find(b.b);
-        told.join(b.a, b.b);
-      }
-    }
-  }
-  return result;
-}
-
-void Dae::derive_positions(const std::vector<char>& needed) {
-  const Network& network = *network_;
-  const std::size_t nodes = iv_.size();
-  std::vector<std::vector<int>> branches(nodes);
-  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->creeps(i)) continue;
-      const int j = laws.first + static_cast<int>(i);
-      branches[at(network.deflections[at(j)].a)].push_back(j);
-      branches[at(network.deflections[at(j)].b)].push_back(j);
-    }
-  }
-  std::vector<std::vector<int>> sliders(nodes);
-  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
-    const Branch& b = network.sliders[k].branch;
-    if (!structure_->stuck[k] || !needed[at(b.a)] || !needed[at(b.b)]) continue;
-    sliders[at(b.a)].push_back(static_cast<int>(k));
-    sliders[at(b.b)].push_back(static_cast<int>(k));
-  }
-  derived_.assign(nodes, {});
-  std::vector<char> reached(nodes, 0);
-  std::vector<NodeId> order;
-  std::queue<NodeId> queue;
-  const auto spread = [&] {
-    while (!queue.empty()) {
-      const NodeId node = queue.front();
-      queue.pop();
-      order.push_back(node);
-      const auto go = [&](int branch, int slider, const Branch& b) {
-        const NodeId other = b.a == node ? b.b : b.a;
-        if (reached[at(other)]) return;
-        reached[at(other)] = 1;
-        derived_[at(other)] = {branch, slider, node, b.a == other ? 1.0 : -1.0};
-        queue.push(other);
-      };
-      for (int k : sliders[at(node)]) go(-1, k, network.sliders[at(k)].branch);
-      for (int j : branches[at(node)]) go(j, -1, network.deflections[at(j)]);
-    }
-  };
-  const auto root = [&](NodeId node) {
-    reached[at(node)] = 1;
-    queue.push(node);
-  };
-  for (NodeId node : network.node_order) {
-    if (structure_->kind[at(node)] != Kind::known) continue;
-    root(node);
-    if (!structure_->of_time[at(node)]) ix_[at(node)] = size_++;
-  }
-  for (const Blocks::Sensor& sensor : network.blocks.sensors) {
-    if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0 || ix_[at(sensor.index)] >= 0) continue;
-    ix_[at(sensor.index)] = size_++;
-    root(sensor.index);
-  }
-  spread();
-  for (NodeId node : network.node_order) {
-    if (!needed[at(node)] || reached[at(node)]) continue;
-    ix_[at(node)] = size_++;
-    root(node);
-    spread();
-  }
-  std::vector<char> wanted(nodes, 0);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    for (auto node = static_cast<NodeId>(n); needed[n] && !wanted[at(node)]; node = derived_[at(node)].parent) {
-      wanted[at(node)] = 1;
-      if (derived_[at(node)].branch < 0 && derived_[at(node)].slider < 0) break;
-    }
-  }
-  for (NodeId node : order) {
-    if (wanted[at(node)]) position_order_.push_back(node);
-  }
-}
-
 Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
   Terms terms{.flow_begin = static_cast<int>(flows_.size()), .flow_end = 0,
               .velocity_begin = static_cast<int>(velocities_.size()), .velocity_end = 0};
@@ -221,13 +62,8 @@ void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
     const Past::Delayed& delayed = drive_->past().delayed()[at(r.delayed)];
     const Branch& b = structure_->deflections[at(loop.branch)];
     Structure::Loop now{.branch = -1, .flows = {}, .velocities = {}};
-    const auto add = [&](NodeId node, double sign) {
-      const Structure::Loop end = minus_velocity(*structure_, node);
-      for (const auto& [index, own] : end.flows) now.flows.push_back({index, sign * own});
-      for (const auto& [index, own] : end.velocities) now.velocities.push_back({index, sign * own});
-    };
-    if (delayed.free_a) add(b.a, 1);
-    if (delayed.free_b) add(b.b, -1);
+    if (delayed.free_a) now.velocities.push_back({b.a, -1});
+    if (delayed.free_b) now.velocities.push_back({b.b, 1});
     r.now = add_terms(now);
   }
   rows_.push_back(r);
@@ -302,12 +138,9 @@ void Dae::build_pattern() {
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
     }
-    const auto feel = [&](int column, int branch, double sign) {
-      if (column >= 0) felt_entries_.push_back({builder.ticket(row.row, column), row.delayed, branch, sign});
-    };
-    for (int k = row.now.flow_begin; k < row.now.flow_end; ++k) feel(ip_[at(flows_[at(k)].index)], flows_[at(k)].index, flows_[at(k)].sign);
     for (int k = row.now.velocity_begin; k < row.now.velocity_end; ++k) {
-      feel(iv_[at(velocities_[at(k)].index)], -1, velocities_[at(k)].sign);
+      const auto [node, sign] = velocities_[at(k)];
+      if (iv_[at(node)] >= 0) felt_entries_.push_back({builder.ticket(row.row, iv_[at(node)]), row.delayed, sign});
     }
   }
 

@@ -156,7 +156,7 @@ class Dae {
   /// Terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
   struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
   /// A loop or a position; minus what a delayed branch feels (an index into Drive::felt, -1 for none), of which `now` is the
-  /// negated velocity of its free ends at present.
+  /// negated velocity of its free ends at present, which masses have (else no step is longer than the delay).
   struct Row { int row; bool position; Terms terms; int delayed; Terms now; };
 
   /// Branches between the same ends that are held still together have one velocity, 0, and so one sign of it between -1
@@ -231,8 +231,8 @@ class Dae {
   Pattern pattern_;
   std::vector<double> constant_, mass_;  ///< of each entry of the pattern
   struct FlowEntry { int entry, branch; double sign; };
-  /// An entry of what a delayed branch feels of the present: a flow, or (`branch` is -1) a velocity.
-  struct FeltEntry { int entry, delayed, branch; double sign; };
+  /// An entry of what a delayed branch feels of the present.
+  struct FeltEntry { int entry, delayed; double sign; };
   std::vector<Parallel> parallels_;        ///< of two or more
   std::vector<Follower> followers_;
   std::vector<FlowEntry> flow_entries_;    ///< coefficients of p' that vanish while their branch is held still

@@ -131,7 +131,7 @@ void Dae::feel_blocks(const double* y) {
       blocks.sensed[k] = if_[at(place.index)] >= 0 ? in : law.force_at(i, in);
     }
   }
-  blocks.look_back();
+  drive_->look_back();
   blocks.run(true);
   drive_->apply_blocks();
 }
@@ -139,7 +139,7 @@ void Dae::feel_blocks(const double* y) {
 void Dae::block_jacobian(double* values) const {
   if (couplings_.empty()) return;
   BlockSignals& blocks = drive_->blocks();
-  blocks.update_slopes();
+  blocks.update_slopes(drive_->past());
   for (const Coupling& c : couplings_) {
     const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
     const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;

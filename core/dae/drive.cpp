@@ -6,12 +6,22 @@
 
 namespace rheonet {
 
+namespace {
+
+std::vector<char> firm(const Structure& classified) {
+  std::vector<char> result;
+  for (const Kind kind : classified.kind) result.push_back(kind == Kind::known || kind == Kind::massive);
+  return result;
+}
+
+}  // namespace
+
 Drive::Drive(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
     : network_(&network),
       stop_(network.scene->stop - network.scene->start),
       moves_by_blocks_(false),
       blocks_(network, classified),
-      past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels(), blocks_.longest_step()) {
+      past_(network, blocks_.delays(), blocks_.reach(), blocks_.channels(), blocks_.longest_step(), firm(classified)) {
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -25,6 +26,8 @@ class Drive {
   /// The next instant at which a signal or one of its derivatives jumps, or such an instant comes through a delay; infinite
   /// if none does.
   double next_break() const { return std::min(next_break_, past_.next_break()); }
+  /// The same without what comes through delays.
+  double next_signal_break() const { return next_break_; }
   /// What breaks at t = next_break(), to be asked before `enter`: whether the signal of this element itself jumps there or
   /// only a derivative, and to which side it or its slope goes (0: neither).
   struct Break { int element; bool jumps; int direction; };
@@ -50,7 +53,10 @@ class Drive {
   /// What has been at t, for what comes later: after a break, and after each step, with blocks evaluated there.
   void remember(double t, const std::vector<double>& velocity, const std::vector<double>& acceleration) {
     past_.remember(t, velocity, blocks_.remembered(velocity, acceleration));
+    time_ = std::numeric_limits<double>::quiet_NaN();
   }
+  /// What blocks put out that follows from the past and the present: see BlockSignals::look_back.
+  void look_back() { blocks_.look_back(past_); }
 
   /// What delayed branches feel. An event at t is a break of it too.
   Past& past() { return past_; }

@@ -168,10 +168,7 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
     const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
     values[s.entry] += weight * d[at(s.index)];
   }
-  for (const FeltEntry& f : felt_entries_) {
-    const double now = f.sign * drive_->felt_now[at(f.delayed)];
-    values[f.entry] += f.branch < 0 ? now : now * moving_[at(f.branch)] * (cj + dc_[at(f.branch)]);
-  }
+  for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * drive_->felt_now[at(f.delayed)];
   block_jacobian(values);
   share_jacobian(cj, yp, values, false);
 }
@@ -214,9 +211,6 @@ void Dae::consistency_matrix(double t, const double* y, double* values) {
   jacobian(t, 0, y, nullptr, values);
   for (std::size_t e = 0; e < constant_.size(); ++e) {
     if (differential_[at(pattern_.row[e])]) values[e] = mass_[e];
-  }
-  for (const FeltEntry& f : felt_entries_) {
-    if (f.branch >= 0) values[f.entry] += f.sign * drive_->felt_now[at(f.delayed)] * moving_[at(f.branch)];
   }
   share_jacobian(0, nullptr, values, true);
 }

@@ -104,7 +104,7 @@ void Instant::check_load(double t, double then, const State& state, const std::v
   if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways());
 }
 
-/// A time in which neither the drive nor the network itself changes its course [s].
+/// A time in which neither the drive nor the network itself changes its course, unless that is less than can be told [s].
 double Instant::time_ahead(double t, double horizon, const State& state) const {
   const std::size_t nodes = structure_.kind.size();
   std::vector<double> stiffness(nodes, 0), damping(nodes, 0);
@@ -144,7 +144,7 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
   double ahead = share_of_horizon * horizon;
   // In less time than that what springs do would be lost in the rounding of what dashpots do.
   if (fastest > 0) ahead = std::clamp(ahead, least_of_network / fastest, share_of_network / fastest);
-  return std::max(ahead, time_grain(t));
+  return std::max(std::min(ahead, drive_.past().shortest() / 2), time_grain(t));
 }
 
 double Instant::given_velocity(NodeId node) const {

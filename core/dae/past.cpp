@@ -15,11 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
 constexpr int most_levels = 6;
 
-// Points that count beside the present. Between the last of many and the present a polynomial through them magnifies what their
-// rounding and the integrator's errors are by up to 3: where no mass smoothes what comes back through the delay that grows
-// from step to step, or holds the steps down. Through 3 and the present it is 1.6.
-constexpr std::size_t points_before = 3;
-
 /// The last one that has begun by t; nullptr if none has (before the run).
 template <class Items>
 auto* current(Items& items, double t) {
@@ -29,13 +24,15 @@ auto* current(Items& items, double t) {
 
 }  // namespace
 
-Past::Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit)
+Past::Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit,
+           const std::vector<char>& firm)
     : index_of_(network.deflections.size(), -1),
       delays_(delays),
       channels_(channels),
       track_of_(network.nodes(), -1),
       track_of_motion_(network.motions.size(), -1),
       longest_step_(limit),
+      shortest_(channels > 0 ? *std::min_element(delays.begin(), delays.end()) : infinity),
       longest_(reach) {
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -59,19 +56,16 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
   delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
   taken_.assign(delayed_.size(), -infinity);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
-    if (network.motions[m].block >= 0) {  // as any other node, but its velocity is no unknown
-      for (const Delayed& d : delayed_) {
-        if (d.a == network.motions[m].node || d.b == network.motions[m].node) longest_step_ = std::min(longest_step_, d.delay);
-      }
-      continue;
-    }
+    if (network.motions[m].block >= 0) continue;  // as any other node
     track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
     if (track_of_motion_[m] >= 0) tracks_[static_cast<std::size_t>(track_of_motion_[m])].motion = static_cast<int>(m);
   }
-  const auto free = [&](NodeId node) { return node != ground && track(node)->motion < 0; };
   for (Delayed& d : delayed_) {
-    d.free_a = free(d.a);
-    d.free_b = free(d.b);
+    for (const auto& [node, free] : {std::pair{d.a, &d.free_a}, std::pair{d.b, &d.free_b}}) {
+      *free = node != ground && track(node)->motion < 0;
+      if (*free) shortest_ = std::min(shortest_, d.delay);
+      if (*free && !firm[static_cast<std::size_t>(node)]) longest_step_ = std::min(longest_step_, d.delay / steps_in_delay);
+    }
   }
 }
 
@@ -204,12 +198,12 @@ void Past::find_next_break() {
 }
 
 /// The polynomial through the points around t; beyond the last one the present is the next.
-Past::Felt Past::interpolate(const Run& run, double t, double now) {
+Past::Felt Past::interpolate(const Run& run, double t, double now, bool last) {
   const std::vector<Point>& points = run.points;
-  if (points.empty()) return {0, 0};
+  if (points.empty()) return {0, 1};  // it has just begun
   const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
-  const bool beyond = after == points.end() && now > points.back().t;
-  const std::size_t count = std::min(beyond ? points_before : step_points, points.size());
+  const bool beyond = last && t > points.back().t + time_grain(t) && now > t;
+  const std::size_t count = std::min(beyond ? step_points - 1 : step_points, points.size());
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t first = std::min(middle > count / 2 ? middle - count / 2 : 0, points.size() - count);
   Dual times[step_points];
@@ -232,6 +226,11 @@ Past::Felt Past::interpolate(const Run& run, double t, double now) {
   return felt;
 }
 
+Past::Felt Past::look(const std::deque<Run>& runs, double t, double aside, double now, double before) {
+  const Run* run = current(runs, t + aside);
+  return run ? interpolate(*run, t, now, run == &runs.back()) : Felt{before, 0};
+}
+
 // At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
 // was before.
 Past::Felt Past::velocity(NodeId node, double t, double aside, double now) const {
@@ -243,8 +242,7 @@ Past::Felt Past::velocity(NodeId node, double t, double aside, double now) const
     if (!stretch) return {track.before, 0};
     return {stretch->position ? stretch->piece.rate(t) : stretch->piece.value(t), 0};
   }
-  const Run* run = current(track.curve.runs, side);
-  return run ? interpolate(*run, t, now) : Felt{track.before, 0};
+  return look(track.curve.runs, t, aside, now, track.before);
 }
 
 Past::Felt Past::felt(std::size_t k, double t) const {
@@ -258,8 +256,7 @@ Past::Felt Past::felt(std::size_t k, double t) const {
 double Past::aside(double t) const { return t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t); }
 
 Past::Felt Past::channel(std::size_t k, double t, double aside, double now) const {
-  const Run* run = current(channels_[k].runs, t + aside);
-  return run ? interpolate(*run, t, now) : Felt{0, 0};
+  return look(channels_[k].runs, t, aside, now, 0);
 }
 
 double Past::take_steps(std::size_t k, double t) {

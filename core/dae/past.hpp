@@ -9,28 +9,34 @@
 
 namespace rheonet {
 
-/// How fast the ends of delayed branches have moved, for as long as the longest delay: what such a branch feels is then a
-/// given function of time. Where a step is longer than a delay, what is looked for lies between the last point and the
-/// present, and depends on the present as well.
+/// How fast the ends of delayed branches have moved, for as long as the longest delay, and what else is felt later. Where a
+/// step is longer than a delay, what is looked for lies between the last point and the present, and follows from both.
 ///
 /// Prescribed motions are remembered by their stretches, exactly. Of other nodes the velocity is remembered at each step
 /// and interpolated between breaks, over as many points as the integrator's highest order uses; the present is one of them
-/// where it is needed. A break (a jump, a corner,
-/// an event) comes again one delay later, and once more after that: mostly each time in a higher derivative, until it is
-/// too smooth to matter.
+/// where it is needed. A break (a jump, a corner, an event) comes again one delay later, and once more after that: mostly
+/// each time in a higher derivative, until it is too smooth to matter.
 class Past {
  public:
   /// Besides the velocities of nodes it remembers `channels` other values, as far back as `reach`; what breaks comes again
-  /// after each of `delays` [s]. No step may be longer than `limit` [s] (infinite: none of them limits it).
-  Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit);
+  /// after each of `delays` [s]. No step may be longer than `limit` [s] (infinite: none of them limits it). Of nodes
+  /// that are not `firm` (prescribed, or with a mass) the present is not looked for.
+  Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit,
+       const std::vector<char>& firm);
 
   /// A delayed branch; `free` says which of its ends are no function of time alone.
   struct Delayed { int branch; NodeId a, b; double delay; bool free_a, free_b; };
   const std::vector<Delayed>& delayed() const { return delayed_; }
   /// The number in `delayed` of a deflection branch of the network, -1 for others.
   int index_of(int branch) const { return index_of_[static_cast<std::size_t>(branch)]; }
-  /// The longest step [s]: as long as a delay behind which the present is not looked for; infinite if there is none.
+  /// The longest step [s] where the present is not looked for; infinite where it always is. What has no mass would follow from
+  /// itself at one instant, and no error test sees it: then a step is a share of the delay, as below.
   double longest_step() const { return longest_step_; }
+  /// A step in so many delays leaves three points on either side of what is looked for: interpolated in the middle of them no
+  /// oscillation from step to step is magnified, which near their end it is, and by what feels it again and again.
+  static constexpr double steps_in_delay = 3;
+  /// The shortest delay of what is no function of time alone [s]; infinite if there is none.
+  double shortest() const { return shortest_; }
 
   /// A jump of less than this share of the largest value so far is none: an integrator's error leaves as much.
   void disregard(double share) { least_jump_ = share; }
@@ -81,7 +87,8 @@ class Past {
   };
   Track* track(NodeId node);
   Felt velocity(NodeId node, double t, double aside, double now) const;  ///< of the stretch that t + aside lies in
-  static Felt interpolate(const Run& run, double t, double now);
+  static Felt look(const std::deque<Run>& runs, double t, double aside, double now, double before);
+  static Felt interpolate(const Run& run, double t, double now, bool last);
   /// Returns whether the value jumps where a run begins.
   bool append(Curve& curve, double t, Known known) const;
   void forget(double t);
@@ -96,7 +103,7 @@ class Past {
   std::vector<int> track_of_motion_;  ///< of each, -1
   std::deque<Break> breaks_;
   std::vector<double> taken_;  ///< of each delayed branch: up to when steps have been taken [s]
-  double longest_step_, longest_ = 0, least_jump_ = 1e-12;
+  double longest_step_, shortest_, longest_ = 0, least_jump_ = 1e-12;
   double since_ = 0;           ///< the last break [s]
   double next_break_ = std::numeric_limits<double>::infinity();
 };

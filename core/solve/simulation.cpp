@@ -111,8 +111,8 @@ class Run {
     softening_.begin(drive_, state_.velocity);
     if (const double steps = settings_.stop / drive_.past().longest_step(); steps > many_steps) {
       statistics_.notes.push_back(fmt::format(
-          "no step can be longer than the shortest delay behind which a prescribed motion or its velocity lies, {:.3g} s: this "
-          "run takes {:.1e} of them; without a delay as short as that hardly anything would be different", drive_.past().longest_step(), steps));
+          "no step can be longer than the shortest delay in front of a prescribed motion, or behind what has no mass, {:.3g} s: "
+          "this run takes {:.1e} of them; without a delay as short as that hardly anything would be different", drive_.past().longest_step(), steps));
     }
     if (!given) return;
     const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
@@ -183,17 +183,21 @@ class Run {
   }
 
   /// Time until something is known to happen: the next break of the drive, the end, a cycle.
-  double horizon(double t) const {
-    double h = std::min(drive_.next_break(), settings_.stop) - t;
-    if (const double omega = drive_.fastest(); omega > 0) h = std::min(h, 1 / omega);
-    h = std::min(h, drive_.past().longest_step());
-    return h > 0 ? h : settings_.stop;
+  double horizon(double t) const { return std::min(course(t), time_until(drive_.next_break(), t)); }
+
+  /// The same but for what comes through delays, which is smooth but for a few times.
+  double course(double t) const {
+    const double h = time_until(std::min(drive_.next_signal_break(), settings_.stop), t);
+    const double omega = drive_.fastest();
+    return omega > 0 ? std::min(h, 1 / omega) : h;
   }
+
+  double time_until(double then, double t) const { return then > t ? then - t : settings_.stop; }
 
   /// From t to the next break of the drive or the end, over the events in between.
   double stretch(double t) {
     const double given = std::min(drive_.next_break(), settings_.stop);
-    const double until = std::min(given, given_reversals_.next(t, given));
+    double until = std::min(given, given_reversals_.next(t, given));
     if (until - t <= time_grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
     restart(t, until, shrink);
@@ -244,6 +248,7 @@ class Run {
       switch_memories(t);
       if (settings_.profile) settings_.profile->blame(fired_);
       if (gets_nowhere(t, fired_)) report_chatter(t);
+      until = std::min(until, drive_.next_break());  // what has happened comes through delays
       if (t >= until) return until;
       restart(t, until, shrink);
     }
@@ -288,11 +293,11 @@ class Run {
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance
   /// (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
   void restart(double t, double until, double shrink) {
-    double ahead = lookahead * horizon(t);
+    double ahead = lookahead * course(t);
     std::vector<double> ypp;
-    system_->consistency.second_derivative(t, glimpse * horizon(t), y_, yp_, ypp);
+    system_->consistency.second_derivative(t, glimpse * course(t), y_, yp_, ypp);
     if (tolerances_.blind()) {
-      const double rate = fastest_rate(system_->dae, system_->consistency, t, horizon(t), {y_, yp_, ypp}, ahead);
+      const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
     }
     tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);

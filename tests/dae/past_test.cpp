@@ -18,7 +18,7 @@ struct Remembering {
   Network network;
   Past past;
 
-  Remembering() : scene(make()), network(build_network(scene)), past(network, {}, 0, 0, HUGE_VAL) { past.begin({0, 0, 0}); }
+  Remembering() : scene(make()), network(build_network(scene)), past(network, {}, 0, 0, HUGE_VAL, {1, 1, 1}) { past.begin({0, 0, 0}); }
   static Scene make() {
     SceneBuilder b;
     b.at("m", "mass", "free", {{"mass", 1}});
@@ -102,7 +102,7 @@ TEST_CASE("past: rates that are known are told; no step is longer than what is s
   b.at("m", "mass", "free", {{"mass", 1}});
   const Scene scene = b.finish(1, 1, 1e-6);
   const Network network = build_network(scene);
-  Past past(network, {delay}, delay, 2, delay);
+  Past past(network, {delay}, delay, 2, delay, {1, 1});
   past.begin({0, 0});
   past.mark(0, true);
   for (int k = 0; k < 9; ++k) {

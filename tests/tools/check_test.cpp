@@ -137,7 +137,7 @@ TEST_CASE("a delay so short that the run takes millions of steps is told before"
     return result.out + result.err;
   };
   CHECK(!contains(notes("1 ms"), "delay"));
-  CHECK(contains(notes("1 ns"), "no step can be longer than the shortest delay behind which a prescribed motion or its velocity lies, 1e-09 s: this run takes 3.0e+09 of them"));
+  CHECK(contains(notes("1 ns"), "no step can be longer than the shortest delay in front of a prescribed motion, or behind what has no mass, 1e-09 s: this run takes 3.0e+09 of them"));
 }
 
 TEST_CASE("check -v lists what was not given and had to be chosen") {
