@@ -8,10 +8,11 @@
 
 #include "core/dae/given_reversals.hpp"
 #include "core/dae/instant.hpp"
+#include "core/dae/polynomial.hpp"
 #include "core/dae/start.hpp"
 #include "core/dae/steady.hpp"
-#include "core/network/time_grain.hpp"
 #include "core/network/index.hpp"
+#include "core/network/time_grain.hpp"
 #include "core/solve/fastest_rate.hpp"
 #include "core/solve/fired.hpp"
 #include "core/solve/headway.hpp"
@@ -28,7 +29,7 @@ namespace {
 constexpr double local_share = 6.4e-4;
 // What jumps by less than this share of the accuracy may be smooth as well: so much error is left at the end of a stretch in
 // what no error test looks at.
-constexpr double jump_share = 0.01;
+constexpr double jump_share = 0.1;
 // A first step may be wrong by this much of its tolerance (weighted root mean square of h^2 y''/2).
 constexpr double first_step_error = 0.3;
 // Where the integrator fails, loads that come in this share of the time until something is known to happen tell why.
@@ -317,11 +318,19 @@ class Run {
     if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
     if (system_->dae.unknowns() == 0 && !system_->events.sticks()) h = until - t;  // nothing that a step could get wrong
     const double omega = drive_.fastest();
-    const bool turns = omega > 0 && system_->events.sticks();
-    const double turn = turns ? longest_angle / omega : std::numeric_limits<double>::infinity();
+    double turn = std::numeric_limits<double>::infinity();
+    if (omega > 0 && system_->events.sticks()) turn = longest_angle / omega;
+    if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, remembered_angle() / omega);
     system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
     if (settings_.profile) settings_.profile->restart(system_->dae);
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
+  }
+
+  /// What follows a motion is in no error test, and yet remembered for a delay: between steps of this angle the polynomial through
+  /// them misses a sine by a tenth of the accuracy [rad].
+  double remembered_angle() const {
+    constexpr double share = 0.1, at_middle = 0.005;  // of six points: (5/2 3/2 1/2)^2/6!
+    return std::min(longest_angle, std::pow(share * settings_.accuracy / at_middle, 1.0 / static_cast<double>(step_points)));
   }
 
   void tell_overload() const {

@@ -224,6 +224,32 @@ TEST_CASE("without a mass: a delayed vfm behind a dashpot, and behind a spring")
   }
 }
 
+// The spring's node follows the motion until something comes through: in no error test, and yet what is felt later. Then
+// T f' + f = B A sin(w (t - TD)).
+TEST_CASE("what follows a motion through a spring, without any force, is felt a delay later to the accuracy") {
+  constexpr double A = 0.13, k = 200, lag = B / sigma, late = 0.7;
+  for (const double frequency : {1.3, 5.1, 20.3}) {
+    for (const double accuracy : accuracies) {
+      CAPTURE(frequency);
+      CAPTURE(accuracy);
+      const double w = 2 * std::numbers::pi * frequency;
+      SceneBuilder b;
+      b.motion("drive", "a", "velocity", Signal(Signal::Sine{A, frequency, 0, 0, 0}));
+      b.between("k", "spring", "a", "mid", {{"stiffness", k}});
+      b.between("v", "vfm", "mid", "ground", {{"damping", B}, {"stiffness", sigma}, {"delay", late}});
+      const Trajectory run = simulate(b.finish(2 * late, 140, accuracy));
+      const double gain = B * A / (1 + w * w * lag * lag);
+      double worst = 0;
+      for (std::size_t row = 0; row < run.time().size(); ++row) {
+        const double t = run.time()[row] - late;
+        const double f = t < 0 ? 0 : gain * (std::sin(w * t) - w * lag * (std::cos(w * t) - std::exp(-t / lag)));
+        worst = std::max(worst, std::abs(run["v.force"][row] - f));
+      }
+      CHECK(worst <= accuracy * run.scale("v.force"));
+    }
+  }
+}
+
 TEST_CASE("a step through a spring comes back through the delay, again and again") {
   constexpr double k = 53.0, dx = 0.013, accuracy = 1e-9;
   SceneBuilder b;

@@ -12,8 +12,6 @@ namespace {
 constexpr std::array<const char*, 6> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm"};
 
 constexpr double rounding = 4e-16;
-// What was so much faster in the step before has jumped in that.
-constexpr double after_jump = 1e-3;
 
 double sign_of(double x) { return x < 0 ? -1 : 1; }
 
@@ -144,10 +142,8 @@ void ReferenceLaw::accept(double step, double force, double h) {
   const bool moves = step == 0 || tells(step);
   const int direction = moves ? sign : piece_.direction;
   const double velocity = step / h, leaving = velocity + (velocity - velocity_) * h / (h + h_);
-  // A step with its turn in the middle ends near where it began, but not at rest. One after a jump does not turn.
-  const bool jumped = std::abs(velocity) < after_jump * std::abs(velocity_);
-  const bool turning = direction != 0 && direction == piece_.direction && direction * leaving < 0 && !jumped &&
-                       (moves || tells(leaving * h));
+  // A step with its turn in the middle ends near where it began, but not at rest.
+  const bool turning = direction != 0 && direction == piece_.direction && direction * leaving < 0 && (moves || tells(leaving * h));
   piece_ = {direction, turning ? -direction : direction, type_ != Type::slider && std::abs(force) >= coulomb_};
   velocity_ = velocity;
   h_ = h;

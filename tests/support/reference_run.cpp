@@ -18,6 +18,7 @@ constexpr int instant_steps = 8;
 // like turns without end takes all the time.
 constexpr int bisections = 12;
 constexpr int most_searches = 300;
+constexpr int instant_bisections = 5;
 // A law that turns in every short step is at rest but for rounding: there is no instant to be found.
 constexpr int most_halvings = 20 * bisections;
 
@@ -159,8 +160,9 @@ bool ReferenceRun::turns_ahead(double ahead) const {
 bool ReferenceRun::step(double after, int depth, double ahead) {
   const double before = t_, h = after - before;
   if (depth == bisections) halvings_ = 0;
-  // What turns in a jump does so in no time: there is nothing to be found but rounding.
-  if (at_instant_ || halvings_ >= most_halvings || (depth == bisections && searches_ >= most_searches)) depth = 0;
+  // The steps of a jump are short already: rounding would be all that is found.
+  if (at_instant_ && depth < bisections - instant_bisections) depth = 0;
+  if (halvings_ >= most_halvings || (depth == bisections && searches_ >= most_searches)) depth = 0;
   const ReferenceNetwork start = network_;
   const ReferenceNetwork::Input given = input(before, after);
   const bool done = network_.step(given);
