@@ -40,6 +40,7 @@ struct Integrator::Implementation {
   void* ida = nullptr;
   double time = 0, previous = 0, stop = 0;
   std::vector<int> fired;
+  bool underflows = false;  ///< event functions have come to less than the search for their zeros can take
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
@@ -166,7 +167,19 @@ struct Integrator::Implementation {
   }
 
   static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
-    static_cast<Implementation*>(user)->event_functions.evaluate(t, data(y), data(yp), g);
+    Implementation& self = *static_cast<Implementation*>(user);
+    // IDA's search divides by differences of multiples of the functions: where one underflows it goes to infinity, and would stay.
+    if (!std::isfinite(t)) {
+      self.underflows = true;
+      return -1;
+    }
+    self.event_functions.evaluate(t, data(y), data(yp), g);
+    if (!self.underflows) return 0;
+    // Only where they are 0 matters: the least of them are made larger.
+    constexpr double little = 1e-100;
+    for (std::size_t k = 0; k < self.fired.size(); ++k) {
+      if (std::abs(g[k]) < little) g[k] = std::copysign(little * std::pow(std::abs(g[k]) / little, 0.25), g[k]);
+    }
     return 0;
   }
 
@@ -239,6 +252,10 @@ Integrator::Outcome Integrator::step() {
     case IDA_LSETUP_FAIL:
     case IDA_LSOLVE_FAIL:
       return Outcome::singular;
+    case IDA_RTFUNC_FAIL:
+      interpolate(s.time, 0, s.y);
+      interpolate(s.time, 1, s.yp);
+      return Outcome::stuck;
     default:
       return Outcome::stuck;
   }
