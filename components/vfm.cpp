@@ -68,7 +68,7 @@ const RegisterComponent registered({
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24, 62 (J. C. Maxwell 1867 by its form)",
             .notes = "Stores f^2/(2 sigma), dissipates f^2/B. Before the run nothing has moved. With a delay it takes up f w at once and "
                      "may give some of it back: it is not passive, and can drive an oscillation. Where an end "
-                     "neither has a mass nor a given motion, no step is longer than the delay: a very short one costs time there.",
+                     "neither has a mass nor a given motion, no step is longer than a third of the delay: a very short one costs time there.",
         },
     .role = Role::deflection,
     .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}},

@@ -12,20 +12,24 @@ namespace rheonet {
 
 using What = Blocks::Sensor::What;
 
+/// What each delay takes in, and a channel for each of that.
 void BlockSignals::find_channels() {
-  state_channel_.assign(state.size(), -1);
-  sensor_channel_.assign(sensed.size(), -1);
-  visited_.assign(out_.size(), 0);
+  std::vector<char> taken(atoms(), 0);
   for (std::size_t k = 0; k < out_.size(); ++k) {
     const Blocks::Block& block = blocks_->blocks[k];
     if (block.law.delay == 0) continue;
     reach_ = std::max(reach_, find_reach(static_cast<int>(k)));
-    mark_inputs(block);
-  }
-  for (std::vector<int>* channels : {&state_channel_, &sensor_channel_}) {
-    for (int& channel : *channels) {
-      if (channel == 0) channel = static_cast<int>(channel_count_++);
+    std::vector<char> seen(out_.size(), 0), atoms_of(atoms(), 0);
+    take_in(block, seen, atoms_of);
+    for (std::size_t atom = 0; atom < atoms(); ++atom) {
+      if (!atoms_of[atom]) continue;
+      taken[atom] = 1;
+      pairs_.push_back({k, atom});
     }
+  }
+  for (std::size_t atom = 0; atom < atoms(); ++atom) {
+    const int channel = taken[atom] ? static_cast<int>(channel_count_++) : -1;
+    (atom < state.size() ? state_channel_ : sensor_channel_).push_back(channel);
   }
   remembered_.resize(channel_count_);
 }
@@ -40,22 +44,15 @@ double BlockSignals::find_reach(int index) const {
   return reach + block.law.delay;
 }
 
-/// What a delay needs to know of the past of a block.
-void BlockSignals::mark_past(int index) {
-  if (std::exchange(visited_[at(index)], 1)) return;
-  if (state_of(index) >= 0) {
-    state_channel_[at(state_of(index))] = 0;
-  } else {
-    mark_inputs(blocks_->blocks[at(index)]);
-  }
-}
-
-void BlockSignals::mark_inputs(const Blocks::Block& block) {
+/// The atoms whose past a delay in front of these inputs needs.
+void BlockSignals::take_in(const Blocks::Block& block, std::vector<char>& seen, std::vector<char>& atoms_of) const {
   for (const Blocks::Input& in : block.inputs) {
-    if (in.from_block) {
-      mark_past(in.index);
-    } else if (blocks_->sensors[at(in.index)].motion < 0) {
-      sensor_channel_[at(in.index)] = 0;
+    if (!in.from_block) {
+      if (blocks_->sensors[at(in.index)].motion < 0) atoms_of[state.size() + at(in.index)] = 1;
+    } else if (state_of(in.index) >= 0) {
+      atoms_of[at(state_of(in.index))] = 1;
+    } else if (!std::exchange(seen[at(in.index)], 1)) {
+      take_in(blocks_->blocks[at(in.index)], seen, atoms_of);
     }
   }
 }

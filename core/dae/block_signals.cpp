@@ -39,6 +39,7 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   for (const Blocks::Sensor& sensor : blocks_->sensors) {
     heavy_.push_back(sensor.what == What::velocity && classified.kind[at(sensor.index)] == Kind::massive);
   }
+  find_channels();
   find_dependence();
   refuse_loops(network, classified);
   find_longest_step(network, classified);
@@ -55,23 +56,11 @@ void BlockSignals::find_dependence() {
   find_slopes(true, delay_slope_, slope_, rate_slope_);
   depends_ = nonzero(slope_);
   std::vector<double> any = delay_slope_;
-  for (std::size_t k = 0; k < out_.size(); ++k) {
-    if (blocks_->blocks[k].law.delay == 0) continue;
-    visited_.assign(out_.size(), 0);
-    state_channel_.assign(state.size(), -1);
-    sensor_channel_.assign(sensed.size(), -1);
-    mark_inputs(blocks_->blocks[k]);
-    for (std::size_t atom = 0; atom < atoms(); ++atom) {
-      if ((atom < state.size() ? state_channel_[atom] : sensor_channel_[atom - state.size()]) < 0) continue;
-      any[k * atoms() + atom] = 1;
-      pairs_.push_back({k, atom});
-    }
-  }
+  for (const Pair& pair : pairs_) any[pair.delay * atoms() + pair.atom] = 1;
   find_slopes(true, any, slope_, rate_slope_);
   couples_ = nonzero(slope_);
   rate_couples_ = nonzero(rate_slope_);
   find_slopes(false, delay_slope_, slope_, rate_slope_);
-  find_channels();
 }
 
 double BlockSignals::enter(double t) {

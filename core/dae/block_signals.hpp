@@ -109,8 +109,7 @@ class BlockSignals {
   static bool loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified);
   void find_channels();
   double find_reach(int block) const;
-  void mark_past(int block);
-  void mark_inputs(const Blocks::Block& block);
+  void take_in(const Blocks::Block& block, std::vector<char>& seen, std::vector<char>& atoms_of) const;
   bool of_time_alone(int block) const;
   void find_slopes(bool magnitudes, const std::vector<double>& of_delays, std::vector<double>& slope,
                    std::vector<double>& rate_slope) const;
@@ -145,7 +144,6 @@ class BlockSignals {
   std::vector<std::deque<Stretch>> generated_;  ///< of each block: the stretches of a generator, as far back as reach_
   std::vector<std::deque<Stretch>> moved_;      ///< of each sensor: those of a prescribed motion
   std::vector<int> state_channel_, sensor_channel_;
-  std::vector<char> visited_;
   std::size_t channel_count_ = 0;
   std::vector<Past::Known> remembered_;
   std::vector<Dual> out_, before_limits_;

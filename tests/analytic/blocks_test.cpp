@@ -187,15 +187,20 @@ TEST_CASE("a jump stays sharp through a chain of delays") {
   CHECK(error(run, "y.out", [](double t) { return std::max(0.0, t - 0.95); }) < 1e-12);
 }
 
-// x' = -k x(t - T), x = 1 until 0: in the n-th interval of length T a polynomial of degree n,
+// x' = -k x(t - T), x = 1 until 0, for 5 s.
+static std::string delayed_feedback(double T, double k, int rows) {
+  return scene(fmt::format("x = {{ type = \"integrator\", in = \"rate\", initial = 1 }}\n"
+                           "late = {{ type = \"delay\", in = \"x\", delay = {}, initial = 1 }}\n"
+                           "rate = {{ type = \"gain\", in = \"late\", gain = {} }}",
+                           T, -k),
+               5, rows);
+}
+
+// In the n-th interval of length T a polynomial of degree n,
 // x(t) = sum over j of (-k)^j (t - (j - 1) T)^j / j! for the j with t >= (j - 1) T.
 TEST_CASE("delayed feedback: the method of steps") {
   constexpr double k = 1.37, T = 0.8;
-  const std::string text = scene(fmt::format("x = {{ type = \"integrator\", in = \"rate\", initial = 1 }}\n"
-                                             "late = {{ type = \"delay\", in = \"x\", delay = {}, initial = 1 }}\n"
-                                             "rate = {{ type = \"gain\", in = \"late\", gain = {} }}",
-                                             T, -k),
-                                 5, 201);
+  const std::string text = delayed_feedback(T, k, 201);
   for (const double accuracy : accuracies) {
     const double worst = error(simulate(text, accuracy), "x.out", [=](double t) {
       double sum = 0, factorial = 1;
@@ -217,11 +222,7 @@ TEST_CASE("delayed feedback through a delay much shorter than a step") {
     CAPTURE(T);
     double l = -k;
     for (int j = 0; j < 50; ++j) l = -k * std::exp(-l * T);
-    const std::string text = scene(fmt::format("x = {{ type = \"integrator\", in = \"rate\", initial = 1 }}\n"
-                                               "late = {{ type = \"delay\", in = \"x\", delay = {}, initial = 1 }}\n"
-                                               "rate = {{ type = \"gain\", in = \"late\", gain = {} }}",
-                                               T, -k),
-                                   5, 11);
+    const std::string text = delayed_feedback(T, k, 11);
     for (const double accuracy : accuracies) {
       Summary summary;
       const Trajectory run = simulate(scene_of(text, accuracy), &summary);
