@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 #include <set>
 #include <utility>
 
@@ -115,42 +114,50 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   derived_.assign(nodes, {});
   std::vector<char> reached(nodes, 0);
   std::vector<NodeId> order;
-  std::queue<NodeId> queue;
-  const auto spread = [&] {
-    while (!queue.empty()) {
-      const NodeId node = queue.front();
-      queue.pop();
-      order.push_back(node);
-      const auto go = [&](int branch, int slider, const Branch& b) {
-        const NodeId other = b.a == node ? b.b : b.a;
-        if (reached[at(other)]) return;
+  std::size_t next = 0;  // in the order
+  // What sticks moves as one: no deflection comes between.
+  const auto reach = [&](NodeId node) {
+    reached[at(node)] = 1;
+    order.push_back(node);
+    for (std::size_t k = order.size() - 1; k < order.size(); ++k) {
+      const NodeId from = order[k];
+      for (int slider : sliders[at(from)]) {
+        const Branch& b = network.sliders[at(slider)].branch;
+        const NodeId other = b.a == from ? b.b : b.a;
+        if (reached[at(other)] || structure_->kind[at(other)] == Kind::known) continue;
         reached[at(other)] = 1;
-        derived_[at(other)] = {branch, slider, node, b.a == other ? 1.0 : -1.0};
-        queue.push(other);
-      };
-      for (int k : sliders[at(node)]) go(-1, k, network.sliders[at(k)].branch);
-      for (int j : branches[at(node)]) go(j, -1, network.deflections[at(j)]);
+        derived_[at(other)] = {-1, slider, from, b.a == other ? 1.0 : -1.0};
+        order.push_back(other);
+      }
     }
   };
-  const auto root = [&](NodeId node) {
-    reached[at(node)] = 1;
-    queue.push(node);
+  const auto spread = [&] {
+    for (; next < order.size(); ++next) {
+      const NodeId node = order[next];
+      for (int j : branches[at(node)]) {
+        const Branch& b = network.deflections[at(j)];
+        const NodeId other = b.a == node ? b.b : b.a;
+        if (reached[at(other)]) continue;
+        derived_[at(other)] = {j, -1, node, b.a == other ? 1.0 : -1.0};
+        reach(other);
+      }
+    }
   };
   for (NodeId node : network.node_order) {
     if (structure_->kind[at(node)] != Kind::known) continue;
-    root(node);
+    reach(node);
     if (!structure_->of_time[at(node)]) ix_[at(node)] = size_++;
   }
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0 || ix_[at(sensor.index)] >= 0) continue;
     ix_[at(sensor.index)] = size_++;
-    root(sensor.index);
+    if (!reached[at(sensor.index)]) reach(sensor.index);
   }
   spread();
   for (NodeId node : network.node_order) {
     if (!needed[at(node)] || reached[at(node)]) continue;
     ix_[at(node)] = size_++;
-    root(node);
+    reach(node);
     spread();
   }
   std::vector<char> wanted(nodes, 0);

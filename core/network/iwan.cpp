@@ -26,7 +26,6 @@ Iwan::Iwan(std::vector<Pair> pairs, double kink_share)
       rest_(pairs_.size(), 0),
       slide_(rest_),
       kink_share_(kink_share),
-      bound_(rest_),
       order_(pairs_.size()),
       rank_(pairs_.size()) {
   for (const Pair& pair : pairs_) {
@@ -40,19 +39,16 @@ Iwan::Iwan(std::vector<Pair> pairs, double kink_share)
 void Iwan::begin(double p, std::vector<double> forces, int direction) {
   f_ = std::move(forces);
   for (std::size_t i = 0; i < size(); ++i) f_[i] = std::clamp(f_[i], -pairs_[i].coulomb, pairs_[i].coulomb);
-  free_bounds();
   go(p, direction);
 }
 
 void Iwan::begin_sliding(double p, int direction) {
   for (std::size_t i = 0; i < size(); ++i) f_[i] = direction * pairs_[i].coulomb;
-  free_bounds();
   go(p, direction);
 }
 
 void Iwan::turn(double p) {
   remember(p);
-  free_bounds();
   go(p, -s_);
 }
 
@@ -64,11 +60,7 @@ void Iwan::remember(double p) {
   }
 }
 
-void Iwan::free_bounds() {
-  for (std::size_t i = 0; i < size(); ++i) bound_[i] = pairs_[i].coulomb;
-}
-
-/// From deflection p in `direction`, with the forces f_ and bounds bound_.
+/// From deflection p in `direction`, with the forces f_.
 void Iwan::go(double p, int direction) {
   s_ = direction;
   p_ref_ = p;
@@ -81,7 +73,7 @@ void Iwan::go(double p, int direction) {
 }
 
 void Iwan::put_in_order() {
-  const auto way = [&](std::size_t i) { return (bound_[i] - s_ * f_[i]) / pairs_[i].stiffness; };
+  const auto way = [&](std::size_t i) { return (pairs_[i].coulomb - s_ * f_[i]) / pairs_[i].stiffness; };
   y_.resize(size());
   for (std::size_t r = 0; r < size(); ++r) y_[r] = way(order_[r]);
   if (!std::is_sorted(y_.begin(), y_.end())) {
@@ -95,10 +87,10 @@ void Iwan::sum_up() {
   sums_.assign(size() + 1, {});
   stiffness_back_ = 0;
   for (std::size_t r = 0; r < size(); ++r) {
-    const double k = pairs_[order_[r]].stiffness, bound = bound_[order_[r]];
-    sums_[r + 1].bounds = sums_[r].bounds + bound;
-    sums_[r + 1].bound_energy = sums_[r].bound_energy + bound * bound / (2 * k);
-    sums_[r + 1].lost = sums_[r].lost + bound * y_[r];
+    const auto [k, Fc] = pairs_[order_[r]];
+    sums_[r + 1].bounds = sums_[r].bounds + Fc;
+    sums_[r + 1].bound_energy = sums_[r].bound_energy + Fc * Fc / (2 * k);
+    sums_[r + 1].lost = sums_[r].lost + Fc * y_[r];
   }
   // Each kind from its own end: no differences, no digits lost.
   for (std::size_t r = size(); r-- > 0;) {
@@ -134,7 +126,12 @@ void Iwan::pass_kink(double p) {
     return;
   }
   remember(p);
-  for (std::size_t rank = 0; rank < yielding; ++rank) bound_[order_[rank]] = s_ * f_[order_[rank]];
+  for (std::size_t rank = 0; rank < yielding; ++rank) {
+    const std::size_t i = order_[rank];
+    const double bound = s_ * pairs_[i].coulomb;
+    slide_[i] -= (bound - f_[i]) / pairs_[i].stiffness;
+    f_[i] = bound;
+  }
   go(p, s_);
 }
 
@@ -196,7 +193,7 @@ double Iwan::stored_energy(double p) const {
 
 double Iwan::pair_force(std::size_t i, double p) const {
   const auto [k, Fc] = pairs_[i];
-  return pair_yields(i, p) ? s_ * bound_[i] : std::clamp(f_[i] + k * (p - p_ref_), -Fc, Fc);
+  return pair_yields(i, p) ? s_ * Fc : std::clamp(f_[i] + k * (p - p_ref_), -Fc, Fc);
 }
 
 void Iwan::place(std::size_t i, double rest, double slide) {

@@ -44,8 +44,8 @@ class Iwan {
   void turn(double p);
   /// The deflection jumps along the law. Returns the heat [J].
   double jump(double p, double jump);
-  /// Passes the next kink that is an event, at deflection p, which is as near to it as the integrator could tell. The
-  /// force stays: what has not quite come to its bound yields where it is.
+  /// Passes the next kink that is an event, at deflection p, which is as near to it as the integrator could tell. What
+  /// has not quite come to its bound is put there, and its slider back by as much as its spring is stretched more.
   void pass_kink(double p);
 
   int direction() const { return s_; }
@@ -88,7 +88,7 @@ class Iwan {
  private:
   /// If the first `rank` pairs have yielded.
   struct Sums {
-    double bounds = 0, bound_energy = 0, lost = 0;  ///< of those: the bounds b, b^2/(2 k), b y
+    double bounds = 0, bound_energy = 0, lost = 0;  ///< of those: Fc, Fc^2/(2 k), Fc y
     double force = 0, stiffness = 0, energy = 0;    ///< of the others, at the reversal: s f, k, f^2/(2 k)
   };
   double travel(double p) const { return s_ * (p - p_ref_); }
@@ -98,7 +98,6 @@ class Iwan {
   }
   double heat_at(double x, std::size_t yielded) const { return sums_[yielded].bounds * x - sums_[yielded].lost; }
   void remember(double p);
-  void free_bounds();
   void go(double p, int direction);
   void put_in_order();
   void sum_up();
@@ -114,7 +113,6 @@ class Iwan {
   int s_ = 1;
   double p_ref_ = 0;
   std::vector<double> f_;                  ///< of each pair, at the reversal [N]
-  std::vector<double> bound_;              ///< of each pair: where it yields, in the direction s [N]
   std::vector<std::size_t> order_, rank_;  ///< pairs by y, and the inverse
   std::vector<double> y_;                  ///< by rank [m]
   std::vector<Sums> sums_;                 ///< by rank, 0 .. size()

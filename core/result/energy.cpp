@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/network/time_grain.hpp"
+
 namespace rheonet {
 
 EnergyAccount::EnergyAccount(double tolerance) : tolerance_(tolerance) {}
@@ -71,7 +73,7 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
   largest_ = std::max({largest_, std::abs(sum_.supplied + better.supplied), std::abs(sum_.dissipated + better.dissipated)});
   constexpr int deepest = 14;
   // The difference of the two rules overestimates the error of the better one by far.
-  if (error <= tolerance_ * largest_ || depth >= deepest) return better;
+  if (error <= tolerance_ * largest_ || depth >= deepest || half <= time_grain(b)) return better;
   const Power left = lobatto(integrator, a, middle, pa, pm, depth + 1);
   const Power right = lobatto(integrator, middle, b, pm, pb, depth + 1);
   return {left.supplied + right.supplied, left.dissipated + right.dissipated};

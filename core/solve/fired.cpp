@@ -54,7 +54,8 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     switched.push_back(branch);
     fired.elements.push_back(system.events.element(k));
     batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
-    if (!held && batch.direction(i) == -direction) fired.sudden.turns.push_back(branch);
+    if (!held && direction == 0) fired.sudden.starts.push_back(branch);
+    if (!held && direction != 0 && batch.direction(i) == -direction) fired.sudden.turns.push_back(branch);
     if (held) {
       const std::vector<int> released = dae.release_parallel(branch, view.flow[at(branch)]);
       switched.insert(switched.end(), released.begin(), released.end());

@@ -36,11 +36,11 @@ struct Integrator::Implementation {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver linear = nullptr;
   SUNNonlinearSolver newton = nullptr;  // where IDA's own would not do
+  std::vector<double> last_change;  // of Newton's iteration, where it is our own test that ends it
   double first_change = 0;              // of Newton's iteration that is under way
   void* ida = nullptr;
   double time = 0, previous = 0, stop = 0;
   std::vector<int> fired;
-  bool underflows = false;  ///< event functions have come to less than the search for their zeros can take
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
@@ -60,6 +60,7 @@ struct Integrator::Implementation {
     if (past.sparse) {
       matrix = SUNSparseMatrix(n, n, dae.pattern().entries(), CSC_MAT, context);
       linear = SUNLinSol_KLU(ny, matrix, context);
+      linear->ops->setup = factorise;
     } else {
       values.resize(at(dae.pattern().entries()));
       matrix = SUNDenseMatrix(n, n, context);
@@ -75,6 +76,7 @@ struct Integrator::Implementation {
     require(IDASetId(ida, nw), "IDASetId");
     require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
     if (dae.rough()) {
+      last_change.assign(at(dae.size()), 0);
       newton = SUNNonlinSol_Newton(ny, context);
       require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
       require(SUNNonlinSolSetConvTestFn(newton, converged, this), "SUNNonlinSolSetConvTestFn");
@@ -133,6 +135,14 @@ struct Integrator::Implementation {
     return 0;
   }
 
+  /// KLU keeps the pivots that it chose first. What was one may since have come to 0, friction's slope at its bound for one.
+  static int factorise(SUNLinearSolver solver, SUNMatrix J) {
+    const int flag = SUNLinSolSetup_KLU(solver, J);
+    if (flag != SUNLS_PACKAGE_FAIL_REC) return flag;
+    SUNLinSol_KLUReInit(solver, J, SUNSparseMatrix_NNZ(J), SUNKLU_REINIT_PARTIAL);
+    return SUNLinSolSetup_KLU(solver, J);
+  }
+
   static int weights(N_Vector, N_Vector w, void* user) {
     const auto& self = *static_cast<Implementation*>(user);
     double* out = data(w);
@@ -145,18 +155,32 @@ struct Integrator::Implementation {
   static int converged(SUNNonlinearSolver solver, N_Vector, N_Vector change, realtype tolerance, N_Vector weight,
                        void* user) {
     constexpr double nothing_to_change = 1e-4, slowest_rate = 0.9;  // as in IDA
+    constexpr double certain = 0.1;
     auto& self = *static_cast<Implementation*>(user);
     int iteration = 0;
     SUNNonlinSolGetCurIter(solver, &iteration);
     const double size = N_VWrmsNorm(change, weight);
+    const bool back = iteration > 0 && self.turns_back(change, weight);
+    std::copy_n(data(change), self.last_change.size(), self.last_change.begin());
     if (iteration == 0) {
       self.first_change = size;
       return size <= nothing_to_change * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
     }
     if (size <= self.rounding(weight)) return SUN_NLS_SUCCESS;
+    // To and fro over the solution, in the rounding of differences of velocities, say: no further from it than this.
+    if (back && size <= certain * tolerance) return SUN_NLS_SUCCESS;
     const double rate = std::pow(size / self.first_change, 1.0 / iteration);
-    if (rate > slowest_rate) return SUN_NLS_CONV_RECVR;
+    if (rate > slowest_rate) return size <= certain * tolerance ? SUN_NLS_CONTINUE : SUN_NLS_CONV_RECVR;
     return rate / (1 - rate) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+  }
+
+  bool turns_back(N_Vector change, N_Vector weight) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < last_change.size(); ++i) {
+      const double w = data(weight)[i];
+      sum += (w * data(change)[i]) * (w * last_change[i]);
+    }
+    return sum < 0;
   }
 
   /// What rounding leaves of the unknowns, as the norm of a change. (IDA holds the iterate in the vector that it returns.)
@@ -168,14 +192,10 @@ struct Integrator::Implementation {
 
   static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
     Implementation& self = *static_cast<Implementation*>(user);
-    // IDA's search divides by differences of multiples of the functions: where one underflows it goes to infinity, and would stay.
-    if (!std::isfinite(t)) {
-      self.underflows = true;
-      return -1;
-    }
+    // IDA's search multiplies functions and divides by differences of their multiples: where one underflows it misses a zero,
+    // or goes to infinity, and would stay. Only where they are 0 matters: the least of them are made larger.
+    if (!std::isfinite(t)) return -1;
     self.event_functions.evaluate(t, data(y), data(yp), g);
-    if (!self.underflows) return 0;
-    // Only where they are 0 matters: the least of them are made larger.
     constexpr double little = 1e-100;
     for (std::size_t k = 0; k < self.fired.size(); ++k) {
       if (std::abs(g[k]) < little) g[k] = std::copysign(little * std::pow(std::abs(g[k]) / little, 0.25), g[k]);

@@ -12,7 +12,7 @@ namespace {
 
 // Roundings of forces that balance (a sum of a few).
 constexpr double force_grains = 16;
-// The same of a difference of two velocities, over the next step, which may be twice as long as the last.
+// The same of a difference of two velocities; over the next step, which may be twice as long as the last.
 constexpr double difference_grains = 8;
 
 }  // namespace
@@ -134,8 +134,18 @@ void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<do
   });
 }
 
-/// What it is of the velocity at present.
+/// What it is of the velocity at present; and what the rounding of the velocities at the ends of dashpots leaves of their
+/// forces, near rest a lot where they go with a small power.
 void Tolerances::find_rounding_now(const Dae::View& view) {
+  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
+    const Branch& b = dae_->structure().rates[r];
+    std::size_t i = 0;
+    const RateBatch& law = network_.rate_of(static_cast<int>(r), i);
+    const double speed = std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+    const double w = std::abs(view.rate_velocity[r]);
+    dashpot_rounding_[r] = law.force_at(i, w + eps * speed) - law.force_at(i, w);
+  }
   rounding_now_ = plain_rounding_;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
     const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
@@ -144,14 +154,72 @@ void Tolerances::find_rounding_now(const Dae::View& view) {
   });
 }
 
-/// Where both ends of a branch move almost alike its own velocity is the rounding of theirs, and so is what a step adds to
-/// its deflection: the end of a branch hangs free, say, or a thin gel rides on thick oil.
-void Tolerances::find_difference_rounding(double t, const Dae::View& view) {
-  const double grain = difference_grains * std::numeric_limits<double>::epsilon() * (t - reached_);
-  reached_ = t;
-  for (std::size_t j = 0; j < difference_rounding_.size(); ++j) {
-    const Branch& b = dae_->structure().deflections[j];
-    difference_rounding_[j] = grain * std::min(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+/// Where both ends of a branch move almost alike its own velocity is the rounding of theirs: the end of a branch hangs free, say,
+/// or a thin gel rides on thick oil.
+void Tolerances::find_difference_rounding(const Dae::View& view) {
+  constexpr double grain = difference_grains * std::numeric_limits<double>::epsilon();
+  const auto rounding = [&](const Branch& b) {
+    return grain * std::min(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+  };
+  const Structure& structure = dae_->structure();
+  for (std::size_t j = 0; j < difference_rounding_.size(); ++j) difference_rounding_[j] = rounding(structure.deflections[j]);
+  for (std::size_t k = 0; k < slide_rounding_.size(); ++k) slide_rounding_[k] = rounding(structure.sliders[k]);
+}
+
+/// A force that is an unknown balances others: it cannot be known better than they are. The same of the deflection of what is
+/// held still, which may take any force. Where all that such a force could balance may take any (or moves with a momentum of
+/// its own, or as it is told to) it follows from a velocity, and has the rounding of that.
+void Tolerances::loosen_balanced_forces() {
+  if (!any_solved_) return;
+  constexpr int passes = 3;  // such forces in a row
+  const Structure& structure = dae_->structure();
+  struct Noise { double sum = 0; int any = 0; };
+  std::vector<Noise> fixed(structure.kind.size());
+  for (std::size_t n = 0; n < fixed.size(); ++n) fixed[n].any = structure.kind[n] == Kind::known || structure.mass[n] > 0;
+  struct Follower { Branch ends; int unknown; double per_unit, own, noise; bool any; };
+  std::vector<Follower> followers;
+  const auto add = [](std::vector<Noise>& noise, const Branch& b, double force, bool any) {
+    for (NodeId node : {b.a, b.b}) {
+      noise[at(node)].sum += any ? 0 : force;
+      noise[at(node)].any += any;
+    }
+  };
+  for (std::size_t r = 0; r < structure.rates.size(); ++r) {
+    const Branch& b = structure.rates[r];
+    const double own = dashpot_rounding_[r];
+    const int unknown = dae_->force_unknown(static_cast<int>(r));
+    if (unknown < 0) add(fixed, b, own, false);
+    if (unknown >= 0) followers.push_back({b, unknown, 1, own, own, false});
+  }
+  const std::vector<double>& slope = dae_->slopes();
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    const Branch& b = structure.deflections[j];
+    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    if (unknown < 0) continue;
+    const double stiffness = std::abs(slope[j]), own = stiffness * tolerance_[at(unknown)];
+    std::size_t i = 0;
+    if (!network_.batch_of(static_cast<int>(j), i).holds(i)) {
+      add(fixed, b, own, false);
+    } else if (stiffness > 0) {
+      followers.push_back({b, unknown, 1 / stiffness, own, own, true});
+    }
+  }
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<Noise> noise = fixed;
+    for (const Follower& f : followers) add(noise, f.ends, f.noise, f.any);
+    for (Follower& f : followers) {
+      double others = std::numeric_limits<double>::infinity();
+      for (NodeId node : {f.ends.a, f.ends.b}) {
+        const Noise& here = noise[at(node)];
+        if (here.any == f.any) others = std::min(others, std::max(0.0, here.sum - (f.any ? 0 : f.noise)));
+      }
+      f.noise = std::isinf(others) ? f.own : others;
+      f.any = false;
+    }
+  }
+  for (const Follower& f : followers) {
+    double& tolerance = tolerance_[at(f.unknown)];
+    tolerance = std::max(tolerance, f.per_unit * f.noise);
   }
 }
 

@@ -13,7 +13,7 @@
 #include "core/dae/steady.hpp"
 #include "core/network/index.hpp"
 #include "core/network/time_grain.hpp"
-#include "core/solve/fastest_rate.hpp"
+#include "core/solve/foresight.hpp"
 #include "core/solve/fired.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
@@ -301,7 +301,8 @@ class Run {
       const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
     }
-    tolerances_.foresee(t, tolerances_.blind() ? ahead : 0, y_, yp_, ypp);
+    const double foreseen = tolerances_.blind() ? ahead : 0;
+    tolerances_.foresee(t, foreseen, y_, yp_, coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen));
     system_->events.begin(t, y_.data(), yp_.data());
     if (system_->dae.rough()) {
       soften_laws();

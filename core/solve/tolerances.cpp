@@ -14,7 +14,7 @@ namespace rheonet {
 namespace {
 
 // A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
-constexpr double floor_of_kind = 1e-4;
+constexpr double floor_of_kind = 1e-8;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
@@ -48,7 +48,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
-  slider_noise_ = slide_seen_;
+  slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
 
@@ -70,7 +70,10 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.deflection_unknown(static_cast<int>(j)), Sort::deflection, j);
   }
   for (const Branch& b : structure.sliders) slider_given_.push_back(known(b));
+  any_solved_ = false;
+  dashpot_rounding_.assign(network_.rates.size(), 0);
   for (std::size_t r = 0; r < network_.rates.size(); ++r) {
+    any_solved_ = any_solved_ || dae.force_unknown(static_cast<int>(r)) >= 0;
     stands_for(dae.force_unknown(static_cast<int>(r)), Sort::force, r);
   }
   for (std::size_t k = 0; k < structure.kind.size(); ++k) {
@@ -110,7 +113,7 @@ bool Tolerances::blind() const {
 }
 
 void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
-                         const std::vector<double>& ypp) {
+                         const std::vector<double>& coming_size) {
   if (std::isnan(begin_)) begin_ = reached_ = t;
   // What was foreseen a moment ago, before an event perhaps, still holds.
   if (t > forget_) forget();
@@ -120,7 +123,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   }
   for (std::size_t i = 0; i < y.size(); ++i) {
     double& foreseen = foreseen_of(quantity_[i]);
-    foreseen = std::max(foreseen, std::abs(y[i]) + ahead * (std::abs(yp[i]) + ahead / 2 * std::abs(ypp[i])));
+    foreseen = std::max(foreseen, coming_size[i]);
   }
   const Dae::View& view = dae_->view(t, y.data(), yp.data());
   see(y, view);
@@ -162,7 +165,9 @@ double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowanc
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
-  find_difference_rounding(t, view);
+  find_difference_rounding(view);
+  step_ = t - reached_;
+  reached_ = t;
   find_rounding_now(view);
   watch_kinks(view);
   update(t, yp);
@@ -227,7 +232,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     tolerance_[i] = std::max({local() * scale, grain * std::abs(yp[i]), rounding_[i]});
     if (q.sort == Sort::deflection) {
       tolerance_[i] = std::max({tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q),
-                                difference_rounding_[q.index]});
+                                step_ * difference_rounding_[q.index]});
     }
     if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
       tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);
@@ -240,24 +245,31 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       tolerance_[i] = std::max(tolerance_[i], relative_ * velocity * ahead_);
     }
   }
+  for (std::size_t i = 0; i < quantity_.size(); ++i) {
+    // A position comes of a velocity.
+    if (quantity_[i].sort != Sort::position) continue;
+    const int of = dae_->velocity_unknown(static_cast<NodeId>(quantity_[i].index));
+    if (of >= 0) tolerance_[i] = std::max(tolerance_[i], step_ * tolerance_[at(of)]);
+  }
+  loosen_balanced_forces();
   const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
   largest_velocity_ = velocity;
   const double rounding = *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end());
   unresolved_velocity_ = std::max(relative_ * velocity, rounding);
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
-  const auto noise = [&](bool given, double flow, const Branch& b) {
+  const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
     const double unresolved =
         given ? given_noise * flow
-              : std::max(noise_share * relative_ * std::max(flow, floor_of_kind * velocity),
-                         rounding_at_rest_[at(part_of(b))]);
+              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * velocity),
+                          rounding_at_rest_[at(part_of(b))], of_difference});
     // More than nothing: an event function that begins at 0 would never be seen to fall through it.
     return std::max(unresolved, std::numeric_limits<double>::min());
   };
   for (std::size_t j = 0; j < noise_.size(); ++j) {
-    noise_[j] = noise(given_[j] != 0, flow_seen_[j], structure.deflections[j]);
+    noise_[j] = noise(given_[j] != 0, flow_seen_[j], structure.deflections[j], difference_rounding_[j]);
   }
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
-    slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k]);
+    slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
   }
 }
 

@@ -21,10 +21,10 @@ class Tolerances {
   void attach(Dae& dae);
   /// True if nothing of some kind (velocity, force, ...) has been seen yet: its scale must be foreseen.
   bool blind() const;
-  /// Before a restart at t. Where nothing has been seen, scales come from y, y' and y'' over the time `ahead` (0: do not
-  /// foresee); they are forgotten after ten times that.
+  /// Before a restart at t. Where nothing has been seen, scales come from how large each unknown may be until t + ahead (0:
+  /// do not foresee); they are forgotten after ten times that.
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
-               const std::vector<double>& ypp);
+               const std::vector<double>& coming_size);
   /// After a step, with the view of the state that it reached.
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
@@ -60,8 +60,9 @@ class Tolerances {
   void find_parts();
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
+  void loosen_balanced_forces();
   void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
-  void find_difference_rounding(double t, const Dae::View& view);
+  void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
   /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
   template <class Visit>
@@ -72,6 +73,7 @@ class Tolerances {
   double relative_;
   double begin_ = not_given;  ///< of the run [s]
   double reached_ = 0;        ///< the end of the last step [s]
+  double step_ = 0;           ///< its length [s]
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown
@@ -91,7 +93,9 @@ class Tolerances {
   std::vector<double> plain_rounding_;    ///< but for dilatant laws
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
-  std::vector<double> difference_rounding_;  ///< of each deflection, in a step [m]
+  bool any_solved_ = false;               ///< some dashpot is solved for its force
+  std::vector<double> dashpot_rounding_;  ///< of each: what the rounding of velocities leaves of its force [N]
+  std::vector<double> difference_rounding_, slide_rounding_;  ///< of the velocities of deflections and sliders [m/s]
   /// How far each bundle has yielded, and on which of its branches.
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;

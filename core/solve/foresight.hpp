@@ -10,6 +10,10 @@ namespace rheonet {
 /// A consistent state and its derivatives.
 struct Motion { const std::vector<double>&y, &yp, &ypp; };
 
+/// How large each unknown may be until t + ahead. A velocity that a power law gives at rest may begin with a slope that is
+/// infinite but for rounding: there it is what one implicit step of Euler's comes to.
+std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead);
+
 /// The fastest rate at which a network itself changes at t [1/s]; `horizon` is the time until something is known to happen
 /// [s]. A power law at rest has a slope of 0 or infinity: there it is what the forces are a moment later that counts, the
 /// time `ahead` [s].

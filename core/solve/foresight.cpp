@@ -1,0 +1,44 @@
+#include "core/solve/foresight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/network/error.hpp"
+
+namespace rheonet {
+
+std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead) {
+  const std::size_t n = motion.y.size();
+  std::vector<double> size(n);
+  for (std::size_t i = 0; i < n; ++i) size[i] = std::abs(motion.y[i]);
+  if (ahead == 0) return size;
+  if (dae.rough()) {
+    std::vector<double> y = motion.y, yp(n, 0);
+    try {
+      consistency.collocate(t + ahead, 1 / ahead, y, yp);
+      if (std::all_of(y.begin(), y.end(), [](double x) { return std::isfinite(x); })) {
+        for (std::size_t i = 0; i < n; ++i) size[i] = std::max(size[i], std::abs(y[i]));
+        return size;
+      }
+    } catch (const SimulationError&) {  // no state of the network: it was a guess
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) size[i] += ahead * (std::abs(motion.yp[i]) + ahead / 2 * std::abs(motion.ypp[i]));
+  return size;
+}
+
+double fastest_rate(const Dae& dae, Consistency& consistency, double t, double horizon, const Motion& motion, double ahead) {
+  if (!dae.rough()) return consistency.fastest_rate(t, horizon, motion.y, motion.yp);
+  std::vector<double> y = motion.y, yp(y.size());
+  // Where the drive starts from rest nothing has changed yet to first order.
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * (motion.yp[i] + ahead / 2 * motion.ypp[i]);
+  try {
+    consistency.project(t + ahead, y);
+    consistency.derivative(t + ahead, y, yp);
+    return consistency.fastest_rate(t + ahead, horizon, y, yp);
+  } catch (const SimulationError&) {  // no state of the network: it was a guess
+    return consistency.fastest_rate(t, horizon, motion.y, motion.yp);
+  }
+}
+
+}  // namespace rheonet
