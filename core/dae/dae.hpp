@@ -107,6 +107,8 @@ class Dae {
   int deflection_unknown(int branch) const { return ip_[at(branch)]; }
   int force_unknown(int rate) const { return if_[at(rate)]; }
   int position_unknown(NodeId node) const { return ix_[at(node)]; }
+  /// Nodes whose position a view gives, but for those that are known.
+  const std::vector<NodeId>& positioned() const { return position_order_; }
   int block_unknown(std::size_t state) const { return iz_[state]; }
   /// Gives the unknown forces of dashpots the values that belong to the velocities of y.
   void guess_forces(double t, double* y);

@@ -112,6 +112,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
     }
   }
   rounding_at_rest_ = plain_rounding_;
+  find_dashpot_rounding(view);
   find_force_rounding(view, df, force);
   find_rounding_now(view);
 }
@@ -128,17 +129,23 @@ void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<do
     largest = std::max(largest, std::abs(df[j] * view.p[j]));
   }
   for (double& rounding : force_rounding_) rounding *= eps;
+  for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
+    if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
+    double& largest = force_rounding_[at(part_of(structure.rates[r]))];
+    largest = std::max(largest, dashpot_rounding_[r]);
+  }
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
     double& largest = rounding_at_rest_[at(part)];
     largest = std::max(largest, law.velocity_at(i, force_rounding_[at(part)]));
   });
 }
 
-/// What it is of the velocity at present; and what the rounding of the velocities at the ends of dashpots leaves of their
-/// forces, near rest a lot where they go with a small power.
-void Tolerances::find_rounding_now(const Dae::View& view) {
+/// What the rounding of the velocities at the ends of dashpots leaves of their forces, near rest a lot where they go with a
+/// small power.
+void Tolerances::find_dashpot_rounding(const Dae::View& view) {
+  if (!any_solved_) return;
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
-  for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
+  for (std::size_t r = 0; r < dashpot_rounding_.size(); ++r) {
     const Branch& b = dae_->structure().rates[r];
     std::size_t i = 0;
     const RateBatch& law = network_.rate_of(static_cast<int>(r), i);
@@ -146,6 +153,10 @@ void Tolerances::find_rounding_now(const Dae::View& view) {
     const double w = std::abs(view.rate_velocity[r]);
     dashpot_rounding_[r] = law.force_at(i, w + eps * speed) - law.force_at(i, w);
   }
+}
+
+/// What it is of the velocity at present.
+void Tolerances::find_rounding_now(const Dae::View& view) {
   rounding_now_ = plain_rounding_;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
     const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];

@@ -50,6 +50,7 @@ void Softening::find_stops(const Structure& classified) {
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   const Drive::Reach reach = coming_reach(drive, velocity);
+  applied_ = 0;
   std::fill(least_velocity_.begin(), least_velocity_.end(), 0.0);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -60,7 +61,11 @@ void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   }
 }
 
-void Softening::apply(double unresolved_velocity) const {
+void Softening::apply(double unresolved_velocity) {
+  // What follows such a law at once would jump with every change of it.
+  constexpr double other = 2;
+  if (unresolved_velocity < other * applied_ && unresolved_velocity * other > applied_) return;
+  applied_ = unresolved_velocity;
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;

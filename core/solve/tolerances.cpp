@@ -15,6 +15,9 @@ namespace {
 
 // A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
 constexpr double floor_of_kind = 1e-8;
+// What moves along with others is resolved as it moves beside them, down to this share of how they move together and to so
+// many roundings of that: nearer to rounding a step is rejected for nothing.
+constexpr double least_relative = 1e-5, relative_grains = 256;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
@@ -48,6 +51,8 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
+  relative_seen_.assign(nodes, std::numeric_limits<double>::infinity());
+  gap_seen_.assign(nodes, std::numeric_limits<double>::infinity());
   slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
@@ -84,17 +89,53 @@ void Tolerances::attach(Dae& dae) {
   tolerance_.assign(n, relative_);
   rounding_.assign(n, 0);
   drift_.assign(n, {});
+  const auto join = [&](const Branch& b) {
+    for (const NodeId node : {b.a, b.b})
+      if (std::isinf(relative_seen_[at(node)])) relative_seen_[at(node)] = 0;
+  };
+  for (const Branch& b : structure.deflections) join(b);
+  for (const Branch& b : structure.rates) join(b);
+  for (const Branch& b : structure.sliders) join(b);
   find_parts();
+  find_gaps();
+}
+
+void Tolerances::find_gaps() {
+  std::vector<char> positioned(dae_->structure().kind.size(), 0);
+  for (std::size_t n = 0; n < positioned.size(); ++n) positioned[n] = dae_->structure().of_time[n];
+  for (const NodeId node : dae_->positioned()) positioned[at(node)] = 1;
+  gaps_.clear();
+  const auto add = [&](const Branch& b) {
+    if (!positioned[at(b.a)] || !positioned[at(b.b)]) return;
+    for (const NodeId node : {b.a, b.b}) {
+      if (dae_->position_unknown(node) < 0) continue;
+      gaps_.push_back({node, b});
+      if (std::isinf(gap_seen_[at(node)])) gap_seen_[at(node)] = 0;
+    }
+  };
+  for (const Branch& b : network_.rates) add(b);
+  for (const Network::Slider& s : network_.sliders) add(s.branch);
 }
 
 void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   for (std::size_t i = 0; i < y.size(); ++i) seen(quantity_[i]) = std::max(seen(quantity_[i]), std::abs(y[i]));
+  const Structure& structure = dae_->structure();
+  const auto meet = [&](const Branch& b, double w) {
+    for (const NodeId node : {b.a, b.b}) relative_seen_[at(node)] = std::max(relative_seen_[at(node)], std::abs(w));
+  };
   for (std::size_t j = 0; j < force_seen_.size(); ++j) {
     force_seen_[j] = std::max(force_seen_[j], std::abs(view.f[j]));
     flow_seen_[j] = std::max(flow_seen_[j], std::abs(view.flow[j]));
+    meet(structure.deflections[j], view.flow[j]);
   }
+  for (std::size_t r = 0; r < structure.rates.size(); ++r) meet(structure.rates[r], view.rate_velocity[r]);
   for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
     slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
+    meet(structure.sliders[k], view.slider_velocity[k]);
+  }
+  for (const Gap& gap : gaps_) {
+    double& seen = gap_seen_[at(gap.node)];
+    seen = std::max(seen, std::abs(view.position[at(gap.branch.a)] - view.position[at(gap.branch.b)]));
   }
   for (const Network::Motion& m : network_.motions) {
     known_velocity_ = std::max(known_velocity_, std::abs(view.velocity[at(m.node)]));
@@ -168,6 +209,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   find_difference_rounding(view);
   step_ = t - reached_;
   reached_ = t;
+  find_dashpot_rounding(view);
   find_rounding_now(view);
   watch_kinks(view);
   update(t, yp);
@@ -212,10 +254,13 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
   std::optional<Scales> to_come;  // mostly not asked for
+  const double least_share = std::max(least_relative, relative_grains * std::numeric_limits<double>::epsilon() / local());
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
     double scale = std::max(seen(q), foreseen_of(quantity_[i]));
+    const double beside = q.sort == Sort::position ? gap_seen_[q.index] : q.sort == Sort::velocity ? relative_seen_[q.index] : scale;
+    scale = std::min(scale, std::max(least_share * scale, beside));
     if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
     if (q.sort == Sort::deflection) {
       // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
@@ -245,6 +290,10 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       tolerance_[i] = std::max(tolerance_[i], relative_ * velocity * ahead_);
     }
   }
+  const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
+  largest_velocity_ = velocity;
+  const double rounding = *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end());
+  unresolved_velocity_ = std::max(relative_ * velocity, rounding);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     // A position comes of a velocity.
     if (quantity_[i].sort != Sort::position) continue;
@@ -252,10 +301,6 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     if (of >= 0) tolerance_[i] = std::max(tolerance_[i], step_ * tolerance_[at(of)]);
   }
   loosen_balanced_forces();
-  const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
-  largest_velocity_ = velocity;
-  const double rounding = *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end());
-  unresolved_velocity_ = std::max(relative_ * velocity, rounding);
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
   const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
     const double unresolved =

@@ -53,6 +53,7 @@ class Tolerances {
   /// in may be a small movement beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void watch_kinks(const Dae::View& view);
+  void find_gaps();
   double local() const;
   using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
   Scales scales_to_come(double time, const Scales& largest) const;
@@ -64,6 +65,7 @@ class Tolerances {
   void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
   void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
+  void find_dashpot_rounding(const Dae::View& view);
   /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
   template <class Visit>
   void for_each_dilatant(Visit visit) const;
@@ -83,6 +85,12 @@ class Tolerances {
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> slide_seen_;                    ///< of each slider
+  std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]; infinite: has none
+  /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
+  /// and may be small beside them.
+  struct Gap { NodeId node; Branch branch; };
+  std::vector<Gap> gaps_;
+  std::vector<double> gap_seen_;                      ///< of each node: the largest of them [m]; none: infinite
   std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
   std::vector<double> rounding_;                      ///< of each unknown: what rounding leaves of it where it is 0
   /// That of a velocity, and how long it adds up in what comes of it [s].

@@ -76,7 +76,7 @@ Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution
     result.verdict = beyond_bounds(scene, run.refusal) ? Verdict::refused : Verdict::undecided;
   } else if (const std::string end = wrong_end(scene, run.refusal, reference); !end.empty()) {
     result.text = end;
-  } else if (found.from_fine > 0.5 * found.from_coarse && found.from_fine > told) {
+  } else if (found.from_coarse > told && found.from_fine > told && found.from_fine > 0.5 * found.from_coarse) {
     result.text = fmt::format("the reference comes no nearer with its step: {:.2g} after {:.2g}", found.from_fine,
                               found.from_coarse);
   } else if (!reference.complete) {
