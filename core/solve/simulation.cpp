@@ -288,7 +288,7 @@ class Run {
   }
 
   void soften_laws() {
-    if (system_->dae.rough()) softening_.apply(tolerances_.unresolved_velocity());
+    if (system_->dae.rough()) softening_.apply(tolerances_.unresolved());
   }
 
   /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance

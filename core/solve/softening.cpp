@@ -50,7 +50,7 @@ void Softening::find_stops(const Structure& classified) {
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   const Drive::Reach reach = coming_reach(drive, velocity);
-  applied_ = 0;
+  applied_ = {};
   std::fill(least_velocity_.begin(), least_velocity_.end(), 0.0);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -61,16 +61,18 @@ void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   }
 }
 
-void Softening::apply(double unresolved_velocity) {
+void Softening::apply(const Tolerances::Unresolved& velocity) {
   // What follows such a law at once would jump with every change of it.
   constexpr double other = 2;
-  if (unresolved_velocity < other * applied_ && unresolved_velocity * other > applied_) return;
-  applied_ = unresolved_velocity;
+  const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
+  if (same(velocity.pseudoplastic, applied_.pseudoplastic) && same(velocity.dilatant, applied_.dilatant)) return;
+  applied_ = velocity;
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
-      const bool told = laws.batch->growth(i).exponent < 1 && !stops_[r];
-      laws.batch->soften(i, told ? 0 : std::max(unresolved_velocity, least_velocity_[r]));
+      const bool pseudoplastic = laws.batch->growth(i).exponent < 1;
+      const double unresolved = pseudoplastic ? velocity.pseudoplastic : velocity.dilatant;
+      laws.batch->soften(i, pseudoplastic && !stops_[r] ? 0 : std::max(unresolved, least_velocity_[r]));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include "core/dae/drive.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
+#include "core/solve/tolerances.hpp"
 
 namespace rheonet {
 
@@ -17,13 +18,13 @@ class Softening {
   /// At the start, with the velocities of all nodes. Dilatant laws that start from rest would let their ends go there:
   /// rounding of the velocities that the drive comes to gives them some slope.
   void begin(const Drive& drive, const std::vector<double>& velocity);
-  /// As far as the velocity [m/s] below which nothing is resolved; not again as long as that is about the same.
-  void apply(double unresolved_velocity);
+  /// As far as the velocities below which nothing is resolved; not again as long as these are about the same.
+  void apply(const Tolerances::Unresolved& velocity);
 
  private:
   const Network& network_;
   void find_stops(const Structure& classified);
-  double applied_ = 0;                  ///< the velocity that is applied [m/s]; 0: none
+  Tolerances::Unresolved applied_;      ///< those that are applied
   std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
   /// Of each rate branch: it may bring a mass to rest, or it is one of several in series that do, or that begin at rest
   /// together. Elsewhere what a pseudoplastic law carries is told by its neighbours, and its velocity follows from that down

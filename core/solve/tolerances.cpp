@@ -292,8 +292,8 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   }
   const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
   largest_velocity_ = velocity;
-  const double rounding = *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end());
-  unresolved_velocity_ = std::max(relative_ * velocity, rounding);
+  unresolved_ = {.pseudoplastic = std::max(relative_ * velocity, *std::max_element(plain_rounding_.begin(), plain_rounding_.end())),
+                 .dilatant = std::max(relative_ * velocity, *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end()))};
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     // A position comes of a velocity.
     if (quantity_[i].sort != Sort::position) continue;

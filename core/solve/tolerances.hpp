@@ -32,7 +32,9 @@ class Tolerances {
   /// Of what is unknown or given, so far or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
   /// Velocity below which nothing is resolved, whatever the branch [m/s].
-  double unresolved_velocity() const { return unresolved_velocity_; }
+  /// Velocities below which nothing is resolved [m/s]; at rest a dilatant law makes a large one of the rounding of a force.
+  struct Unresolved { double pseudoplastic = 0, dilatant = 0; };
+  const Unresolved& unresolved() const { return unresolved_; }
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
   /// Of the force of a rate branch that is solved for it.
@@ -108,7 +110,8 @@ class Tolerances {
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;
   double kink_pace_ = 0;  ///< share of the last steps that went over such kinks
-  double largest_velocity_ = 0, unresolved_velocity_ = 0;
+  double largest_velocity_ = 0;
+  Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, tolerance_;
 };

@@ -19,6 +19,8 @@ constexpr int instant_steps = 8;
 constexpr int bisections = 12;
 constexpr int most_searches = 300;
 constexpr int instant_bisections = 5;
+// Nor in a step so short that this share of the forces is rounding.
+constexpr double most_blur = 1e-8;
 // A law that turns in every short step is at rest but for rounding: there is no instant to be found.
 constexpr int most_halvings = 20 * bisections;
 
@@ -167,6 +169,7 @@ bool ReferenceRun::step(double after, int depth, double ahead) {
   const ReferenceNetwork::Input given = input(before, after);
   const bool done = network_.step(given);
   t_ = after;
+  if (done && network_.blur() > most_blur) depth = 0;
   if (depth > 0 && (!done || network_.turned_since(start) || turns_ahead(ahead))) {
     const ReferenceNetwork whole = network_;
     network_ = start;

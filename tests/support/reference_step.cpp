@@ -18,7 +18,7 @@ constexpr double balanced = 3e-14;
 // The stretch of a series spring that is left, against a force of the network in the spring.
 constexpr double unstretched = 1e-8;
 // The same, as a length, against the largest displacement in the step.
-constexpr double little_stretch = 1e-6;
+constexpr double little_stretch = 1e-9;
 
 /// Solves a symmetric positive definite system in place; `a` is overwritten by its Cholesky factor.
 void solve(std::vector<double>& a, std::vector<double>& b) {
@@ -75,7 +75,7 @@ ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<Referenc
 void ReferenceNetwork::evaluate(const Input& input) {
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   std::fill(size_.begin(), size_.end(), 0.0);
-  largest_force_ = largest_step_ = 0;
+  largest_force_ = largest_step_ = blur_ = 0;
   for (std::size_t k = 0; k < bundles_.size(); ++k) {
     const ReferenceBundle& b = bundles_[k];
     const int i = unknown_[at(b.a)], j = unknown_[at(b.b)];
@@ -98,8 +98,10 @@ void ReferenceNetwork::evaluate(const Input& input) {
     gradient_[i] += inertia - F;
     size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / span(input);
     worst = std::max(worst, std::abs(gradient_[i]) / tolerance(size_[i]));
+    blur_ = std::max(blur_, tolerance(size_[i]));
   }
   unbalance_ = worst;
+  if (largest_force_ > 0) blur_ /= largest_force_;
 }
 
 /// What rounding may leave out of balance where the magnitudes of the forces sum to `size`.

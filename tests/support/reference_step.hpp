@@ -35,6 +35,9 @@ class ReferenceNetwork {
 
   /// Takes one step. False if there is no minimum: nothing resists what is applied.
   bool step(const Input& input);
+  /// What rounding may have left out of balance in it, as a share of the largest force: displacements of both ends of a law
+  /// are rounded, and in a short step the laws are steep.
+  double blur() const { return blur_; }
   /// The velocities are those of an instant from here on, and no means: s is h in the next step.
   void begin() { before_ = 0; }
 
@@ -78,6 +81,7 @@ class ReferenceNetwork {
   std::vector<double> gradient_, size_; ///< of each unknown: what is out of balance, and the sum of magnitudes there
   std::vector<double> matrix_;
   std::vector<double> nodal_;
+  double blur_ = 0;                     ///< see blur
   double unbalance_ = 0;                ///< the worst, of what rounding may leave
   double largest_force_ = 0, largest_step_ = 0;  ///< at the present point
   double typical_step_ = 0;             ///< at any balance found in this step
