@@ -17,7 +17,7 @@ namespace {
 constexpr double floor_of_kind = 1e-8;
 // What moves along with others is resolved as it moves beside them, down to this share of how they move together and to so
 // many roundings of that: nearer to rounding a step is rejected for nothing.
-constexpr double least_relative = 1e-5, relative_grains = 256;
+constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
@@ -254,13 +254,19 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
   std::optional<Scales> to_come;  // mostly not asked for
-  const double least_share = std::max(least_relative, relative_grains * std::numeric_limits<double>::epsilon() / local());
+  const auto least_share = [&](double grains) {
+    return std::max(least_relative, grains * std::numeric_limits<double>::epsilon() / local());
+  };
+  const double least_velocity = least_share(velocity_grains), least_position = least_share(position_grains);
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
     double scale = std::max(seen(q), foreseen_of(quantity_[i]));
-    const double beside = q.sort == Sort::position ? gap_seen_[q.index] : q.sort == Sort::velocity ? relative_seen_[q.index] : scale;
-    scale = std::min(scale, std::max(least_share * scale, beside));
+    const auto resolve = [&](double beside, double share) {
+      if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
+    };
+    if (q.sort == Sort::position) resolve(gap_seen_[q.index], least_position);
+    if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least_velocity);
     if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
     if (q.sort == Sort::deflection) {
       // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
