@@ -161,10 +161,10 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   if (ahead > 0) {
     forget_ = t + 10 * ahead;
     ahead_ = ahead;
-  }
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    double& foreseen = foreseen_of(quantity_[i]);
-    foreseen = std::max(foreseen, coming_size[i]);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      double& foreseen = foreseen_of(quantity_[i]);
+      foreseen = std::max(foreseen, coming_size[i]);
+    }
   }
   const Dae::View& view = dae_->view(t, y.data(), yp.data());
   see(y, view);
@@ -261,12 +261,13 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
-    double scale = std::max(seen(q), foreseen_of(quantity_[i]));
+    double scale = seen(q);
     const auto resolve = [&](double beside, double share) {
       if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
     };
     if (q.sort == Sort::position) resolve(gap_seen_[q.index], least_position);
     if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least_velocity);
+    scale = std::max(scale, foreseen_of(q));
     if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
     if (q.sort == Sort::deflection) {
       // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
