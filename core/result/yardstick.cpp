@@ -18,7 +18,7 @@ constexpr double explained = 2;
 // Roundings of the largest value of its kind that a record may be off by: it may be a difference of such values.
 constexpr double grains = 16;
 // A record of less than this share of the accuracy, of the largest of its kind, of which no digit is certain, is nothing
-// but the error of the others: it has no size of its own. (As in core/solve/tolerances.cpp: floor_of_kind.)
+// but the error of the others: it has no size of its own.
 constexpr double share_of_kind = 1e-4;
 
 /// Gathers what makes a yardstick of a run.

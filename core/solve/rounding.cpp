@@ -155,11 +155,13 @@ void Tolerances::find_dashpot_rounding(const Dae::View& view) {
   }
 }
 
-/// What it is of the velocity at present.
+/// What it is of the velocity at present. Near rest an iteration goes to and fro by more than that, as its slopes are of the
+/// velocities that it comes from.
 void Tolerances::find_rounding_now(const Dae::View& view) {
+  constexpr double to_and_fro = 4;
   rounding_now_ = plain_rounding_;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
-    const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
+    const double f = std::abs(view.rate_force[r]), rounding = to_and_fro * force_rounding_[at(part)];
     double& largest = rounding_now_[at(part)];
     largest = std::max(largest, law.velocity_at(i, f + rounding) - law.velocity_at(i, f));
   });
