@@ -15,6 +15,8 @@ constexpr int corrections = 200, stiffen_after = 8;
 constexpr int newton_steps = 200;
 // A balance is found to this part of the forces that meet there: some rounding errors.
 constexpr double balanced = 3e-14;
+// Of what the rounding of a series spring would blur, the corrections leave this share.
+constexpr double corrected = 1e-2;
 // The stretch of a series spring that is left, against a force of the network in the spring.
 constexpr double unstretched = 1e-8;
 // The same, as a length, against the largest displacement in the step.
@@ -87,6 +89,7 @@ void ReferenceNetwork::evaluate(const Input& input) {
     // The rounding of the positions of both ends shows in the force.
     const double magnitude = std::abs(f) + points_[k].slope * (std::abs(x_[at(b.a)]) + std::abs(x_[at(b.b)]));
     largest_force_ = std::max(largest_force_, std::abs(f));
+    blur_ = std::max(blur_, (K_[k] > 0 ? corrected : 1) * balanced * magnitude);
     if (i >= 0) gradient_[at(i)] += f, size_[at(i)] += magnitude;
     if (j >= 0) gradient_[at(j)] -= f, size_[at(j)] += magnitude;
   }
@@ -98,7 +101,6 @@ void ReferenceNetwork::evaluate(const Input& input) {
     gradient_[i] += inertia - F;
     size_[i] += std::abs(F) + node.mass * (std::abs(x / input.h) + std::abs(node.velocity)) / span(input);
     worst = std::max(worst, std::abs(gradient_[i]) / tolerance(size_[i]));
-    blur_ = std::max(blur_, tolerance(size_[i]));
   }
   unbalance_ = worst;
   if (largest_force_ > 0) blur_ /= largest_force_;
