@@ -37,6 +37,8 @@ constexpr double soon = 0.1;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
+// But so far that steps which resolve what happens until then are longer than the rounding of a late time.
+constexpr double grains_ahead = 1e4;
 // The same relative to the time in which the network itself changes.
 constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
@@ -300,6 +302,7 @@ class Run {
     if (tolerances_.blind()) {
       const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
+      ahead = std::max(ahead, grains_ahead * time_grain(t));
     }
     const double foreseen = tolerances_.blind() ? ahead : 0;
     tolerances_.foresee(t, foreseen, y_, yp_, coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen));
