@@ -52,7 +52,7 @@ void Consistency::eliminate(double t) {
   if (!elimination_.factorise(values_)) report_singular(t);
 }
 
-void Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
+double Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
   constexpr int most_iterations = 30;  // a law with a corner takes some more than a smooth one
   const std::size_t n = y.size();
   std::vector<double> change(n), scale(n, 0);
@@ -74,8 +74,9 @@ void Consistency::collocate(double t, double rate, std::vector<double>& y, std::
       y[i] += damping * change[i];
       yp[i] += damping * rate * change[i];
     }
-    if (size <= 4 * std::numeric_limits<double>::epsilon()) return;
+    if (size <= 4 * std::numeric_limits<double>::epsilon()) break;
   }
+  return last;
 }
 
 void Consistency::report_singular(double t) {

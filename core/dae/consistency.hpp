@@ -19,7 +19,8 @@ class Consistency {
   /// Brings a state between two steps of the integrator, which is exact to its tolerance only, onto the equations:
   /// F(t, y, y') = 0 with y' changed by `rate` times the change of y (the inverse of the step). What a steep law makes of
   /// a velocity within the tolerance would else be no force at all.
-  void collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp);
+  /// Returns the last change, as a share of the unknown that changed most: more than rounding where it did not get there.
+  double collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp);
 
   /// y' of every unknown, algebraic ones too, from the equations and their derivatives in time. Throws SimulationError.
   void derivative(double t, const std::vector<double>& y, std::vector<double>& yp);

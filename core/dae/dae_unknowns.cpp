@@ -151,6 +151,7 @@ void Dae::derive_positions(const std::vector<char>& needed) {
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0 || ix_[at(sensor.index)] >= 0) continue;
     ix_[at(sensor.index)] = size_++;
+    derived_[at(sensor.index)] = {};  // a slider that sticks may have reached it
     if (!reached[at(sensor.index)]) reach(sensor.index);
   }
   spread();

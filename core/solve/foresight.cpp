@@ -13,10 +13,10 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
   for (std::size_t i = 0; i < n; ++i) size[i] = std::abs(motion.y[i]);
   if (ahead == 0) return size;
   if (dae.rough()) {
+    constexpr double about = 0.1;
     std::vector<double> y = motion.y, yp(n, 0);
     try {
-      consistency.collocate(t + ahead, 1 / ahead, y, yp);
-      if (std::all_of(y.begin(), y.end(), [](double x) { return std::isfinite(x); })) {
+      if (consistency.collocate(t + ahead, 1 / ahead, y, yp) <= about) {
         for (std::size_t i = 0; i < n; ++i) size[i] = std::max(size[i], std::abs(y[i]));
         return size;
       }

@@ -36,7 +36,7 @@ struct Integrator::Implementation {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver linear = nullptr;
   SUNNonlinearSolver newton = nullptr;  // where IDA's own would not do
-  std::vector<double> last_change;  // of Newton's iteration, where it is our own test that ends it
+  std::vector<double> last_change;      // of Newton's iteration, where it is our own test that ends it
   double first_change = 0;              // of Newton's iteration that is under way
   void* ida = nullptr;
   double time = 0, previous = 0, stop = 0;
@@ -139,8 +139,8 @@ struct Integrator::Implementation {
   static int factorise(SUNLinearSolver solver, SUNMatrix J) {
     const int flag = SUNLinSolSetup_KLU(solver, J);
     if (flag != SUNLS_PACKAGE_FAIL_REC) return flag;
-    SUNLinSol_KLUReInit(solver, J, SUNSparseMatrix_NNZ(J), SUNKLU_REINIT_PARTIAL);
-    return SUNLinSolSetup_KLU(solver, J);
+    if (SUNLinSol_KLUReInit(solver, J, SUNSparseMatrix_NNZ(J), SUNKLU_REINIT_PARTIAL) != SUNLS_SUCCESS) return flag;
+    return SUNLinSolSetup_KLU(solver, J) == SUNLS_SUCCESS ? SUNLS_SUCCESS : SUNLS_PACKAGE_FAIL_REC;
   }
 
   static int weights(N_Vector, N_Vector w, void* user) {
@@ -155,7 +155,7 @@ struct Integrator::Implementation {
   static int converged(SUNNonlinearSolver solver, N_Vector, N_Vector change, realtype tolerance, N_Vector weight,
                        void* user) {
     constexpr double nothing_to_change = 1e-4, slowest_rate = 0.9;  // as in IDA
-    constexpr double certain = 0.1;
+    constexpr double certain = 0.1;  // of what is allowed: whether the next change is smaller or not
     auto& self = *static_cast<Implementation*>(user);
     int iteration = 0;
     SUNNonlinSolGetCurIter(solver, &iteration);
@@ -167,7 +167,7 @@ struct Integrator::Implementation {
       return size <= nothing_to_change * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
     }
     if (size <= self.rounding(weight)) return SUN_NLS_SUCCESS;
-    // To and fro over the solution, in the rounding of differences of velocities, say: no further from it than this.
+    // To and fro over the solution, in the rounding of differences of velocities, say: about as far from it as this.
     if (back && size <= certain * tolerance) return SUN_NLS_SUCCESS;
     const double rate = std::pow(size / self.first_change, 1.0 / iteration);
     if (rate > slowest_rate) return size <= certain * tolerance ? SUN_NLS_CONTINUE : SUN_NLS_CONV_RECVR;

@@ -12,7 +12,10 @@ namespace {
 
 // Roundings of forces that balance (a sum of a few).
 constexpr double force_grains = 16;
-// The same of a difference of two velocities; over the next step, which may be twice as long as the last.
+// Near rest the velocity of a dilatant law goes to and fro by so many times what the rounding of its force makes of it: the
+// slopes of an iteration are of the velocities that it comes from.
+constexpr double to_and_fro = 4;
+// The same of a difference of two velocities.
 constexpr double difference_grains = 8;
 
 }  // namespace
@@ -128,7 +131,7 @@ void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<do
     double& largest = force_rounding_[at(part_of(structure.deflections[j]))];
     largest = std::max(largest, std::abs(df[j] * view.p[j]));
   }
-  for (double& rounding : force_rounding_) rounding *= eps;
+  for (double& rounding : force_rounding_) rounding *= to_and_fro * eps;
   for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
     if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
     double& largest = force_rounding_[at(part_of(structure.rates[r]))];
@@ -149,19 +152,17 @@ void Tolerances::find_dashpot_rounding(const Dae::View& view) {
     const Branch& b = dae_->structure().rates[r];
     std::size_t i = 0;
     const RateBatch& law = network_.rate_of(static_cast<int>(r), i);
-    const double speed = std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+    const double speed = b.a == b.b ? 0 : std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
     const double w = std::abs(view.rate_velocity[r]);
     dashpot_rounding_[r] = law.force_at(i, w + eps * speed) - law.force_at(i, w);
   }
 }
 
-/// What it is of the velocity at present. Near rest an iteration goes to and fro by more than that, as its slopes are of the
-/// velocities that it comes from.
+/// What it is of the velocity at present.
 void Tolerances::find_rounding_now(const Dae::View& view) {
-  constexpr double to_and_fro = 4;
   rounding_now_ = plain_rounding_;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
-    const double f = std::abs(view.rate_force[r]), rounding = to_and_fro * force_rounding_[at(part)];
+    const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
     double& largest = rounding_now_[at(part)];
     largest = std::max(largest, law.velocity_at(i, f + rounding) - law.velocity_at(i, f));
   });
@@ -192,6 +193,7 @@ void Tolerances::loosen_balanced_forces() {
   struct Follower { Branch ends; int unknown; double per_unit, own, noise; bool any; };
   std::vector<Follower> followers;
   const auto add = [](std::vector<Noise>& noise, const Branch& b, double force, bool any) {
+    if (b.a == b.b) return;
     for (NodeId node : {b.a, b.b}) {
       noise[at(node)].sum += any ? 0 : force;
       noise[at(node)].any += any;

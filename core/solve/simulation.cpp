@@ -38,7 +38,7 @@ constexpr double soon = 0.1;
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
 // But so far that steps which resolve what happens until then are longer than the rounding of a late time.
-constexpr double grains_ahead = 1e4;
+constexpr double grains_ahead = 1e5;
 // The same relative to the time in which the network itself changes.
 constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time

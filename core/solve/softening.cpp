@@ -50,7 +50,7 @@ void Softening::find_stops(const Structure& classified) {
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   const Drive::Reach reach = coming_reach(drive, velocity);
-  applied_ = {};
+  applied_.reset();
   std::fill(least_velocity_.begin(), least_velocity_.end(), 0.0);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -65,7 +65,7 @@ void Softening::apply(const Tolerances::Unresolved& velocity) {
   // What follows such a law at once would jump with every change of it.
   constexpr double other = 2;
   const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
-  if (same(velocity.pseudoplastic, applied_.pseudoplastic) && same(velocity.dilatant, applied_.dilatant)) return;
+  if (applied_ && same(velocity.pseudoplastic, applied_->pseudoplastic) && same(velocity.dilatant, applied_->dilatant)) return;
   applied_ = velocity;
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/dae/drive.hpp"
@@ -24,7 +25,7 @@ class Softening {
  private:
   const Network& network_;
   void find_stops(const Structure& classified);
-  Tolerances::Unresolved applied_;      ///< those that are applied
+  std::optional<Tolerances::Unresolved> applied_;
   std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
   /// Of each rate branch: it may bring a mass to rest, or it is one of several in series that do, or that begin at rest
   /// together. Elsewhere what a pseudoplastic law carries is told by its neighbours, and its velocity follows from that down

@@ -13,11 +13,14 @@ namespace rheonet {
 
 namespace {
 
-// A quantity this much smaller than the largest of its kind is still resolved to its own last digit.
+// A quantity this much smaller than the largest of its kind is still resolved as it is asked for: a nanometre beside metres
+// is no noise.
 constexpr double floor_of_kind = 1e-8;
 // What moves along with others is resolved as it moves beside them, down to this share of how they move together and to so
 // many roundings of that: nearer to rounding a step is rejected for nothing.
 constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
+// A position is allowed no more than so many times its own share for the sake of its velocity.
+constexpr double most_of_velocity = 10;
 // The largest share of the tolerance that a reversal's velocity may hide in.
 constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
@@ -52,7 +55,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
   relative_seen_.assign(nodes, std::numeric_limits<double>::infinity());
-  gap_seen_.assign(nodes, std::numeric_limits<double>::infinity());
+  gap_seen_.assign(nodes, 0);
   slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
@@ -105,12 +108,13 @@ void Tolerances::find_gaps() {
   for (std::size_t n = 0; n < positioned.size(); ++n) positioned[n] = dae_->structure().of_time[n];
   for (const NodeId node : dae_->positioned()) positioned[at(node)] = 1;
   gaps_.clear();
+  has_gap_.assign(positioned.size(), 0);
   const auto add = [&](const Branch& b) {
     if (!positioned[at(b.a)] || !positioned[at(b.b)]) return;
     for (const NodeId node : {b.a, b.b}) {
       if (dae_->position_unknown(node) < 0) continue;
       gaps_.push_back({node, b});
-      if (std::isinf(gap_seen_[at(node)])) gap_seen_[at(node)] = 0;
+      has_gap_[at(node)] = 1;
     }
   };
   for (const Branch& b : network_.rates) add(b);
@@ -169,6 +173,8 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   const Dae::View& view = dae_->view(t, y.data(), yp.data());
   see(y, view);
   find_rounding(view);
+  find_difference_rounding(view);
+  step_ = 0;
   update(t, yp);
 }
 
@@ -265,7 +271,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     const auto resolve = [&](double beside, double share) {
       if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
     };
-    if (q.sort == Sort::position) resolve(gap_seen_[q.index], least_position);
+    if (q.sort == Sort::position && has_gap_[q.index]) resolve(gap_seen_[q.index], least_position);
     if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least_velocity);
     scale = std::max(scale, foreseen_of(q));
     if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
@@ -302,10 +308,12 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   unresolved_ = {.pseudoplastic = std::max(relative_ * velocity, *std::max_element(plain_rounding_.begin(), plain_rounding_.end())),
                  .dilatant = std::max(relative_ * velocity, *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end()))};
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    // A position comes of a velocity.
-    if (quantity_[i].sort != Sort::position) continue;
-    const int of = dae_->velocity_unknown(static_cast<NodeId>(quantity_[i].index));
-    if (of >= 0) tolerance_[i] = std::max(tolerance_[i], step_ * tolerance_[at(of)]);
+    // A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.
+    const Quantity& q = quantity_[i];
+    if (q.sort != Sort::position || stands_alone(q)) continue;
+    const int of = dae_->velocity_unknown(static_cast<NodeId>(q.index));
+    const double most = most_of_velocity * local() * seen(q);
+    if (of >= 0) tolerance_[i] = std::max(tolerance_[i], std::min(most, step_ * tolerance_[at(of)]));
   }
   loosen_balanced_forces();
   // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.

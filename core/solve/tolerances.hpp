@@ -31,7 +31,6 @@ class Tolerances {
   const std::vector<double>& values() const { return tolerance_; }
   /// Of what is unknown or given, so far or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
-  /// Velocity below which nothing is resolved, whatever the branch [m/s].
   /// Velocities below which nothing is resolved [m/s]; at rest a dilatant law makes a large one of the rounding of a force.
   struct Unresolved { double pseudoplastic = 0, dilatant = 0; };
   const Unresolved& unresolved() const { return unresolved_; }
@@ -92,7 +91,8 @@ class Tolerances {
   /// and may be small beside them.
   struct Gap { NodeId node; Branch branch; };
   std::vector<Gap> gaps_;
-  std::vector<double> gap_seen_;                      ///< of each node: the largest of them [m]; none: infinite
+  std::vector<double> gap_seen_;                      ///< of each node: the largest of them [m]
+  std::vector<char> has_gap_;                         ///< of each node: it has one at present
   std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
   std::vector<double> rounding_;                      ///< of each unknown: what rounding leaves of it where it is 0
   /// That of a velocity, and how long it adds up in what comes of it [s].

@@ -193,7 +193,7 @@ TEST_CASE("a pair that slips has its force of sliding, though its kink was passe
   CHECK_EQ(bundle.pair_force(0, p), 1.5);
   CHECK_EQ(bundle.pair_force(0, 2), 1.5);
   CHECK_EQ(bundle.stretch(0, p) + bundle.slide(0, p), doctest::Approx(displacement).epsilon(1e-15));
-  CHECK_EQ(bundle.slide(0, p), doctest::Approx(-1e-7));
+  CHECK(std::abs(bundle.slide(0, p) + 1e-7) < 1e-15);
 }
 
 TEST_CASE("a jump of a bundle goes along its law, and what it loses is heat") {

@@ -15,14 +15,17 @@ namespace {
 void check_against_reference(const std::string& netlist, const test::Trajectory& run) {
   const Scene scene = test::scene_of(netlist);
   const test::ReferenceSolution reference = test::integrate_reference(scene, declarations());
+  REQUIRE(reference.complete);
   std::size_t sure = 0, values = 0;
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
     const test::ReferenceSolution::Column& column = reference.columns[k];
     const std::string& name = run.header[k + 1];
     CAPTURE(name);
+    REQUIRE_EQ(column.value.size(), run[name].size());
     double worst = 0;
     for (std::size_t i = 0; i < column.value.size(); ++i) {
       ++values;
+      REQUIRE(std::isfinite(run[name][i]));
       if (!(column.error[i] <= 1e-3 * column.scale)) continue;
       ++sure;
       worst = std::max(worst, std::abs(run[name][i] - column.value[i]) - 4 * column.error[i]);
