@@ -12,8 +12,8 @@ namespace {
 
 // Roundings of forces that balance (a sum of a few).
 constexpr double force_grains = 16;
-// Near rest the velocity of a dilatant law goes to and fro by so many times what the rounding of its force makes of it: the
-// slopes of an iteration are of the velocities that it comes from.
+// Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
+// slopes are of the velocities that it comes from.
 constexpr double to_and_fro = 4;
 // The same of a difference of two velocities.
 constexpr double difference_grains = 8;
@@ -131,7 +131,7 @@ void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<do
     double& largest = force_rounding_[at(part_of(structure.deflections[j]))];
     largest = std::max(largest, std::abs(df[j] * view.p[j]));
   }
-  for (double& rounding : force_rounding_) rounding *= to_and_fro * eps;
+  for (double& rounding : force_rounding_) rounding *= eps;
   for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
     if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
     double& largest = force_rounding_[at(part_of(structure.rates[r]))];
@@ -162,7 +162,7 @@ void Tolerances::find_dashpot_rounding(const Dae::View& view) {
 void Tolerances::find_rounding_now(const Dae::View& view) {
   rounding_now_ = plain_rounding_;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
-    const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
+    const double f = std::abs(view.rate_force[r]), rounding = to_and_fro * force_rounding_[at(part)];
     double& largest = rounding_now_[at(part)];
     largest = std::max(largest, law.velocity_at(i, f + rounding) - law.velocity_at(i, f));
   });

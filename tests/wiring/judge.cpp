@@ -20,7 +20,8 @@ namespace {
 constexpr double enough = 0.5;
 // Both ends of a scene that cannot go on lie this near to each other, of its length: some steps of the reference.
 constexpr double same_end = 3e-3;
-// A slope of the deviation from the reference over its step can be told above this, of the scale.
+// A slope of the deviation from the reference over its step can be told above this, of the scale. (Where its longest steps are as
+// near already, what its shortest are off by is rounding, within its own estimate.)
 constexpr double told = 1e-5;
 
 /// What the bounds of the forces say against the reference itself; "" if they agree.
