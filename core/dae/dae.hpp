@@ -203,6 +203,7 @@ class Dae {
   void number_unknowns();
   std::vector<char> told_by_dilatant_laws(Sets told) const;
   void derive_positions(const std::vector<char>& needed);
+  void order_positions(const std::vector<char>& needed, const std::vector<NodeId>& order);
   void add_row(int row, bool position, const Structure::Loop& loop);
   Terms add_terms(const Structure::Loop& loop);
   double sum_of(const Terms& terms, const double* yp) const;

@@ -161,8 +161,13 @@ void Dae::derive_positions(const std::vector<char>& needed) {
     reach(node);
     spread();
   }
-  std::vector<char> wanted(nodes, 0);
-  for (std::size_t n = 0; n < nodes; ++n) {
+  order_positions(needed, order);
+}
+
+/// What the positions that are needed follow from, in this order.
+void Dae::order_positions(const std::vector<char>& needed, const std::vector<NodeId>& order) {
+  std::vector<char> wanted(needed.size(), 0);
+  for (std::size_t n = 0; n < needed.size(); ++n) {
     for (auto node = static_cast<NodeId>(n); needed[n] && !wanted[at(node)]; node = derived_[at(node)].parent) {
       wanted[at(node)] = 1;
       if (derived_[at(node)].branch < 0 && derived_[at(node)].slider < 0) break;

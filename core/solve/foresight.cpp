@@ -11,7 +11,6 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
   const std::size_t n = motion.y.size();
   std::vector<double> size(n);
   for (std::size_t i = 0; i < n; ++i) size[i] = std::abs(motion.y[i]);
-  if (ahead == 0) return size;
   if (dae.rough()) {
     constexpr double about = 0.1;
     std::vector<double> y = motion.y, yp(n, 0);

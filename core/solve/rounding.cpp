@@ -12,11 +12,89 @@ namespace {
 
 // Roundings of forces that balance (a sum of a few).
 constexpr double force_grains = 16;
+// The same of a difference of two velocities.
+constexpr double difference_grains = 8;
 // Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
 // slopes are of the velocities that it comes from.
 constexpr double to_and_fro = 4;
-// The same of a difference of two velocities.
-constexpr double difference_grains = 8;
+
+double speed_at(const Dae::View& view, const Branch& b) {
+  return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+}
+
+/// How well forces are known that balance others [N]: as well as all the others at a node where they are the only one that is
+/// not told by a law of its own.
+class BalancedForces {
+ public:
+  explicit BalancedForces(const Structure& structure) : nodes_(structure.kind.size()) {
+    // A momentum, or what moves as it is told to, takes any force.
+    for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n].any = structure.kind[n] == Kind::known || structure.mass[n] > 0;
+  }
+
+  void add_told(const Branch& b, double noise) {
+    if (b.a == b.b) return;
+    nodes_[at(b.a)].noise += noise;
+    nodes_[at(b.b)].noise += noise;
+  }
+  void add(const Branch& b) {
+    const int index = static_cast<int>(forces_.size());
+    forces_.push_back({b, 0, b.a == b.b});
+    if (b.a == b.b) return;
+    for (const NodeId node : {b.a, b.b}) {
+      nodes_[at(node)].forces.push_back(index);
+      ++nodes_[at(node)].open;
+    }
+  }
+  /// Follows every balance as far as it tells something.
+  void find() {
+    for (std::size_t n = 0; n < nodes_.size(); ++n) look_at(static_cast<NodeId>(n));
+    follow();
+  }
+  bool found(std::size_t force) const { return forces_[force].found; }
+  double noise(std::size_t force) const { return forces_[force].noise; }
+  /// The same from what is known of one more.
+  void tell(std::size_t force, double noise) {
+    settle(forces_[force], noise);
+    follow();
+  }
+
+ private:
+  struct Force { Branch ends; double noise; bool found; };
+  struct Node {
+    double noise = 0;         ///< of the forces that are told or found
+    int open = 0;             ///< the others
+    bool any = false;
+    std::vector<int> forces;  ///< all that had to be found
+  };
+
+  void look_at(NodeId node) {
+    if (!nodes_[at(node)].any && nodes_[at(node)].open == 1) next_.push_back(node);
+  }
+  void settle(Force& force, double noise) {
+    force.noise = noise;
+    force.found = true;
+    for (const NodeId node : {force.ends.a, force.ends.b}) {
+      nodes_[at(node)].noise += noise;
+      --nodes_[at(node)].open;
+      look_at(node);
+    }
+  }
+  void follow() {
+    while (!next_.empty()) {
+      const Node& node = nodes_[at(next_.back())];
+      next_.pop_back();
+      for (const int f : node.forces) {
+        if (forces_[at(f)].found) continue;
+        settle(forces_[at(f)], node.noise);
+        break;
+      }
+    }
+  }
+
+  std::vector<Node> nodes_;
+  std::vector<Force> forces_;
+  std::vector<NodeId> next_;
+};
 
 }  // namespace
 
@@ -61,14 +139,11 @@ void Tolerances::find_rounding(const Dae::View& view) {
     sum[at(b.b)] += x;
   };
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
-  const auto speed_of = [&](const Branch& b) {
-    return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
-  };
   const auto meet = [&](const Branch& b, double f) {
     if (known(b.a) && known(b.b)) return;
     const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
     force[part] = std::max(force[part], std::abs(f));
-    speed[part] = std::max(speed[part], speed_of(b));
+    speed[part] = std::max(speed[part], speed_at(view, b));
   };
   const std::size_t count = structure.deflections.size();
   std::vector<double> f(count), df(count), c(count), dc(count);
@@ -107,7 +182,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const bool alone = known(b.a) && known(b.b);
       const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
       if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / std::abs(df[k]);
-      drift_[i] = {eps * (alone ? speed_of(b) : speed[part]),
+      drift_[i] = {eps * (alone ? speed_at(view, b) : speed[part]),
                    dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       const Branch& b = structure.rates[k];
@@ -152,9 +227,8 @@ void Tolerances::find_dashpot_rounding(const Dae::View& view) {
     const Branch& b = dae_->structure().rates[r];
     std::size_t i = 0;
     const RateBatch& law = network_.rate_of(static_cast<int>(r), i);
-    const double speed = b.a == b.b ? 0 : std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
-    const double w = std::abs(view.rate_velocity[r]);
-    dashpot_rounding_[r] = law.force_at(i, w + eps * speed) - law.force_at(i, w);
+    const double w = std::abs(view.rate_velocity[r]), grain = b.a == b.b ? 0 : eps * speed_at(view, b);
+    dashpot_rounding_[r] = law.force_at(i, w + grain) - law.force_at(i, w);
   }
 }
 
@@ -181,60 +255,45 @@ void Tolerances::find_difference_rounding(const Dae::View& view) {
 }
 
 /// A force that is an unknown balances others: it cannot be known better than they are. The same of the deflection of what is
-/// held still, which may take any force. Where all that such a force could balance may take any (or moves with a momentum of
-/// its own, or as it is told to) it follows from a velocity, and has the rounding of that.
+/// held still, which may take any force. Where no balance tells the force of a dashpot it follows from a velocity, and has the
+/// rounding of that.
 void Tolerances::loosen_balanced_forces() {
   if (!any_solved_) return;
-  constexpr int passes = 3;  // such forces in a row
   const Structure& structure = dae_->structure();
-  struct Noise { double sum = 0; int any = 0; };
-  std::vector<Noise> fixed(structure.kind.size());
-  for (std::size_t n = 0; n < fixed.size(); ++n) fixed[n].any = structure.kind[n] == Kind::known || structure.mass[n] > 0;
-  struct Follower { Branch ends; int unknown; double per_unit, own, noise; bool any; };
+  BalancedForces forces(structure);
+  struct Follower { int unknown; double per_unit; };
   std::vector<Follower> followers;
-  const auto add = [](std::vector<Noise>& noise, const Branch& b, double force, bool any) {
-    if (b.a == b.b) return;
-    for (NodeId node : {b.a, b.b}) {
-      noise[at(node)].sum += any ? 0 : force;
-      noise[at(node)].any += any;
-    }
-  };
+  std::vector<double> of_velocity;  // of those that are forces of dashpots
   for (std::size_t r = 0; r < structure.rates.size(); ++r) {
-    const Branch& b = structure.rates[r];
-    const double own = dashpot_rounding_[r];
     const int unknown = dae_->force_unknown(static_cast<int>(r));
-    if (unknown < 0) add(fixed, b, own, false);
-    if (unknown >= 0) followers.push_back({b, unknown, 1, own, own, false});
+    if (unknown < 0) {
+      forces.add_told(structure.rates[r], dashpot_rounding_[r]);
+    } else {
+      forces.add(structure.rates[r]);
+      followers.push_back({unknown, 1});
+      of_velocity.push_back(dashpot_rounding_[r]);
+    }
   }
   const std::vector<double>& slope = dae_->slopes();
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const Branch& b = structure.deflections[j];
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
     if (unknown < 0) continue;
-    const double stiffness = std::abs(slope[j]), own = stiffness * tolerance_[at(unknown)];
+    const double stiffness = std::abs(slope[j]);
     std::size_t i = 0;
     if (!network_.batch_of(static_cast<int>(j), i).holds(i)) {
-      add(fixed, b, own, false);
-    } else if (stiffness > 0) {
-      followers.push_back({b, unknown, 1 / stiffness, own, own, true});
+      forces.add_told(structure.deflections[j], stiffness * tolerance_[at(unknown)]);
+    } else {
+      forces.add(structure.deflections[j]);
+      followers.push_back({unknown, stiffness > 0 ? 1 / stiffness : 0});
     }
   }
-  for (int pass = 0; pass < passes; ++pass) {
-    std::vector<Noise> noise = fixed;
-    for (const Follower& f : followers) add(noise, f.ends, f.noise, f.any);
-    for (Follower& f : followers) {
-      double others = std::numeric_limits<double>::infinity();
-      for (NodeId node : {f.ends.a, f.ends.b}) {
-        const Noise& here = noise[at(node)];
-        if (here.any == f.any) others = std::min(others, std::max(0.0, here.sum - (f.any ? 0 : f.noise)));
-      }
-      f.noise = std::isinf(others) ? f.own : others;
-      f.any = false;
-    }
+  forces.find();
+  for (std::size_t k = 0; k < of_velocity.size(); ++k) {
+    if (!forces.found(k)) forces.tell(k, of_velocity[k]);
   }
-  for (const Follower& f : followers) {
-    double& tolerance = tolerance_[at(f.unknown)];
-    tolerance = std::max(tolerance, f.per_unit * f.noise);
+  for (std::size_t k = 0; k < followers.size(); ++k) {
+    double& tolerance = tolerance_[at(followers[k].unknown)];
+    if (forces.found(k)) tolerance = std::max(tolerance, followers[k].per_unit * forces.noise(k));
   }
 }
 

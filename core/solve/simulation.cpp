@@ -299,13 +299,15 @@ class Run {
     double ahead = lookahead * course(t);
     std::vector<double> ypp;
     system_->consistency.second_derivative(t, glimpse * course(t), y_, yp_, ypp);
+    double foreseen = 0;
     if (tolerances_.blind()) {
       const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
-      ahead = std::max(ahead, grains_ahead * time_grain(t));
+      foreseen = ahead = std::max(ahead, grains_ahead * time_grain(t));
     }
-    const double foreseen = tolerances_.blind() ? ahead : 0;
-    tolerances_.foresee(t, foreseen, y_, yp_, coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen));
+    std::vector<double> size;
+    if (foreseen > 0) size = coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen);
+    tolerances_.foresee(t, foreseen, y_, yp_, size);
     system_->events.begin(t, y_.data(), yp_.data());
     if (system_->dae.rough()) {
       soften_laws();

@@ -54,8 +54,8 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
-  relative_seen_.assign(nodes, std::numeric_limits<double>::infinity());
-  gap_seen_.assign(nodes, 0);
+  relative_seen_.assign(nodes, 0);
+  gap_seen_ = relative_seen_;
   slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
@@ -92,13 +92,6 @@ void Tolerances::attach(Dae& dae) {
   tolerance_.assign(n, relative_);
   rounding_.assign(n, 0);
   drift_.assign(n, {});
-  const auto join = [&](const Branch& b) {
-    for (const NodeId node : {b.a, b.b})
-      if (std::isinf(relative_seen_[at(node)])) relative_seen_[at(node)] = 0;
-  };
-  for (const Branch& b : structure.deflections) join(b);
-  for (const Branch& b : structure.rates) join(b);
-  for (const Branch& b : structure.sliders) join(b);
   find_parts();
   find_gaps();
 }
@@ -303,24 +296,34 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       tolerance_[i] = std::max(tolerance_[i], relative_ * velocity * ahead_);
     }
   }
-  const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
-  largest_velocity_ = velocity;
-  unresolved_ = {.pseudoplastic = std::max(relative_ * velocity, *std::max_element(plain_rounding_.begin(), plain_rounding_.end())),
-                 .dilatant = std::max(relative_ * velocity, *std::max_element(rounding_at_rest_.begin(), rounding_at_rest_.end()))};
+  largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
+  const auto unresolved = [&](const std::vector<double>& rounding) {
+    return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
+  };
+  unresolved_ = {.pseudoplastic = unresolved(plain_rounding_), .dilatant = unresolved(rounding_at_rest_)};
+  loosen_positions();
+  loosen_balanced_forces();
+  find_noise();
+}
+
+/// A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.
+void Tolerances::loosen_positions() {
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    // A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.
     const Quantity& q = quantity_[i];
     if (q.sort != Sort::position || stands_alone(q)) continue;
     const int of = dae_->velocity_unknown(static_cast<NodeId>(q.index));
     const double most = most_of_velocity * local() * seen(q);
     if (of >= 0) tolerance_[i] = std::max(tolerance_[i], std::min(most, step_ * tolerance_[at(of)]));
   }
-  loosen_balanced_forces();
-  // A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
+}
+
+/// A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
+void Tolerances::find_noise() {
+  const Structure& structure = dae_->structure();
   const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
     const double unresolved =
         given ? given_noise * flow
-              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * velocity),
+              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_),
                           rounding_at_rest_[at(part_of(b))], of_difference});
     // More than nothing: an event function that begins at 0 would never be seen to fall through it.
     return std::max(unresolved, std::numeric_limits<double>::min());

@@ -62,7 +62,9 @@ class Tolerances {
   void find_parts();
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
+  void loosen_positions();
   void loosen_balanced_forces();
+  void find_noise();
   void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
   void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
@@ -86,7 +88,7 @@ class Tolerances {
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> slide_seen_;                    ///< of each slider
-  std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]; infinite: has none
+  std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]
   /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
   /// and may be small beside them.
   struct Gap { NodeId node; Branch branch; };

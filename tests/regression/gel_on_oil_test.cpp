@@ -39,8 +39,8 @@ void check_against_reference(const std::string& netlist, const test::Trajectory&
 
 // The gel starts by 1e-26 m while the oil under it moves 1e-9 m: its velocity was the rounding of theirs, and the run
 // followed it. And where the gel turns its force goes steeply through 0: the event came when the velocity was noise, the
-// force still was not, and friction beside it was given a force that it could not have. Beside friction the start of the gel is slower than any number: the friction, at rest
-// so far, was not seen to leave it, and bent like a spring ever after.
+// force still was not, and friction beside it was given a force that it could not have. Beside friction the start of the gel
+// is slower than any number: the friction, at rest so far, was not seen to leave it, and bent like a spring ever after.
 TEST_CASE("a pseudoplastic gel with friction beside it, on oil, starts from rest and turns") {
   const std::string friction[] = {R"(type = "vfm", stiffness = 92, damping = 8.2)", R"(type = "sfm", stiffness = 92, coulomb = 0.17)",
                                   R"(type = "cfm", stiffness = 92, coulomb = 0.17, damping = 8.2)"};
