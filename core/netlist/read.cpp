@@ -11,6 +11,7 @@
 #include "core/netlist/include.hpp"
 #include "core/netlist/keys.hpp"
 #include "core/netlist/models.hpp"
+#include "core/netlist/read_presentation.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/simulate_table.hpp"
 
@@ -22,7 +23,7 @@ namespace {
 
 const std::vector<std::string> top_level{"title", "domain", "parameters", "check",    "elements",
                                          "nodes", "models", "include",    "simulate", "expect",
-                                         "exact"};
+                                         "exact", "plot",   "demo"};
 
 bool is_top_level(const std::string& name) {
   return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
@@ -58,7 +59,9 @@ class Reader {
  private:
   void finish() {
     result_.diagnostics = mistakes_.sorted();
-    if (mistakes_.errors() == 0) result_.scene = std::move(scene_);
+    if (mistakes_.errors() > 0) return;
+    result_.scene = std::move(scene_);
+    result_.presentation = std::move(presentation_);
   }
 
   void read_document(int file, const fs::path& canonical) {
@@ -115,6 +118,12 @@ class Reader {
       read_claims(expect->value, environment, doubtful, context_, scene_);
     if (const TomlEntry* exact = document_.find("exact"))
       read_exact(exact->value, environment, doubtful, context_, scene_);
+    if (const TomlEntry* plot = document_.find("plot")) {
+      presentation_.plot = read_plot_table(plot->value, doubtful, context_, scene_);
+      if (options_.plotted) add_records(presentation_.plot.records(), doubtful, context_, result_.sources, scene_);
+    }
+    if (const TomlEntry* demo = document_.find("demo"))
+      presentation_.demo = read_demo(demo->value, environment, context_);
   }
 
   void read_title_and_domain() {
@@ -235,6 +244,7 @@ class Reader {
   Files files_;
   Context context_;
   Scene scene_;
+  Presentation presentation_;
   TomlValue document_;
   std::deque<Override> overrides_;
   std::deque<Environment> environments_;

@@ -7,6 +7,7 @@
 
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "core/netlist/presentation.hpp"
 #include "core/netlist/scene.hpp"
 
 namespace rheonet {
@@ -15,12 +16,14 @@ struct ReadOptions {
   std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
   std::optional<double> accuracy;             ///< as after --accuracy; wins over the file
   std::vector<std::string> records = {};      ///< paths that are recorded besides those that the file asks for
+  bool plotted = false;                       ///< what `[plot]` draws is recorded besides
   bool claims = true;                         ///< false: `[expect]` is not read
   std::vector<std::filesystem::path> model_folders = {};  ///< folders that `include` falls back on
 };
 
 struct ReadResult {
   std::optional<Scene> scene;             ///< absent if there is any error
+  Presentation presentation;              ///< how the scene wants to be shown; empty if there is any error
   std::vector<Diagnostic> diagnostics;    ///< every mistake found, in the order of files and lines
   Sources sources;
 };

@@ -269,6 +269,32 @@ Json expect_schema() {
                    "claims on results, by record; checked after a run");
 }
 
+Json plot_schema() {
+  const auto texts = [](const std::string& description) {
+    return described({{"anyOf", {text(description), list_of(text(description))}}}, description);
+  };
+  Json schema = object({{"x", text("a record; `time` if absent")},
+                        {"y", texts("records that are drawn against it")},
+                        {"loop", texts("elements: force against displacement")},
+                        {"flow", texts("elements: force against velocity")},
+                        {"phase", texts("nodes: velocity against position")},
+                        {"unit", texts("units for the axes that have their dimension")},
+                        {"log", {{"enum", {"x", "y", "xy"}}, {"description", "logarithmic axes"}}}});
+  schema["dependentRequired"] = {{"x", {"y"}}};
+  return described(std::move(schema), "what is drawn where nobody says otherwise");
+}
+
+Json demo_schema() {
+  const Json range = {{"type", "array"}, {"items", reference("value")}, {"minItems", 2}, {"maxItems", 3}};
+  Json schema = object({{"question", text("what it is about")},
+                        {"change", text("which values to change")},
+                        {"see", text("what can then be seen")},
+                        {"why", text("why that is so")},
+                        {"sliders", described(named(range), "parameters worth moving: from, to and perhaps a step")}});
+  schema["required"] = {"question", "change", "see", "why"};
+  return described(std::move(schema), "what a scene is to teach");
+}
+
 Json simulate_schema() {
   Json output = object({{"every", described(reference("value"), "interval of the rows [s]")},
                         {"points", described(reference("value"), "number of rows, first and last included")},
@@ -333,6 +359,8 @@ std::string json_schema(Declarations declarations) {
       {"simulate", simulate_schema()},
       {"expect", reference("expect")},
       {"exact", reference("exact")},
+      {"plot", plot_schema()},
+      {"demo", demo_schema()},
   }));
   schema["$defs"] = std::move(definitions);
   return schema.dump(2);

@@ -121,6 +121,16 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
     3 | k = { type = "spring", between = ["seat", "elsewhere"], stiffness = 3 }
       |                                           ^
 )");
+  CHECK(warnings("seat", "grond") == R"(scene.toml:3:43: warning: nothing but `k` is at node `grond`: it carries no force
+    3 | k = { type = "spring", between = ["seat", "grond"], stiffness = 3 }
+      |                                           ^
+  did you mean `ground`?
+)");
+  CHECK(warnings("seat", "Ground") == R"(scene.toml:3:43: warning: node `Ground` moves as any other does
+    3 | k = { type = "spring", between = ["seat", "Ground"], stiffness = 3 }
+      |                                           ^
+  the node that never moves is `ground`
+)");
 }
 
 TEST_CASE("a delay so short that the run takes millions of steps is told before") {

@@ -44,6 +44,23 @@ TEST_CASE("plot draws the records of a scene, and whatever else is named; its cl
   CHECK(contains(decay.err, "note: `pull`: 17 of 501 points are not above 0 and left out of the logarithmic axis"));
 }
 
+TEST_CASE("a scene says what is worth drawing, unless the command line does") {
+  const Folder folder(scene + "[plot]\nloop = [\"c1\", \"k1\"]\nunit = \"cm\"\n");
+  const std::string own = folder.shell("rheonet plot scene.toml -o -", 0).out;
+  CHECK(contains(own, "<desc>force [N] against displacement [cm]: c1.force, k1.force</desc>"));
+  CHECK_FALSE(contains(own, "grip.position"));
+  CHECK(contains(folder.shell("rheonet plot scene.toml -o - --unit mm", 0).out, "displacement [mm]"));
+  CHECK(contains(folder.shell("rheonet plot scene.toml -o - -y k1.force", 0).out,
+                 "<desc>force [N] against time [s]: k1.force</desc>"));
+  // Of a run only what it records: here nothing of the loops, so all else over time.
+  folder.shell("rheonet run scene.toml -q -o a.csv --plot run.svg", 0);
+  CHECK(contains(folder.read("run.svg"), "force [N] against time [s]: k1.force"));
+  folder.shell("rheonet run scene.toml -q -o a.csv --plot run.svg --set simulate.record='[\"c1.force\",\"c1.displacement\"]'", 0);
+  CHECK(contains(folder.read("run.svg"), "<desc>force [N] against displacement [cm]: c1.force</desc>"));
+  folder.shell("rheonet plot scene.toml -o decay.svg --set plot='{ y = \"k1.force\", log = \"y\" }'", 0);
+  CHECK(contains(folder.read("decay.svg"), ">0.01<"));
+}
+
 TEST_CASE("what a block puts out has the unit that follows from its inputs, and the axis of others that have it") {
   const Folder folder(R"(domain = "rotation"
 [elements]

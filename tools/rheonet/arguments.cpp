@@ -270,7 +270,7 @@ struct CommandLine {
         ->type_name("FILE");
     run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
         ->type_name("FILE");
-    run->add_option("--plot", arguments.figure, "draw the records over time, once all is done: an .svg or a .png")
+    run->add_option("--plot", arguments.figure, "draw the records as the scene's [plot] says, else over time, once all is done: an .svg or a .png")
         ->type_name("FILE");
     add_accuracy(run);
     run->add_flag("--certify", arguments.certify,

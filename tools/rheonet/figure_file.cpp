@@ -71,21 +71,38 @@ std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns
   return chosen;
 }
 
-RunFigure::RunFigure(const Scene& scene) : title_(scene.title) {
+void follow(const PlotTable& table, plot::Look& look) {
+  if (look.units.empty()) look.units = table.units;
+  look.logarithmic_x = look.logarithmic_x || table.log.starts_with('x');
+  look.logarithmic_y = look.logarithmic_y || table.log.ends_with('y');
+}
+
+RunFigure::RunFigure(const Scene& scene, const PlotTable& table) {
+  look_.title = scene.title;
   const std::vector<plot::Column> columns = columns_of(scene);
-  chosen_ = chosen_columns(columns, "time");
-  for (const std::size_t k : chosen_) curves_.push_back({columns[k].name, columns[0], columns[k], {}});
+  const auto column = [&](const std::string& name) {
+    const auto found = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.name == name; });
+    return static_cast<std::size_t>(found - columns.begin());
+  };
+  for (const PlotTable::Curve& curve : table.curves)
+    if (const plot::ColumnPair pair{column(curve.x), column(curve.y)}; std::max(pair.first, pair.second) < columns.size())
+      chosen_.push_back(pair);
+  if (!chosen_.empty())
+    follow(table, look_);
+  else
+    for (const std::size_t k : chosen_columns(columns, "time")) chosen_.emplace_back(0, k);
+  for (const auto& [x, y] : chosen_) curves_.push_back({columns[y].name, columns[x], columns[y], {}});
 }
 
 void RunFigure::row(double time, const std::vector<double>& values) {
-  for (std::size_t k = 0; k < chosen_.size(); ++k) curves_[k].trace.add({time, values[chosen_[k] - 1]});
+  const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
+  for (std::size_t k = 0; k < chosen_.size(); ++k)
+    curves_[k].trace.add({value(chosen_[k].first), value(chosen_[k].second)});
 }
 
 ExitStatus RunFigure::write(const std::string& path) const {
-  plot::Look look;
-  look.title = title_;
   try {
-    return write_figure(curves_, look, path);
+    return write_figure(curves_, look_, path);
   } catch (const plot::Mistake& mistake) {
     report(mistake);
     return not_simulated;

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/netlist/presentation.hpp"
 #include "core/netlist/scene.hpp"
 #include "tools/plot/compose.hpp"
 #include "tools/plot/mistake.hpp"
@@ -25,16 +26,19 @@ ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& lo
 /// no time. Says how many others there are.
 std::vector<std::size_t> chosen_columns(const std::vector<plot::Column>& columns, const std::string& x);
 
-/// Draws the records of a run over time while it goes on: `run --plot`.
+/// The units and logarithmic axes of `[plot]`, where the command line has none.
+void follow(const PlotTable& table, plot::Look& look);
+
+/// Draws what `[plot]` says of what a run records while it goes on, or all records over time: `run --plot`.
 class RunFigure {
  public:
-  explicit RunFigure(const Scene& scene);
+  RunFigure(const Scene& scene, const PlotTable& table);
   void row(double time, const std::vector<double>& values);
   ExitStatus write(const std::string& path) const;
 
  private:
-  std::string title_;
-  std::vector<std::size_t> chosen_;  ///< columns; 0 is time
+  plot::Look look_;
+  std::vector<plot::ColumnPair> chosen_;  ///< column 0 is time
   std::vector<plot::Measured> curves_;
 };
 

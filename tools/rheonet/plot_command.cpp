@@ -21,9 +21,7 @@ namespace {
 using plot::Mistake;
 
 /// The columns of a curve, by name.
-struct Wanted {
-  std::string x, y;
-};
+using Wanted = PlotTable::Curve;
 
 /// What the command line asks for; empty if it leaves the choice to the files.
 std::vector<Wanted> wanted_curves(const Arguments::Plot& plot) {
@@ -65,8 +63,9 @@ Mistake no_column(const PlotSource& source, const std::string& name) {
 }
 
 /// What a file contributes: of the curves asked for those that it has the columns of.
-std::vector<plot::ColumnPair> pairs_of(const PlotSource& source, const std::vector<Wanted>& wanted,
+std::vector<plot::ColumnPair> pairs_of(const PlotSource& source, const std::vector<Wanted>& asked_for,
                                        const std::string& x_name, bool alone) {
+  const std::vector<Wanted>& wanted = asked_for.empty() ? source.own().curves : asked_for;
   std::vector<plot::ColumnPair> pairs;
   if (wanted.empty()) {
     const std::string x = x_name.empty() ? source.columns().front().name : x_name;
@@ -187,6 +186,7 @@ ExitStatus draw(const Arguments& arguments) {
     throw Mistake(fmt::format("{} of --name for {} curves", plot.names.size(), curves.size()));
   for (std::size_t k = 0; k < plot.names.size(); ++k) curves[k].name = plot.names[k];
   if (look.title.empty() && alone) look.title = sources[0]->title();
+  if (const PlotTable& own = sources[0]->own(); !own.curves.empty()) follow(own, look);
   note_unknown_units(curves);
   return write_figure(std::move(curves), look, arguments.output);
 }

@@ -44,6 +44,7 @@ class SceneSource final : public PlotSource {
               bool lenient) {
     ReadOptions options = options_of(arguments);
     options.claims = false;  // a picture is asked for, not a verdict
+    options.plotted = wanted.empty();
     if (!lenient) options.records = wanted;
     read_ = read_and_report(file, options);
     if (read_.scene && lenient) {
@@ -54,6 +55,7 @@ class SceneSource final : public PlotSource {
     if (!read_.scene) throw PlotEnded{wrong_input};
     file_ = file;
     title_ = read_.scene->title;
+    if (wanted.empty()) own_ = read_.presentation.plot;
     columns_ = columns_of(*read_.scene);
   }
 

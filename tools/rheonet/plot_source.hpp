@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/netlist/presentation.hpp"
 #include "core/netlist/scene.hpp"
 #include "tools/plot/csv.hpp"
 #include "tools/rheonet/arguments.hpp"
@@ -18,6 +19,8 @@ class PlotSource {
   const std::string& file() const { return file_; }
   const std::string& title() const { return title_; }
   const std::vector<plot::Column>& columns() const { return columns_; }
+  /// What a scene wants drawn, if that was left to it.
+  const PlotTable& own() const { return own_; }
 
   /// Goes through the rows: a trace in SI for each pair of columns. Throws plot::Mistake; PlotEnded if a scene cannot
   /// be simulated.
@@ -26,6 +29,7 @@ class PlotSource {
  protected:
   std::string file_, title_;
   std::vector<plot::Column> columns_;
+  PlotTable own_;
 };
 
 /// Ends the command: what there is to say has been said.

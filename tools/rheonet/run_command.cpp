@@ -88,7 +88,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   std::optional<RunFigure> figure;
   std::function<void(double, const std::vector<double>&)> on_row;
   if (drawn) {
-    figure.emplace(*read.scene);
+    figure.emplace(*read.scene, read.presentation.plot);
     on_row = [&figure](double time, const std::vector<double>& values) { figure->row(time, values); };
   }
   // Rows that scroll by on the same terminal say enough.

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/netlist/keys.hpp"
+#include "core/netlist/read_presentation.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+namespace {
+
+const char* const example = "k = [\"10 N/m\", \"1 kN/m\"], or with a step: n = [1, 64, 1]";
+
+/// "N/m" of "10 N/m"; "" of a number and an expression.
+std::string unit_text(const TomlValue& value) {
+  const std::size_t blank = value.is_string() ? value.text.find(' ') : std::string::npos;
+  if (blank == std::string::npos || !identifiers_of(value.text).empty()) return "";
+  return value.text.substr(value.text.find_first_not_of(' ', blank));
+}
+
+std::string words_for(const Number& number) {
+  return number.plain ? "a number" : describe(number.dimension, number.radian);
+}
+
+/// The values of a range in SI; absent if something is wrong with one of them.
+std::optional<std::vector<double>> values_of(const TomlEntry& entry, const Number& parameter,
+                                             const Environment& environment, Mistakes& mistakes) {
+  std::vector<double> values;
+  for (const TomlValue& item : entry.value.items) {
+    const Formula formula(item, "slider `" + entry.key + "`", mistakes);
+    const auto number = formula.given() ? formula.evaluate(environment, mistakes) : std::nullopt;
+    if (!number) return {};
+    if (!number->plain && !parameter.plain && !number->dimension.same(parameter.dimension)) {
+      mistakes.error(item.spot, fmt::format("slider `{}`: expected {}, as the parameter is, found {}", entry.key,
+                                            words_for(parameter), words_for(*number)));
+      return {};
+    }
+    if (!std::isfinite(number->value)) {
+      mistakes.error(item.spot, "slider `" + entry.key + "`: a slider ends at finite values");
+      return {};
+    }
+    values.push_back(number->value);
+  }
+  return values;
+}
+
+/// What the numbers of a range are in: the unit in which the file gives one of them, with its size in SI.
+std::pair<std::string, double> unit_of(const TomlEntry& entry, const Number& parameter,
+                                       const Environment& environment) {
+  for (const TomlValue& item : entry.value.items)
+    if (const std::string unit = unit_text(item); !unit.empty())
+      if (const auto size = evaluate_text("1 " + unit, environment); const auto* number = std::get_if<Number>(&size))
+        return {unit, number->value};
+  return {parameter.dimension.is_number() ? "" : to_string(parameter.dimension), 1};
+}
+
+std::optional<Demo::Slider> read_slider(const TomlEntry& entry, const Environment& environment, Mistakes& mistakes) {
+  const auto parameter = environment.names.find(entry.key);
+  if (parameter == environment.names.end()) {
+    std::vector<std::string> names;
+    for (const auto& [name, number] : environment.names) names.push_back(name);
+    mistakes.error(entry.spot, "slider `" + entry.key + "`: there is no such parameter",
+                   did_you_mean(entry.key, names, "a slider is that of an entry of [parameters]"));
+    return {};
+  }
+  const std::string what = "slider `" + entry.key + "`";
+  if (!expect_array(entry.value, what, mistakes, example)) return {};
+  if (entry.value.items.size() != 2 && entry.value.items.size() != 3) {
+    mistakes.error(entry.value.spot, what + " takes two values, between which it goes, and a step if it has one", example);
+    return {};
+  }
+  const auto values = values_of(entry, parameter->second, environment, mistakes);
+  if (!values || std::isnan(parameter->second.value)) return {};  // that is reported already
+  const auto [unit, size] = unit_of(entry, parameter->second, environment);
+  Demo::Slider slider{.parameter = entry.key, .unit = unit, .least = (*values)[0] / size, .most = (*values)[1] / size};
+  if (!(slider.least < slider.most)) {
+    mistakes.error(entry.value.items[1].spot, what + " must end above where it begins");
+    return {};
+  }
+  if (values->size() == 3) {
+    slider.step = (*values)[2] / size;
+    if (!(slider.step > 0 && slider.step <= slider.most - slider.least)) {
+      mistakes.error(entry.value.items[2].spot, what + ": the step must be above 0 and within the range");
+      return {};
+    }
+  }
+  slider.logarithmic = slider.step == 0 && slider.least > 0 && slider.most >= Demo::decades_apart * slider.least;
+  return slider;
+}
+
+}  // namespace
+
+Demo read_demo(const TomlValue& table, const Environment& environment, Context& context) {
+  Mistakes& mistakes = context.mistakes;
+  Demo demo;
+  if (!expect_table(table, "`demo`", mistakes, "[demo] has the keys question, change, see, why and sliders")) return demo;
+  Keys keys(table, "[demo]");
+  const auto text = [&](const char* key, std::string& target) {
+    const TomlEntry* entry = keys.require(key, table.spot, std::string("a text: ") + key + " = \"...\"");
+    if (entry && expect_string(entry->value, std::string("`") + key + "`", mistakes)) target = entry->value.text;
+  };
+  text("question", demo.question);
+  text("change", demo.change);
+  text("see", demo.see);
+  text("why", demo.why);
+  const TomlEntry* sliders = keys.find("sliders");
+  keys.finish(mistakes);
+  if (!sliders || !expect_table(sliders->value, "`sliders`", mistakes, example)) return demo;
+  for (const TomlEntry& entry : sliders->value.entries)
+    if (auto slider = read_slider(entry, environment, mistakes)) demo.sliders.push_back(std::move(*slider));
+  return demo;
+}
+
+}  // namespace rheonet
