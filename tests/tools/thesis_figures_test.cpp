@@ -1,11 +1,9 @@
 #include <doctest/doctest.h>
 
-#include <array>
-#include <cmath>
-#include <regex>
 #include <sstream>
 #include <vector>
 
+#include "tests/support/figure.hpp"
 #include "tests/support/page.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/xml.hpp"
@@ -24,35 +22,8 @@ std::vector<std::string> lines(const std::string& text) {
   return result;
 }
 
-std::vector<std::string> matches(const std::string& text, const std::string& pattern) {
-  std::vector<std::string> result;
-  const std::regex expression(pattern);
-  for (std::sregex_iterator i(text.begin(), text.end(), expression), end; i != end; ++i) result.push_back((*i)[1]);
-  return result;
-}
-
 Finished tool(const Folder& folder, const std::string& words) {
   return folder.shell("RHEONET='" RHEONET_PROGRAM "' '" + source.string() + "/tools/thesis/figures' " + words, 0);
-}
-
-/// All that can be read in a figure: what its curves are, and the numbers at its axes, which are those of its data.
-std::vector<std::string> words(const std::string& svg) {
-  return matches(svg, "<(?:text|desc|title)[^>]*>(.*)</(?:text|desc|title)>");
-}
-
-/// Least and greatest x and y of each curve, px.
-std::vector<std::array<double, 4>> boxes(const std::string& svg) {
-  std::vector<std::array<double, 4>> result;
-  for (const std::string& data : matches(svg, "<path d=\"([^\"]*)\" stroke=\"[^\"]*\" stroke-width=\"1.6\"")) {
-    std::array<double, 4> box{1e9, -1e9, 1e9, -1e9};
-    std::string blanks = data;
-    for (char& c : blanks) c = c == 'M' || c == 'L' ? ' ' : c;
-    std::istringstream numbers(blanks);
-    for (double x = 0, y = 0; numbers >> x >> y;)
-      box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
-    result.push_back(box);
-  }
-  return result;
 }
 
 }  // namespace
@@ -80,7 +51,6 @@ TEST_CASE("the commands of netlists/thesis/README.md do what they say") {
   CHECK(what_is_wrong_with_xml(folder.read("loops.svg")) == "");
 }
 
-// What is compared is not pixels but what is written in the figures, and how far each curve goes.
 TEST_CASE("the figures of the thesis are those that its scenes give") {
   const Folder folder;
   tool(folder, "'" + folder.path().string() + "/drawn'");
@@ -89,13 +59,6 @@ TEST_CASE("the figures of the thesis are those that its scenes give") {
     if (entry.path().extension() != ".svg") continue;
     CAPTURE(name);
     REQUIRE(fs::exists(figures / name));
-    const std::string now = text_of(entry.path()), kept = text_of(figures / name);
-    CHECK(what_is_wrong_with_xml(now) == "");
-    CHECK_MESSAGE(words(now) == words(kept), "the figure is stale: tools/thesis/figures draws it anew");
-    const auto drawn = boxes(now), stored = boxes(kept);
-    REQUIRE(drawn.size() == stored.size());
-    CHECK(drawn.size() > 0);
-    for (std::size_t k = 0; k < drawn.size(); ++k)
-      for (std::size_t i = 0; i < 4; ++i) CHECK(std::abs(drawn[k][i] - stored[k][i]) < 0.5);
+    check_same_figure(text_of(entry.path()), text_of(figures / name));
   }
 }
