@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/network/component.hpp"
 #include "tests/analytic/random_tree.hpp"
@@ -49,6 +50,17 @@ part = { type = "gain", in = "I", gain = "0.1 m/N/s" }
 motor = { type = "force", at = "end", force = { block = "-I" } }
 )";
 
+/// From where a minus sign is written to the tips of the lines that come in beside it, the nearest first.
+std::vector<double> distances_of_minus(const Picture& picture, const Label& minus) {
+  std::vector<double> distances;
+  const double height_of_dash = 3.5;  // above the baseline
+  for (const SignalLine& line : picture.signals)
+    if (const Point tip = line.points.back(); std::abs(tip.x - 10 - minus.at.x) < 0.1)
+      distances.push_back(std::abs(minus.at.y - height_of_dash - tip.y));
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
 }  // namespace
 
 TEST_CASE("every scene that comes with the project is drawn without a fault") {
@@ -58,6 +70,33 @@ TEST_CASE("every scene that comes with the project is drawn without a fault") {
     const Scene scene = scene_from_file(file);
     CHECK(faults_of(drawn(scene), scene) == "");
     CHECK(faults_of(schematic(scene, {.title = "", .all = true}), scene) == "");
+  }
+}
+
+TEST_CASE("a minus sign is beside the line that it belongs to") {
+  for (const std::string in : {R"("-x.velocity", "y.velocity")", R"("x.velocity", "-y.velocity")",
+                               R"("x.velocity", "-y.velocity", "c.velocity")", R"("x.velocity", "c.velocity", "-y.velocity")"}) {
+    CAPTURE(in);
+    const Scene scene = scene_from(R"([elements]
+x = { type = "motion", at = "x", velocity = 1 }
+y = { type = "motion", at = "y", velocity = 2 }
+c = { type = "dashpot", between = ["x", "y"], damping = 2 }
+e = { type = "sum", in = [)" + in + "] }\n");
+    const Picture picture = drawn(scene);
+    CHECK(faults_of(picture, scene) == "");
+    const auto minus = std::find_if(picture.labels.begin(), picture.labels.end(), [](const Label& l) { return l.text == "−"; });
+    REQUIRE(minus != picture.labels.end());
+    const std::vector<double> distances = distances_of_minus(picture, *minus);
+    REQUIRE(distances.size() >= 2);
+    CHECK(distances[0] < 0.75 * distances[1]);
+    // The line that ends there comes from the text of what is taken in negative.
+    const auto line = std::find_if(picture.signals.begin(), picture.signals.end(), [&](const SignalLine& l) {
+      return std::abs(std::abs(minus->at.y - 3.5 - l.points.back().y) - distances[0]) < 1e-9;
+    });
+    const std::string sensed = in.find("-x") != in.npos ? "x.velocity" : "y.velocity";
+    const auto from = std::find_if(picture.labels.begin(), picture.labels.end(), [&](const Label& l) { return l.text == sensed; });
+    REQUIRE(from != picture.labels.end());
+    CHECK(std::abs(line->points.front().y - from->at.y) < 6);
   }
 }
 

@@ -113,7 +113,8 @@ TEST_CASE("what cannot share an axis, or be drawn at all, is refused") {
   CHECK(mistake({curve("a", seconds, force, {{0, 1}, {1, 2}}), curve("b", seconds, velocity, {{0, 1}, {1, 2}})},
                 look) == "a range or a label of the vertical axis, but there are 2: force [N], velocity [m/s]");
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK(mistake({curve("a", seconds, force, {{0, nan}, {1, nan}})}) == "`a` has no finite value to draw");
+  CHECK(mistake({curve("a", seconds, force, {{0, nan}, {1, nan}})}) == "`a` has no value to draw: all are not finite");
+  CHECK(mistake({curve("a", seconds, force, {{0, 1e308}, {1, -1e308}})}) == "`a` has no value to draw: all are beyond 1e290");
 }
 
 TEST_CASE("what is left out is noted") {
@@ -128,7 +129,7 @@ TEST_CASE("what is left out is noted") {
   CHECK(contains(drawn({curve("a", seconds, force, falling)}, look), "magnitude of force [N]"));
   const double infinite = std::numeric_limits<double>::infinity();
   CHECK(notes_of({curve("a", seconds, force, {{0, 1}, {1, infinite}, {2, 3}, {3, 1e300}})}, {}) ==
-        std::vector<std::string>{"`a`: 2 of 4 points are not finite and left out"});
+        std::vector<std::string>{"`a`: 2 of 4 points are not finite or beyond 1e290 and left out"});
 }
 
 TEST_CASE("a decay on a logarithmic axis is a straight line of two points") {

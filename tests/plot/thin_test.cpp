@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "tools/plot/trace.hpp"
@@ -133,6 +134,27 @@ TEST_CASE("a band that is crossed again and again is inked once, but for its ext
     CHECK(found[k].second >= wanted[k].second - 1.5);
   }
   CHECK_FALSE(to_draw({{0, 0}, {100, 100}}, box).dense);
+}
+
+TEST_CASE("a curve that stands still at an extreme is there once") {
+  Stroke stroke(1000, Point{10, 90});
+  stroke.push_back({50, 20});
+  stroke.insert(stroke.end(), 1000, Point{90, 20});
+  CHECK(thinned(stroke, 0.05).size() <= 5);
+}
+
+TEST_CASE("a curve that runs over itself is told, from a twelfth of it on") {
+  const auto loop = [](double rounds) {
+    std::vector<Point> points;
+    for (int i = 0; i <= 400 * rounds; ++i)
+      points.push_back({100 + 80 * std::sin(i * 0.005 * std::numbers::pi), 100 + 60 * std::cos(i * 0.005 * std::numbers::pi)});
+    return points;
+  };
+  const Box box{200, 200};
+  CHECK_FALSE(to_draw(loop(1), box).dense);
+  CHECK_FALSE(to_draw(loop(1.05), box).dense);
+  CHECK(to_draw(loop(1.2), box).dense);
+  CHECK(to_draw(loop(3), box).dense);
 }
 
 TEST_CASE("a trace keeps its extremes in bounded memory, in order") {

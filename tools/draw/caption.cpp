@@ -105,23 +105,33 @@ struct Shape {
   const std::string& unit;
 
   std::string operator()(const Signal::Constant& s) const { return say("", s.value); }
-  std::string operator()(const Signal::Step& s) const { return say("step ", s.height); }
-  std::string operator()(const Signal::Ramp& s) const { return say("ramp ", s.slope) + " per s"; }
+  std::string operator()(const Signal::Step& s) const {
+    return s.offset == 0 ? say("step ", s.height) : say("", s.offset) + say(" → ", s.offset + s.height);
+  }
+  std::string operator()(const Signal::Ramp& s) const { return say("ramp ", s.slope) + " per s" + beside(s.offset); }
   std::string operator()(const Signal::Sine& s) const { return wave("sine ", s); }
   std::string operator()(const Signal::Square& s) const { return wave("square ", s); }
   std::string operator()(const Signal::Triangle& s) const { return wave("triangle ", s); }
   std::string operator()(const Signal::Chirp& s) const {
-    return say("chirp ", s.amplitude) + fmt::format(", {}–{}", number(s.frequency), engineering(s.end_frequency, "Hz"));
+    return say("chirp ", s.amplitude) +
+           fmt::format(", {}–{}", number(s.frequency), engineering(s.end_frequency, "Hz")) + beside(s.offset);
   }
   std::string operator()(const Signal::Pulse& s) const {
-    return say("pulse ", s.height) + ", " + engineering(s.width, "s");
+    return say("pulse ", s.height) + ", " + engineering(s.width, "s") +
+           (s.frequency > 0 ? ", " + engineering(s.frequency, "Hz") : "") + beside(s.offset);
   }
-  std::string operator()(const Signal::Table& s) const { return fmt::format("table, {} points", s.times.size()); }
+  std::string operator()(const Signal::Table& s) const {
+    return fmt::format("table, {} points", s.times.size()) + beside(s.offset);
+  }
 
   std::string say(const char* what, double value) const { return what + engineering(value, unit); }
   template <class Wave>
   std::string wave(const char* what, const Wave& s) const {
-    return say(what, s.amplitude) + ", " + engineering(s.frequency, "Hz");
+    return say(what, s.amplitude) + ", " + engineering(s.frequency, "Hz") + beside(s.offset);
+  }
+  /// What is added to it always.
+  std::string beside(double offset) const {
+    return offset == 0 ? "" : (offset < 0 ? " − " : " + ") + engineering(std::abs(offset), unit);
   }
 };
 

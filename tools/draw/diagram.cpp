@@ -13,7 +13,7 @@
 namespace rheonet::draw {
 namespace {
 
-constexpr double port_distance = 14, line_height = 14, track = 9, clearance = 16, channel = 10;
+constexpr double port_distance = 17, line_height = 14, track = 9, clearance = 16, channel = 10;
 
 /// What stands at the two sides of the blocks: the name of what is sensed, or fed.
 struct Item {
@@ -87,12 +87,12 @@ class Diagram {
     item.half = half;
     if (detail_.names) {
       const Caption caption = caption_of(scene_, scene_.blocks[at(block)].element, detail_.values);
-      item.labels.push_back({caption.name, {0, -half - 4}, true, 12, Label::Kind::name});
+      item.labels.push_back({caption.name, {0, -half - name_gap}, true, 12, Label::Kind::name});
       for (std::size_t i = 0; i < caption.values.size(); ++i)
         item.labels.push_back(
             {caption.values[i], {0, half + 11 + line_height * static_cast<double>(i)}, true, 11, Label::Kind::value});
       for (const Label& label : item.labels) item.half = std::max(item.half, label.box().right + 3);
-      box.up += line_height + 4;
+      box.up += line_height + name_gap;
       box.down += line_height * static_cast<double>(caption.values.size()) + 2;
     }
     item.left = -half;
@@ -269,7 +269,11 @@ class Diagram {
     }
     const double x = end.x + items_[at(line.to)].left;
     drawn.points.push_back({x, in});
-    if (signs_[k] < 0 && detail_.names) all.ink.labels.push_back({"−", {x - 9, in - 4}, true, 11, Label::Kind::value});
+    if (signs_[k] < 0 && detail_.names) {
+      // Outside of the lines of a block's inputs, so that nobody takes it for that of the next one.
+      const double baseline = line.in > 0 ? in + 10 : in - 3.2;
+      all.ink.labels.push_back({"−", {x - 10, baseline}, true, 11, Label::Kind::value});
+    }
     all.ink.signals.push_back(std::move(drawn));
   }
 

@@ -23,7 +23,7 @@ double width_of(const Label& label) { return label.box().right - label.box().lef
 
 /// Name above, values below: as labels around (x, 0), and how wide they are.
 double caption_around(const Caption& caption, double x, double up, double down, std::vector<Label>& labels) {
-  labels.push_back(label(caption.name, {x, -up - 4}, Label::Kind::name));
+  labels.push_back(label(caption.name, {x, -up - name_gap}, Label::Kind::name));
   for (std::size_t i = 0; i < caption.values.size(); ++i)
     labels.push_back(
         label(caption.values[i], {x, down + 11 + line_height * static_cast<double>(i)}, Label::Kind::value));
@@ -88,8 +88,8 @@ Piece Draftsman::element(const Block& block) const {
   std::vector<Label> labels;
   if (detail_.names) {
     const Caption caption = caption_of(scene_, block.element, detail_.values);
-    text = caption_around(caption, 0, piece.up, piece.down, labels) + 10;
-    piece.up += line_height + 4;
+    text = caption_around(caption, 0, piece.up, piece.down, labels) + 14;
+    piece.up += line_height + name_gap;
     piece.down += line_height * static_cast<double>(caption.values.size()) + 2;
   }
   piece.width = std::max(size + 2 * lead, text);
@@ -137,8 +137,8 @@ void Draftsman::drive(Stand& stand, int element, bool from_left) const {
   stand.down = std::max(stand.down, below);
   if (detail_.names) {
     const Caption caption = caption_of(scene_, element, detail_.values);
-    width = std::max(width, caption_around(caption, 0, above, below, labels) + 8);
-    stand.up = std::max(stand.up, above + line_height + 4);
+    width = std::max(width, caption_around(caption, 0, above, below, labels) + 12);
+    stand.up = std::max(stand.up, above + line_height + name_gap);
     stand.down = std::max(stand.down, below + line_height * static_cast<double>(caption.values.size()) + 2);
   }
   for (Label& each : labels) {

@@ -70,6 +70,9 @@ class Draftsman {
   std::vector<std::vector<int>> bodies_, drives_;  ///< elements at each node
 };
 
+/// From a symbol to the baseline of the name above it: letters reach below that.
+inline constexpr double name_gap = 6;  // px
+
 /// A row, broken into lines where it is wider than `line`.
 Piece draw_row(const Draftsman& draftsman, const Block& row, double line);
 /// What is left out, in words: "96 more".

@@ -34,11 +34,9 @@ std::string quantities(const std::vector<const Measured*>& curves, Get measure_o
   return text + (seen.size() > few ? ", ..." : "");
 }
 
-/// Finite, and with room for any unit and margin: SI.
-bool drawable(const Point& p) {
-  constexpr double most = 1e290;
-  return std::abs(p.x) <= most && std::abs(p.y) <= most;
-}
+constexpr double most = 1e290;  // SI: leaves room for any unit and margin
+
+bool drawable(const Point& p) { return std::abs(p.x) <= most && std::abs(p.y) <= most; }
 
 template <class Value>
 double largest(const std::vector<const Measured*>& curves, Value value_of) {
@@ -107,18 +105,21 @@ void check_range(const std::optional<std::pair<double, double>>& range, bool log
 Curve in_units(const Measured& measured, double x_factor, double y_factor, bool magnitude,
                std::vector<std::string>& notes) {
   Curve curve{measured.name, measured.trace.points()};
-  std::size_t gaps = 0;
+  std::size_t gaps = 0, too_large = 0;
   for (Point& p : curve.points) {
     if (!drawable(p)) {
       ++gaps;
+      if (std::isfinite(p.x) && std::isfinite(p.y)) ++too_large;
       p.y = std::numeric_limits<double>::quiet_NaN();
     }
     p = {p.x / x_factor, (magnitude ? std::abs(p.y) : p.y) / y_factor};
   }
-  if (gaps == curve.points.size()) throw Mistake(fmt::format("`{}` has no finite value to draw", measured.name));
+  const char* const what = too_large == 0 ? "not finite" : too_large == gaps ? "beyond 1e290" : "not finite or beyond 1e290";
+  if (gaps == curve.points.size())
+    throw Mistake(fmt::format("`{}` has no value to draw: all are {}", measured.name, what));
   if (gaps > 0)
     notes.push_back(
-        fmt::format("`{}`: {} of {} points are not finite and left out", measured.name, gaps, curve.points.size()));
+        fmt::format("`{}`: {} of {} points are {} and left out", measured.name, gaps, curve.points.size(), what));
   return curve;
 }
 

@@ -96,7 +96,9 @@ std::string mark(double x, double y, const char* color) {
 }
 
 /// The names of the curves with their lines, in rows from `y` on that are filled from the left. The y below it.
-double legend(const Figure& figure, const Panel& panel, double left, double y, double width, std::string& out) {
+/// `solid` says which have no dashes; if it is empty, all have theirs.
+double legend(const Figure& figure, const Panel& panel, double left, double y, double width,
+              const std::vector<bool>& solid, std::string& out) {
   constexpr double sample = 30, space = 18;
   double x = left;
   for (std::size_t k = 0; k < panel.curves.size(); ++k) {
@@ -106,7 +108,8 @@ double legend(const Figure& figure, const Panel& panel, double left, double y, d
       x = left;
       y += row;
     }
-    const Style style = style_of(k);
+    Style style = style_of(k);
+    if (!solid.empty() && solid[k]) style.dashes = "";
     out += line(x, y + row / 2 + 1, x + sample, y + row / 2 + 1, " fill=\"none\"" + stroke(style));
     if (figure.marks) out += mark(x + sample / 2, y + row / 2 + 1, style.color);
     out += text(x + sample + 5, y + row / 2 + 5, escaped(name), "");
@@ -156,8 +159,10 @@ void axes(const Figure& figure, const Panel& panel, const Place& at, const Scale
   if (at.numbers) out += text(at.left + at.width / 2, bottom + 34, raised(figure.x.label), " text-anchor=\"middle\"");
 }
 
-void curves(const Figure& figure, const Panel& panel, const Place& at, const Scale& sx, const Scale& sy,
-            std::string& out) {
+/// Returns which of them are drawn without their dashes.
+std::vector<bool> curves(const Figure& figure, const Panel& panel, const Place& at, const Scale& sx, const Scale& sy,
+                         std::string& out) {
+  std::vector<bool> solid;
   // A picture of its own, which cuts off what leaves it, needs no name that another figure on a page could also use.
   out += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke-linejoin=\"round\">\n",
                      coordinate(at.left), coordinate(at.top), coordinate(at.width), coordinate(at.height));
@@ -167,6 +172,7 @@ void curves(const Figure& figure, const Panel& panel, const Place& at, const Sca
     for (Point& p : pixels) p = {sx(p.x), at.height - sy(p.y)};
     std::string path;
     const Drawing drawing = to_draw(pixels, {at.width, at.height});
+    solid.push_back(drawing.dense);
     if (drawing.dense) style.dashes = "";
     for (const Stroke& part : drawing.strokes)
       for (std::size_t i = 0; i < part.size(); ++i)
@@ -177,6 +183,7 @@ void curves(const Figure& figure, const Panel& panel, const Place& at, const Sca
       if (std::isfinite(p.x) && std::isfinite(p.y)) out += mark(p.x, p.y, style.color);
   }
   out += "</svg>\n";
+  return solid;
 }
 
 /// For those who do not see it: what is drawn against what.
@@ -227,7 +234,7 @@ Layout layout_of(const Figure& figure, double head) {
   for (int round = 0; round < 2; ++round) {
     double legends = 0;
     std::string unplaced;
-    for (const Panel& panel : figure.panels) legends += legend(figure, panel, 0, 0, layout.width, unplaced);
+    for (const Panel& panel : figure.panels) legends += legend(figure, panel, 0, 0, layout.width, {}, unplaced);
     const double rest = (figure.height - head - legends - gap * (panels - 1) - foot) / panels;
     layout.panel_height = figure.height > 0           ? std::max(40.0, rest)
                           : figure.panels.size() == 1 ? only_panel_height
@@ -275,11 +282,16 @@ std::string svg(const Figure& figure) {
   double y = head.height;
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
     const Panel& panel = figure.panels[k];
-    y = legend(figure, panel, layout.left, y, layout.width, out);
+    std::string unplaced;
+    const double names = y;
+    y = legend(figure, panel, layout.left, names, layout.width, {}, unplaced);
     const Place at{layout.left, y, layout.width, layout.panel_height, k + 1 == figure.panels.size()};
     const Scale sx(figure.x, x_range, at.width), sy(panel.y, layout.y_ranges[k], at.height);
-    axes(figure, panel, at, sx, sy, x_ticks, layout.y_ticks[k], out);
-    curves(figure, panel, at, sx, sy, out);
+    std::string drawn;
+    axes(figure, panel, at, sx, sy, x_ticks, layout.y_ticks[k], drawn);
+    const std::vector<bool> solid = curves(figure, panel, at, sx, sy, drawn);
+    legend(figure, panel, layout.left, names, layout.width, solid, out);
+    out += drawn;
     y += at.height + gap;
   }
   const double full = figure.height > 0 ? figure.height : y - gap + foot;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace rheonet::plot {
@@ -95,12 +96,22 @@ class Ink {
     bool blank = false;
     for (int i = 0; i <= steps; ++i) {
       const double s = static_cast<double>(i) / steps;
-      char& pixel = inked_[index(a.y + s * (b.y - a.y), rows_) * columns_ + index(a.x + s * (b.x - a.x), columns_)];
-      blank = blank || pixel == 0;
-      pixel = 1;
+      const std::size_t at =
+          index(a.y + s * (b.y - a.y), rows_) * columns_ + index(a.x + s * (b.x - a.x), columns_);
+      if (at == here_) continue;
+      here_ = at;
+      ++entered_;
+      if (inked_[at] == 0)
+        blank = true;
+      else
+        ++again_;
+      inked_[at] = 1;
     }
     return blank;
   }
+
+  /// The part of the way that went over ink.
+  double retraced() const { return entered_ == 0 ? 0 : static_cast<double>(again_) / static_cast<double>(entered_); }
 
  private:
   static std::size_t index(double at, std::size_t count) {
@@ -109,7 +120,16 @@ class Ink {
 
   std::size_t columns_, rows_;
   std::vector<char> inked_;
+  std::size_t here_ = std::numeric_limits<std::size_t>::max(), entered_ = 0, again_ = 0;  ///< pixels
 };
+
+/// The part of a curve that runs over itself.
+double retraced(const std::vector<Stroke>& strokes, Box box) {
+  Ink ink(box);
+  for (const Stroke& stroke : strokes)
+    for (std::size_t i = 1; i < stroke.size(); ++i) ink.draw(stroke[i - 1], stroke[i]);
+  return ink.retraced();
+}
 
 }  // namespace
 
@@ -146,7 +166,8 @@ Stroke thinned(const Stroke& stroke, double tolerance) {
       sleeve = Sleeve(stroke[i - 1], tolerance);
       sleeve.take(stroke[i]);
     }
-    if (i + 1 < stroke.size() && among(kept, stroke[i])) {
+    const bool stands_still = stroke[i].x == result.back().x && stroke[i].y == result.back().y;
+    if (i + 1 < stroke.size() && !stands_still && among(kept, stroke[i])) {
       result.push_back(stroke[i]);
       sleeve = Sleeve(stroke[i], tolerance);
     }
@@ -183,7 +204,10 @@ Drawing to_draw(const std::vector<Point>& curve, Box box) {
   std::vector<Stroke> strokes = clipped(curve, box);
   std::size_t points = 0;
   for (Stroke& stroke : strokes) points += (stroke = thinned(stroke, tolerance)).size();
-  if (points <= dense) return {std::move(strokes), false};
+  // A loop that is gone round twice: the dashes of one round fall into the gaps of the other.
+  constexpr double much = 0.08;
+  const bool covered = retraced(strokes, box) > much;
+  if (points <= dense) return {std::move(strokes), covered};
   return {inked_once(strokes, box), true};
 }
 
