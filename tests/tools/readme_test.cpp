@@ -96,7 +96,7 @@ TEST_CASE("every link of the project's pages leads somewhere") {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   int links = 0;
   for (const std::string page : {"README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
-                                 "netlists/library/README.md", "netlists/teaching/README.md",
+                                 "netlists/library/README.md", "netlists/teaching/README.md", "netlists/teaching/demos.md",
                                  "netlists/thesis/README.md", "netlists/thesis/composed-or-combined.md", "netlists/hard/README.md"}) {
     CAPTURE(page);
     const std::string text = text_of(source / page);

@@ -1,4 +1,5 @@
-// The tutorial, netlists/teaching/README.md: its commands end as it says, say what it quotes, and draw what it shows.
+// The tutorial, netlists/teaching/README.md: its commands end as it says, say what it quotes, and draw what it shows
+// (`tools/teaching/tutorial` draws that anew). The page of the demos, demos.md.
 #include <doctest/doctest.h>
 
 #include <sstream>
@@ -14,7 +15,32 @@ namespace {
 
 const fs::path source(RHEONET_SOURCE_DIR), teaching = source / "netlists/teaching";
 
+/// A schematic is to be the same, a plot to show the same.
+void check_same_picture(const std::string& drawn, const std::string& kept, const std::string& name) {
+  if (name.ends_with("-drawn.svg"))
+    CHECK_MESSAGE(drawn == kept, "the schematic that is kept is stale");
+  else
+    check_same_figure(drawn, kept);
+}
+
 }  // namespace
+
+TEST_CASE("the page of the demos is what the scenes say, with their pictures") {
+  const Folder folder;
+  const fs::path made = folder.path() / "made";
+  folder.shell("RHEONET='" RHEONET_PROGRAM "' '" + source.string() + "/tools/teaching/demos' '" + made.string() + "'", 0);
+  CHECK_MESSAGE(text_of(made / "demos.md") == text_of(teaching / "demos.md"),
+                "the page is stale: tools/teaching/demos writes it anew");
+  int pictures = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(made / "demos")) {
+    const std::string name = entry.path().filename().string();
+    CAPTURE(name);
+    check_same_picture(text_of(entry.path()), text_of(teaching / "demos" / name), name);
+    ++pictures;
+  }
+  CHECK(pictures >= 2 * 10);
+  CHECK(pictures == std::distance(fs::directory_iterator(teaching / "demos"), {}));
+}
 
 TEST_CASE("the tutorial does what it says") {
   const Folder folder;
@@ -38,9 +64,6 @@ TEST_CASE("the tutorial does what it says") {
   for (const std::string& picture : pictures) {
     CAPTURE(picture);
     const std::string kept = text_of(teaching / picture), drawn = text_of(folder.path() / "drawn" / fs::path(picture).filename());
-    if (picture.ends_with("-drawn.svg"))
-      CHECK_MESSAGE(drawn == kept, "the schematic that is kept is stale: tools/teaching/tutorial draws it anew");
-    else
-      check_same_figure(drawn, kept);
+    check_same_picture(drawn, kept, picture);
   }
 }

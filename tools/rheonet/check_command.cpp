@@ -8,6 +8,7 @@
 #include "core/network/component.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/demo_text.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/rheonet/words.hpp"
@@ -112,6 +113,7 @@ ExitStatus check_scene(const Arguments& arguments) {
     report(error, read.sources);
     return not_simulated;
   }
+  if (arguments.verbose) fmt::print("{}", demo_text(read.presentation.demo));
   const std::string claims = scene.claims.empty() ? "" : ", " + count(scene.claims.size(), "claim", "claims");
   fmt::print("{}: no mistake found ({}, {}{})\n", printable(arguments.scene),
              count(scene.elements.size(), "element", "elements"), count(scene.nodes.size() - 1, "node", "nodes"),
