@@ -21,6 +21,12 @@ std::string_view without_quotes(std::string_view text) {
   return quoted ? trim(text.substr(1, text.size() - 2)) : text;
 }
 
+/// The quote that closes a field which begins at `at` and stands in quotes; npos if it does not.
+std::size_t closing_quote(std::string_view line, std::size_t at) {
+  at = line.find_first_not_of(blank, at);
+  return at < line.size() && line[at] == '"' ? line.find('"', at + 1) : line.npos;
+}
+
 }  // namespace
 
 std::vector<CsvField> csv_fields(std::string_view line) {
@@ -28,7 +34,9 @@ std::vector<CsvField> csv_fields(std::string_view line) {
   std::vector<CsvField> fields;
   std::size_t at = 0, counted = 0, column = 1;
   while (at <= line.size()) {
-    std::size_t end = separator == ' ' ? line.find_first_of(blank, at) : line.find(separator, at);
+    const std::size_t closing = closing_quote(line, at);
+    const std::size_t from = closing == line.npos ? at : closing;
+    std::size_t end = separator == ' ' ? line.find_first_of(blank, from) : line.find(separator, from);
     end = std::min(end, line.size());
     const std::string_view text = trim(line.substr(at, end - at));
     const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);

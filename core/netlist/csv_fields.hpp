@@ -13,7 +13,7 @@ struct CsvField {
 };
 
 /// The fields of a line, split at commas if it has any, else at semicolons, else at blanks and tabs. A field may stand
-/// in quotes, as spreadsheets write them.
+/// in quotes, as spreadsheets write them, and may then have such separators in it.
 std::vector<CsvField> csv_fields(std::string_view line);
 
 /// Whether a line is empty, or begins with `#`.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/netlist/claim_values.hpp"
 #include "core/netlist/keys.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/values.hpp"
@@ -53,7 +54,7 @@ void gather(const TomlValue& table, const std::string& before, const Spot* begin
 class ClaimReader {
  public:
   ClaimReader(const Environment& environment, Context& context, const Scene& scene)
-      : environment_(environment), context_(context), mistakes_(context.mistakes), scene_(scene) {}
+      : environment_(environment), context_(context), mistakes_(context.mistakes), scene_(scene), values_(environment, context, scene) {}
 
   /// A claim on `record`; `other` is the one that it is divided by. Absent if something is wrong with it.
   std::optional<Claim> read(const TomlValue& source, const Record& record, const Record* other) {
@@ -97,7 +98,7 @@ class ClaimReader {
     const TomlEntry* claimed = crossing ? at : figure;
     if (claimed) read_claimed(claim, *claimed, within);
     if (other && mistakes_.errors() == before) refuse_fraction_of_nothing(claim, *claimed, within);
-    if (crossing) check_in_run(claimed, claim.least);
+    if (crossing && claimed) values_.check_in_run(claimed->value, "`" + claimed->key + "`", claim.least);
     if (mistakes_.errors() > before) return {};
     return claim;
   }
@@ -123,21 +124,6 @@ class ClaimReader {
     if (claim.from >= claim.to && !instant)
       mistakes_.error((to ? to : from)->value.spot, "`to` must be later than `from`, " + number_text(claim.from) +
                                                         " s, but is " + number_text(claim.to) + " s");
-  }
-
-  double time(const TomlEntry* entry) {
-    const Formula formula(entry->value, "`" + entry->key + "`", mistakes_);
-    if (!formula.given()) return not_given;
-    const auto t = formula.evaluate_finite(environment_, Quantity::time, context_.domain, mistakes_);
-    check_in_run(entry, t.value_or(not_given));
-    return t.value_or(not_given);
-  }
-
-  void check_in_run(const TomlEntry* entry, double t) {
-    if (entry && (t < scene_.start || t > scene_.stop))
-      mistakes_.error(entry->value.spot,
-                      fmt::format("`{}` must be within the run, {} s to {} s, but is {} s", entry->key,
-                                  number_text(scene_.start), number_text(scene_.stop), number_text(t)));
   }
 
   /// One value, with a tolerance; or two, between which it lies.
@@ -183,40 +169,17 @@ class ClaimReader {
       mistakes_.error(within.value.spot, "`within` must be at least 0 and finite, but is " + number_text(claim.within));
   }
 
+  double time(const TomlEntry* entry) { return values_.time(entry->value, "`" + entry->key + "`"); }
   /// In SI, of the dimension of what is claimed.
-  double value(const TomlValue& source, const std::string& name) {
-    const Formula formula(source, name, mistakes_);
-    if (!formula.given()) return not_given;
-    const auto number = formula.evaluate(environment_, mistakes_);
-    if (!number) return not_given;
-    if (!number->plain && !number->dimension.same(dimension_)) {
-      mistakes_.error(source.spot, fmt::format("{}: expected {}, found {}", name, describe(dimension_),
-                                               describe(number->dimension, number->radian)));
-      return not_given;
-    }
-    if (std::isfinite(number->value)) return number->value;
-    mistakes_.error(source.spot, name + " must be finite, but is infinite");
-    return not_given;
-  }
+  double value(const TomlValue& source, const std::string& name) { return values_.level(source, name, dimension_); }
 
   const Environment& environment_;
   Context& context_;
   Mistakes& mistakes_;
   const Scene& scene_;
+  ClaimValues values_;
   Dimension dimension_;  ///< of what is claimed
 };
-
-/// Index into Scene::claimed, where each record stands once.
-int index_of(const Record& record, Scene& scene) {
-  auto& claimed = scene.claimed;
-  const auto known =
-      std::find_if(claimed.begin(), claimed.end(), [&](const Record& other) { return other.path == record.path; });
-  if (known == claimed.end()) {
-    claimed.push_back(record);
-    return static_cast<int>(claimed.size()) - 1;
-  }
-  return static_cast<int>(known - claimed.begin());
-}
 
 }  // namespace
 
@@ -256,8 +219,8 @@ void read_claims(const TomlValue& expect, const Environment& environment, const 
     if (!record || (divisors[i] && !other)) continue;
     auto claim = reader.read(*claims[i].first, *record, divisors[i] ? &*other : nullptr);
     if (!claim) continue;
-    claim->record = index_of(*record, scene);
-    if (divisors[i]) claim->per = index_of(*other, scene);
+    claim->record = claimed_index(*record, scene);
+    if (divisors[i]) claim->per = claimed_index(*other, scene);
     scene.claims.push_back(*claim);
   }
 }

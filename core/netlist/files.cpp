@@ -1,10 +1,6 @@
 #include "core/netlist/files.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace rheonet {
@@ -20,21 +16,8 @@ bool within(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-std::optional<std::string> read_text(const fs::path& file, std::string& why) {
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) {
-    why = "it is a folder";
-    return {};
-  }
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::string text;
-  if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream && !stream.eof()) {
-    why = errno != 0 ? std::strerror(errno) : "it cannot be opened";
-    return {};
-  }
-  return text;
+std::optional<std::string> Files::text_of(const fs::path& file, std::string& why) const {
+  return cache_ ? cache_->text_of(file, why) : read_text(file, why);
 }
 
 int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role role) {
@@ -82,7 +65,7 @@ std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistake
 
 std::optional<int> Files::read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes) {
   std::string why;
-  auto text = read_text(found.canonical, why);
+  auto text = text_of(found.canonical, why);
   if (!text) {
     mistakes.error(spot, "`" + found.shown.string() + "` cannot be read: " + why);
     return {};

@@ -7,6 +7,7 @@
 
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/document.hpp"
+#include "core/netlist/file_cache.hpp"
 #include "core/netlist/mistakes.hpp"
 
 namespace rheonet {
@@ -15,8 +16,11 @@ namespace rheonet {
 /// in the library; never anywhere else).
 class Files {
  public:
-  Files(Sources& sources, std::vector<std::filesystem::path> library)
-      : sources_(sources), library_(std::move(library)) {}
+  Files(Sources& sources, std::vector<std::filesystem::path> library, FileCache* cache)
+      : sources_(sources), library_(std::move(library)), cache_(cache) {}
+
+  /// The text of a file; absent if it cannot be read, `why` then says why.
+  std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why) const;
 
   /// Takes a file's text in; `folder` is where it stands. Its number in Sources.
   int add(std::filesystem::path shown, std::string text, std::filesystem::path folder,
@@ -42,10 +46,8 @@ class Files {
  private:
   Sources& sources_;
   std::vector<std::filesystem::path> library_;
+  FileCache* cache_;  ///< nullptr: each file is read anew
   std::vector<std::filesystem::path> folders_;  ///< of each file of Sources
 };
-
-/// The text of a file; absent if it cannot be read, `why` then says why.
-std::optional<std::string> read_text(const std::filesystem::path& file, std::string& why);
 
 }  // namespace rheonet

@@ -10,6 +10,7 @@
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/include.hpp"
 #include "core/netlist/keys.hpp"
+#include "core/netlist/measures.hpp"
 #include "core/netlist/models.hpp"
 #include "core/netlist/read_presentation.hpp"
 #include "core/netlist/records.hpp"
@@ -36,8 +37,17 @@ class Reader {
       : result_(result),
         options_(options),
         mistakes_(result.sources),
-        files_(result.sources, options.model_folders),
+        files_(result.sources, options.model_folders, options.cache),
         context_{declarations, Domain::translation, files_, mistakes_} {}
+
+  void read(const fs::path& file) {
+    std::string why;
+    std::error_code failed;
+    if (auto text = files_.text_of(file, why))
+      read(file, std::move(*text), file.parent_path(), fs::canonical(file, failed));
+    else
+      refuse(file, why);
+  }
 
   void read(fs::path name, std::string text, fs::path folder, const fs::path& canonical) {
     overrides_ = read_overrides(options_.overrides, result_.sources, mistakes_);
@@ -49,14 +59,13 @@ class Reader {
     finish();
   }
 
-  /// The file could not be read.
+ private:
   void refuse(const fs::path& name, const std::string& why) {
     const int file = files_.add(name, "", {});
     mistakes_.error({file, 0, 0}, "cannot be read: " + why);
     finish();
   }
 
- private:
   void finish() {
     result_.diagnostics = mistakes_.sorted();
     if (mistakes_.errors() > 0) return;
@@ -116,6 +125,7 @@ class Reader {
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
       read_claims(expect->value, environment, doubtful, context_, scene_);
+    read_measures(options_.measures, environment, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* exact = document_.find("exact"))
       read_exact(exact->value, environment, doubtful, context_, scene_);
     if (const TomlEntry* plot = document_.find("plot")) {
@@ -256,14 +266,7 @@ class Reader {
 ReadResult read_scene(const fs::path& file, Declarations declarations, const ReadOptions& options) {
   ReadResult result;
   Reader reader(result, declarations, options);
-  std::string why;
-  if (auto text = read_text(file, why)) {
-    std::error_code failed;
-    const fs::path canonical = fs::canonical(file, failed);
-    reader.read(file, std::move(*text), file.parent_path(), canonical);
-  } else {
-    reader.refuse(file, why);
-  }
+  reader.read(file);
   return result;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "core/netlist/file_cache.hpp"
 #include "core/netlist/presentation.hpp"
 #include "core/netlist/scene.hpp"
 
@@ -18,7 +19,9 @@ struct ReadOptions {
   std::vector<std::string> records = {};      ///< paths that are recorded besides those that the file asks for
   bool plotted = false;                       ///< what `[plot]` draws is recorded besides
   bool claims = true;                         ///< false: `[expect]` is not read
+  std::vector<std::string> measures = {};     ///< become Scene::claims after those of the file: see measures.hpp
   std::vector<std::filesystem::path> model_folders = {};  ///< folders that `include` falls back on
+  FileCache* cache = nullptr;                 ///< for who reads a scene many times
 };
 
 struct ReadResult {

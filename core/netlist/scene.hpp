@@ -86,9 +86,10 @@ struct Record {
 };
 
 
-/// A claim of `[expect]`: a figure of a record's course through the run, and between which values it should lie.
+/// A claim of `[expect]`: a figure of a record's course through the run, and between which values it should lie. A
+/// measure is one that claims nothing: only what the figure is is asked for.
 struct Claim {
-  enum class Figure { at, final, max, min, mean, rms, crossing };
+  enum class Figure { at, final, max, min, mean, rms, crossing, time_of_max, time_of_min };
   Figure figure = Figure::final;
   int record = 0;              ///< into Scene::claimed
   int per = -1;                ///< into Scene::claimed: the figure is divided by the same figure of this record
@@ -101,6 +102,9 @@ struct Claim {
                                ///< the run's length for a crossing; of the claimed ratio
   Spot spot;                   ///< of the claimed value
 };
+
+/// Whether a figure is the time of something.
+bool is_time(Claim::Figure figure);
 
 /// What a record is by a closed form, of `[exact]`.
 struct ExactRecord {

@@ -12,7 +12,6 @@ namespace {
 
 using Figure = Claim::Figure;
 
-
 // Lobatto's rule on [-1, 1], exact to degree 5.
 const double inner = 1 / std::sqrt(5.0);
 const std::array<double, 4> nodes{-1, -inner, inner, 1};
@@ -57,7 +56,7 @@ constexpr int free_halvings = 4;
 
 bool is_over_time(Figure figure) { return figure != Figure::at && figure != Figure::final; }
 bool is_over_points(Figure figure) {
-  return figure == Figure::max || figure == Figure::min || figure == Figure::crossing;
+  return is_over_time(figure) && figure != Figure::mean && figure != Figure::rms;
 }
 
 Samples of_record(const Claims::Rows& rows, int record) {
@@ -178,8 +177,15 @@ double Claims::off_cubic(double middle, const Rows& rows, double x, const std::v
 
 void Claims::look(State& state, Course& course, const Point& point, const Read& read) {
   const Claim& claim = state.claim;
-  course.largest = std::fmax(course.largest, point.value);
-  course.smallest = std::fmin(course.smallest, point.value);
+  // The first value is neither above nor below what is not given.
+  if (!(point.value <= course.largest)) {
+    course.largest = point.value;
+    course.largest_at = point.t;
+  }
+  if (!(point.value >= course.smallest)) {
+    course.smallest = point.value;
+    course.smallest_at = point.t;
+  }
   if (claim.figure != Figure::crossing || !std::isnan(state.crossed)) return;
   const double side = side_of(point.value, claim.level);
   if (state.side != 0 && side != state.side) {
@@ -210,6 +216,10 @@ double Claims::figure(const State& state, const Course& course) const {
       return course.integral / course.length;
     case Figure::rms:
       return std::sqrt(course.squares / course.length);
+    case Figure::time_of_max:
+      return course.largest_at;
+    case Figure::time_of_min:
+      return course.smallest_at;
     case Figure::crossing:
       break;
   }
@@ -223,7 +233,7 @@ std::vector<Finding> Claims::findings() const {
     Finding finding;
     finding.found = figure(state, state.of);
     double scale = largest_[at(claim.record)];
-    if (claim.figure == Figure::crossing) {
+    if (is_time(claim.figure)) {
       finding.found += start_;
       scale = length_;
     } else if (claim.per >= 0) {

@@ -38,6 +38,7 @@ class Claims {
   /// A figure of one record, as far as it has come.
   struct Course {
     double last = not_given, largest = not_given, smallest = not_given;
+    double largest_at = not_given, smallest_at = not_given;  ///< when it was that first
     double integral = 0, squares = 0, length = 0;
     double at = not_given;
   };

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/csv_fields.hpp"
@@ -50,6 +51,13 @@ Measure measure_of(const std::string& name, std::string_view unit, bool square, 
   return {name, "", {}};
 }
 
+/// What a measure of a sweep measures: "max(k1.force, from 1 s)" what k1.force does. Nothing of another heading.
+std::optional<Measure> measure_of_figure(const CsvHeading& heading, std::optional<Domain> domain) {
+  if (heading.square) return {};
+  const auto record = measure_of_record(std::string(heading.unit.substr(0, heading.unit.find(','))), domain);
+  return record && heading.name.starts_with("time of ") ? measure("time", "s") : record;
+}
+
 }  // namespace
 
 std::optional<Measure> measure_of_record(const std::string& name, std::optional<Domain> domain) {
@@ -78,8 +86,12 @@ CsvFile::CsvFile(const std::string& path, std::optional<Domain> domain) : path_(
     if (csv_number(field.text))
       throw Mistake(fmt::format("{}: expected the name of a column, found the number `{}`", place, field.text),
                     "the first row of a CSV file names its columns");
-    // A name is shown in full where the unit in it is only a remark.
     const CsvHeading heading = csv_heading(field.text);
+    if (const auto figure = measure_of_figure(heading, domain)) {
+      columns_.push_back({std::string(field.text), *figure});
+      continue;
+    }
+    // A name is shown in full where the unit in it is only a remark.
     const std::string name(heading.name.empty() ? field.text : heading.name);
     columns_.push_back({name, measure_of(name, heading.unit, heading.square, place, domain)});
   }
@@ -101,7 +113,8 @@ std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs) const {
           fmt::format("{}:{}: {} fields, but the header has {}", path_, number, fields.size(), columns_.size()));
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (!wanted[k]) continue;
-      const std::optional<double> value = csv_number(fields[k].text);
+      const bool none = fields[k].text.empty();
+      const std::optional<double> value = none ? std::numeric_limits<double>::quiet_NaN() : csv_number(fields[k].text);
       if (!value)
         throw Mistake(fmt::format("{}:{}:{}: expected a number, found `{}`", path_, number, fields[k].column,
                                   printable(fields[k].text)));

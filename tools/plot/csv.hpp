@@ -25,8 +25,8 @@ std::optional<Measure> measure_of_record(const std::string& name, std::optional<
 using ColumnPair = std::pair<std::size_t, std::size_t>;
 
 /// A CSV file with a header: rows of `rheonet run`, or any other, whose headings may end with a unit ("torque
-/// [in*ozf]"). Names without a unit that end like a record's are taken to be in SI, `time` in s; of others the unit is
-/// not known.
+/// [in*ozf]"). Names without a unit that end like a record's, or are a measure of one ("max(k1.force)"), are taken to be in
+/// SI, `time` in s; of others the unit is not known.
 class CsvFile {
  public:
   /// Reads the header. Throws Mistake.
@@ -35,7 +35,8 @@ class CsvFile {
   const std::vector<Column>& columns() const { return columns_; }
 
   /// Reads the rows: a trace in SI for each pair of columns. Throws Mistake: no rows, a row of another length, a field
-  /// that is no number. Values that are not finite interrupt a curve.
+  /// that is no number. Fields that are empty, and values that are not finite,
+  /// interrupt a curve.
   std::vector<Trace> read(const std::vector<ColumnPair>& pairs) const;
 
  private:

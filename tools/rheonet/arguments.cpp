@@ -55,6 +55,20 @@ constexpr const char* of_precision =
     "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
     "written; 2 the scene or the command line is wrong.";
 
+constexpr const char* of_sweep =
+    "For instance:\n"
+    "  rheonet sweep scene.toml --vary c1.damping=\"1 N*s/m:100 N*s/m:50:log\" --measure 'max(k1.force)' -o sweep.csv\n"
+    "  rheonet sweep scene.toml --vary k1.stiffness=100:1000 --vary c1.damping=1:100:log --latin 500 -o sweep.csv\n"
+    "  rheonet sweep scene.toml --list cases.csv -o rows.csv\n\n"
+    "RANGE is from:to:count, from:to:count:log or value,value,...; several --vary make a grid. With --random and --latin\n"
+    "it is from:to, from:to:log or value,value,..., from which values are drawn. FILE of --list is a CSV file whose first\n"
+    "row has paths, with units as in `k1.stiffness [N/m]`, and each other row the values of a run.\n\n"
+    "Measures: max, min, mean, rms, final and `time of max`, `time of min` of a record, as in max(k1.force) or\n"
+    "max(k1.force, from 1 s, to 2 s); value(k1.force, 0.2 s); time of crossing(k1.force, 2 N); energy dissipated, energy\n"
+    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`.\n\n"
+    "Exit status: 0 every run is done; 1 one or more could not be read or simulated (the column `error` says why), or\n"
+    "the sweep was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
+
 constexpr const char* of_plot =
     "For instance:\n"
     "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
@@ -77,16 +91,28 @@ bool is_override(const std::string& word) {
   return equals != std::string::npos && equals > 0 && word[0] != '-' && word.find('/') > equals;
 }
 
+bool is_measure(const std::string& word) {
+  if (word == "steps" || word == "events" || word.starts_with("energy ")) return true;
+  return word[0] != '-' && word.find('(') < word.size() && word.ends_with(')');
+}
+
 // `--set a=1 b=2 SCENE`: each PATH=VALUE that follows another gets a --set of its own, because an option that takes any
-// number of words would swallow the scene.
-std::vector<std::string> with_every_set(const std::vector<std::string>& words) {
+// number of words would swallow the scene. So with `--vary`, and with the measures after `--measure`.
+std::vector<std::string> with_every_option(const std::vector<std::string>& words) {
+  constexpr std::pair<const char*, bool (*)(const std::string&)> options[] = {
+      {"--set", is_override}, {"--vary", is_override}, {"--measure", is_measure}};
   std::vector<std::string> result;
-  bool after_override = false;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (after_override && is_override(words[i])) result.push_back("--set");
-    after_override =
-        words[i].starts_with("--set=") || (!result.empty() && result.back() == "--set" && is_override(words[i]));
-    result.push_back(words[i]);
+  std::string goes_on;  // the option that may be repeated without its name
+  for (const std::string& word : words) {
+    std::string before;
+    before.swap(goes_on);
+    for (const auto& [option, fits] : options) {
+      const bool repeated = before == option && !word.empty() && fits(word);
+      if (repeated) result.emplace_back(option);
+      const bool named = !result.empty() && result.back() == option;
+      if (repeated || named || word.starts_with(std::string(option) + '=')) goes_on = option;
+    }
+    result.push_back(word);
   }
   return result;
 }
@@ -154,6 +180,8 @@ int read_whole(const char* option, const std::string& text, int least, int most)
   throw WrongCommandLine{fmt::format("`{}` takes a whole number from {} to {}, not `{}`", option, least, most, text), ""};
 }
 
+constexpr int most_drawn = 10'000'000;
+
 /// Each once, from the loosest on.
 std::vector<double> read_accuracies(const std::vector<std::string>& texts) {
   const char* const option = "--accuracies";
@@ -218,7 +246,7 @@ void add_plot(CLI::App* command, Arguments& arguments) {
 /// The commands and options as CLI11 knows them, and what it reads into.
 struct CommandLine {
   Arguments arguments;
-  std::optional<std::string> accuracy, within, order, runs;
+  std::optional<std::string> accuracy, within, order, runs, random, latin, seed, jobs;
   std::vector<std::string> accuracies;
   CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet"};
@@ -233,6 +261,7 @@ struct CommandLine {
     add_check();
     add_compare();
     add_precision();
+    add_sweep();
     CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", of_plot);
     add_plot(plot, arguments);
     add_overrides(plot);
@@ -292,6 +321,23 @@ struct CommandLine {
         ->type_name("FILE");
     precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");
   }
+  void add_sweep() {
+    CLI::App* sweep = add_command("sweep", "simulate a scene for many values, on all processors, into one CSV file", of_sweep);
+    add_scene(sweep);
+    Arguments::Sweep& s = arguments.sweep;
+    add_list(sweep, "--vary", s.vary, "a value that takes many; may be repeated", "PATH=RANGE", false);
+    sweep->add_option("--list", s.list, "a CSV file of values, a run in each row")->type_name("FILE");
+    sweep->add_option("--random", random, "so many points, drawn from the ranges at random")->type_name("N");
+    sweep->add_option("--latin", latin, "so many points, drawn as a Latin hypercube: each range evenly covered")->type_name("N");
+    sweep->add_option("--seed", seed, "of what is drawn: another one draws other points; 1 if not given")->type_name("S");
+    add_list(sweep, "--measure", s.measures, "what is written of a run in place of its rows; may be repeated", "MEASURE", false);
+    sweep->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
+        ->type_name("FILE");
+    add_accuracy(sweep);
+    sweep->add_option("--jobs", jobs, "runs at a time; as many as there are processors if not given")->type_name("J");
+    sweep->add_flag("--resume", s.resume, "go on where an interrupted sweep into the same file ended");
+    sweep->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
+  }
   void add_check() {
     CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
     add_scene(check);
@@ -332,9 +378,9 @@ struct CommandLine {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   CommandLine line;
-  auto& [arguments, accuracy, within, order, runs, accuracies, app] = line;
+  auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, app] = line;
 
-  words = with_every_set(words);
+  words = with_every_option(words);
   std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
   try {
     try {
@@ -352,6 +398,10 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     if (order) arguments.order = read_whole("--order", *order, 1, 5);
     if (runs) arguments.runs = read_whole("--runs", *runs, 1, 1000);
     arguments.accuracies = read_accuracies(accuracies);
+    if (random) arguments.sweep.random = read_whole("--random", *random, 1, most_drawn);
+    if (latin) arguments.sweep.latin = read_whole("--latin", *latin, 1, most_drawn);
+    if (seed) arguments.sweep.seed = static_cast<std::uint64_t>(read_whole("--seed", *seed, 0, 1'000'000'000));
+    if (jobs) arguments.sweep.jobs = read_whole("--jobs", *jobs, 1, 1024);
     if (within && !(*arguments.within >= 0))
       throw WrongCommandLine{fmt::format("`--within` must be at least 0, but is {}", *within), ""};
     if (app.get_subcommands().empty())
@@ -365,6 +415,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
                                                    {"check", Command::check},
                                                    {"compare", Command::compare},
                                                    {"precision", Command::precision},
+                                                   {"sweep", Command::sweep},
                                                    {"plot", Command::plot},
                                                    {"draw", Command::draw},
                                                    {"components", Command::components},

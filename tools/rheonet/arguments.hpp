@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -12,7 +13,7 @@ enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input =
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, precision, plot, draw, components, schema };
+  enum class Command { run, check, compare, precision, sweep, plot, draw, components, schema };
 
   Command command = Command::run;
   std::string scene;
@@ -50,6 +51,17 @@ struct Arguments {
     bool magnitudes = false, marks = false;
   };
   Plot plot;
+  /// Of `sweep`; 0 and empty where nothing is said.
+  struct Sweep {
+    std::vector<std::string> vary;      ///< PATH=RANGE
+    std::string list;                   ///< a CSV file of values
+    long random = 0, latin = 0;         ///< how many points are drawn from the ranges
+    std::optional<std::uint64_t> seed;  ///< of what is drawn
+    std::vector<std::string> measures;
+    int jobs = 0;  ///< 0: one for each processor
+    bool resume = false;
+  };
+  Sweep sweep;
   std::string title;    ///< of `draw`; "": that of the scene
   bool no_values = false;  ///< of `draw`
   bool all = false;        ///< of `draw`

@@ -23,7 +23,7 @@ std::string unit_of(const Record& record, const Scene& scene) {
 
 /// Of what is claimed.
 std::string unit_of(const Claim& claim, const Scene& scene) {
-  if (claim.figure == Figure::crossing) return "s";
+  if (is_time(claim.figure)) return "s";
   const Record& record = record_of(scene, claim.record);
   if (claim.per < 0) return unit_of(record, scene);
   const Dimension dimension = rheonet::unit_of(scene, record).dimension /
@@ -55,6 +55,10 @@ std::string name_of(const Claim& claim, const Scene& scene) {
       return "mean of " + path + window;
     case Figure::rms:
       return "root mean square of " + path + window;
+    case Figure::time_of_max:
+      return "time of the largest " + path + window;
+    case Figure::time_of_min:
+      return "time of the smallest " + path + window;
     case Figure::crossing:
       break;
   }

@@ -16,6 +16,9 @@ ExitStatus compare_scenes(const Arguments& arguments);
 /// `rheonet precision`: says what accuracy costs in a scene.
 ExitStatus price_scene(const Arguments& arguments);
 
+/// `rheonet sweep`: simulates a scene for many values of its parameters.
+ExitStatus sweep_scene(const Arguments& arguments);
+
 /// `rheonet plot`: draws curves of scenes and of CSV files.
 ExitStatus plot_results(const Arguments& arguments);
 

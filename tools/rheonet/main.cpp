@@ -27,6 +27,8 @@ ExitStatus carry_out(const Arguments& arguments) {
       return compare_scenes(arguments);
     case Command::precision:
       return price_scene(arguments);
+    case Command::sweep:
+      return sweep_scene(arguments);
     case Command::plot:
       return plot_results(arguments);
     case Command::draw:

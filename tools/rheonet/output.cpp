@@ -39,6 +39,11 @@ Output::Output(const std::string& path)
   }
 }
 
+Output::Output(const std::string& path, std::size_t bytes, long lines) : Output(path) {
+  kept_ = bytes;
+  lines_ = lines;
+}
+
 Output::~Output() { close(); }
 
 bool Output::is_terminal() const { return ::isatty(descriptor_) != 0; }
@@ -55,7 +60,8 @@ long Output::write(const char* text, std::size_t size) {
     touched_ = true;
     struct stat status {};
     if (path_ != "-" && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
-        ::ftruncate(descriptor_, 0) != 0) {
+        (::ftruncate(descriptor_, static_cast<off_t>(kept_)) != 0 ||
+         ::lseek(descriptor_, static_cast<off_t>(kept_), SEEK_SET) < 0)) {
       error_ = errno;
     }
   }
@@ -103,9 +109,9 @@ bool write_all(Output& output, const std::string& text, const char* row) {
   return error == 0;
 }
 
-std::unique_ptr<Output> open_output(const std::string& path) {
+std::unique_ptr<Output> open_output(const std::string& path, std::size_t bytes, long lines) {
   try {
-    return std::make_unique<Output>(path);
+    return std::make_unique<Output>(path, bytes, lines);
   } catch (const std::system_error& error) {
     say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
     return nullptr;

@@ -13,6 +13,9 @@ class Output {
  public:
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
   explicit Output(const std::string& path);
+  /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
+  /// stood there is lost before.
+  Output(const std::string& path, std::size_t bytes, long lines);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -40,10 +43,12 @@ class Output {
   std::size_t begun_ = 0;  ///< bytes written since the last whole row
   bool created_ = false;
   bool touched_ = false;
+  std::size_t kept_ = 0;  ///< bytes of an earlier writing
 };
 
-/// Opens it; nullptr, and an error message, if that is not possible.
-std::unique_ptr<Output> open_output(const std::string& path);
+/// Opens it, keeping so many bytes with so many lines of an earlier writing; nullptr, and an error message, if that is not
+/// possible.
+std::unique_ptr<Output> open_output(const std::string& path, std::size_t bytes = 0, long lines = 0);
 
 /// Writes a text and closes; false, and an error message, if not all is written. `row`: what a line of it is called.
 bool write_all(Output& output, const std::string& text, const char* row);

@@ -15,8 +15,7 @@ ReadOptions options_of(const Arguments& arguments) {
   return {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()};
 }
 
-ReadResult read_and_report(const std::string& scene, const ReadOptions& options) {
-  ReadResult result = read_scene(scene, declarations(), options);
+void report_all(ReadResult& result) {
   if (result.scene) {
     const std::vector<Diagnostic> loose = loose_nodes(*result.scene);
     result.diagnostics.insert(result.diagnostics.end(), loose.begin(), loose.end());
@@ -29,6 +28,11 @@ ReadResult read_and_report(const std::string& scene, const ReadOptions& options)
     if (diagnostic.severity == Severity::error) ++errors;
   }
   if (errors > 1) say("{} errors\n", errors);
+}
+
+ReadResult read_and_report(const std::string& scene, const ReadOptions& options) {
+  ReadResult result = read_scene(scene, declarations(), options);
+  report_all(result);
   return result;
 }
 

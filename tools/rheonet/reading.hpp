@@ -13,6 +13,9 @@ ReadOptions options_of(const Arguments& arguments);
 /// mistake.
 ReadResult read_and_report(const std::string& scene, const ReadOptions& options);
 
+/// Prints every mistake and warning of what has been read, and of nodes that something may be wrong with.
+void report_all(ReadResult& result);
+
 /// Whether a file is one of those that a scene was read from, which must not be overwritten by its results. Says so if
 /// it is; `option` is what names it: "--output".
 bool is_source(const std::string& path, const char* option, const Sources& sources);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,8 @@ namespace rheonet::tool {
 namespace {
 
 constexpr long most_values = 10'000;  // each is as many runs as there are scenes
+const char* const range_forms =
+    "where values are drawn: --vary PATH=from:to, PATH=from:to:log or PATH=value,value,...; how many: --random or --latin";
 const char* const forms = "--vary PATH=from:to:count, PATH=from:to:count:log or PATH=value,value,...";
 
 /// "10 N/m".
@@ -70,34 +73,42 @@ std::optional<std::vector<std::string>> spread(const End& from, const End& to, l
   return {};
 }
 
-}  // namespace
+/// What is common to all forms: the path, and the parts of the range between colons.
+struct Parts {
+  std::string path, range;
+  std::vector<std::string> parts;
+};
 
-std::variant<Variation, NoVariation> read_variation(const std::string& text) {
+std::variant<Parts, NoVariation> split_variation(const std::string& text, const char* forms) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals >= text.size() - 1)
     return NoVariation{fmt::format("`--vary {}` does not say what takes which values", text), forms};
-  Variation variation{text.substr(0, equals), {}};
-  const std::string range = text.substr(equals + 1);
-  const std::vector<std::string> parts = split(range, ':');
-  if (parts.size() == 1) {
-    variation.values = split(range, ',');
-    for (const std::string& value : variation.values)
-      if (value.empty()) return NoVariation{fmt::format("`--vary {}` has an empty value", text), forms};
-    if (variation.values.size() > static_cast<std::size_t>(most_values))
-      return NoVariation{fmt::format("`--vary {}=...` lists {} values; at most {} are tried", variation.path,
-                                     variation.values.size(), most_values),
-                         forms};
-    return variation;
-  }
-  const bool logarithmic = parts.size() == 4 && parts[3] == "log";
-  if (parts.size() != 3 && !logarithmic) return NoVariation{fmt::format("`{}` is not a range", range), forms};
-  const auto from = read_end(parts[0]), to = read_end(parts[1]);
+  Parts parts{text.substr(0, equals), text.substr(equals + 1), {}};
+  parts.parts = split(parts.range, ':');
+  return parts;
+}
+
+std::variant<std::vector<std::string>, NoVariation> read_list(const std::string& text, const Parts& parts,
+                                                              const char* forms) {
+  std::vector<std::string> values = split(parts.range, ',');
+  for (const std::string& value : values)
+    if (value.empty()) return NoVariation{fmt::format("`--vary {}` has an empty value", text), forms};
+  if (values.size() > static_cast<std::size_t>(most_values))
+    return NoVariation{fmt::format("`--vary {}=...` lists {} values; at most {} are tried", parts.path, values.size(),
+                                   most_values),
+                       forms};
+  return values;
+}
+
+struct Ends {
+  End from, to;
+};
+
+std::variant<Ends, NoVariation> read_ends(const Parts& parts, bool logarithmic, const char* forms) {
+  const auto from = read_end(parts.parts[0]), to = read_end(parts.parts[1]);
   for (std::size_t i = 0; i < 2; ++i)
     if (!(i == 0 ? from : to))
-      return NoVariation{fmt::format("`{}` is not a number, or one with a unit", parts[i]), forms};
-  const auto count = read_count(parts[2]);
-  if (!count)
-    return NoVariation{fmt::format("`{}` is not a number of values from 2 to {}", parts[2], most_values), forms};
+      return NoVariation{fmt::format("`{}` is not a number, or one with a unit", parts.parts[i]), forms};
   if (!from->unit.empty() && from->unit != to->unit)
     return NoVariation{fmt::format("both ends of a range have one unit, not `{}` and `{}`", from->unit, to->unit),
                        fmt::format("{} to {} {}, say", from->value, to->value, from->unit)};
@@ -105,12 +116,70 @@ std::variant<Variation, NoVariation> read_variation(const std::string& text) {
     return NoVariation{"the ends of a logarithmic range are both above 0 or both below", ""};
   if (from->value == to->value)
     return NoVariation{fmt::format("both ends of the range are {}", from->value), "give two that differ"};
-  const auto values = spread(*from, *to, *count, logarithmic);
+  return Ends{*from, *to};
+}
+
+}  // namespace
+
+std::variant<Variation, NoVariation> read_variation(const std::string& text) {
+  auto split = split_variation(text, forms);
+  if (auto* wrong = std::get_if<NoVariation>(&split)) return std::move(*wrong);
+  const Parts& parts = std::get<Parts>(split);
+  Variation variation{parts.path, {}};
+  if (parts.parts.size() == 1) {
+    auto values = read_list(text, parts, forms);
+    if (auto* wrong = std::get_if<NoVariation>(&values)) return std::move(*wrong);
+    variation.values = std::get<std::vector<std::string>>(std::move(values));
+    return variation;
+  }
+  const bool logarithmic = parts.parts.size() == 4 && (parts.parts[3] == "log" || parts.parts[2] == "log");
+  if (parts.parts.size() != 3 && !logarithmic)
+    return NoVariation{fmt::format("`{}` is not a range", parts.range), forms};
+  const auto ends = read_ends(parts, logarithmic, forms);
+  if (const auto* wrong = std::get_if<NoVariation>(&ends)) return *wrong;
+  const auto& [from, to] = std::get<Ends>(ends);
+  const std::string& number = parts.parts[parts.parts[2] == "log" ? 3 : 2];
+  const auto count = read_count(number);
+  if (!count)
+    return NoVariation{fmt::format("`{}` is not a number of values from 2 to {}", number, most_values), forms};
+  const auto values = spread(from, to, *count, logarithmic);
   if (!values)
-    return NoVariation{fmt::format("there are no {} different numbers from {} to {}", *count, parts[0], parts[1]),
+    return NoVariation{fmt::format("there are no {} different numbers from {} to {}", *count, parts.parts[0], parts.parts[1]),
                        "give fewer, or ends further apart"};
   variation.values = *values;
   return variation;
+}
+
+std::string Range::at(double fraction) const {
+  if (!values.empty()) {
+    const double index = std::floor(fraction * static_cast<double>(values.size()));
+    return values[std::min(static_cast<std::size_t>(index), values.size() - 1)];
+  }
+  return with_unit(fmt::format("{}", between(from, to, fraction, logarithmic)), unit);
+}
+
+std::variant<Range, NoVariation> read_range(const std::string& text) {
+  auto split = split_variation(text, range_forms);
+  if (auto* wrong = std::get_if<NoVariation>(&split)) return std::move(*wrong);
+  const Parts& parts = std::get<Parts>(split);
+  Range range;
+  range.path = parts.path;
+  if (parts.parts.size() == 1) {
+    auto values = read_list(text, parts, range_forms);
+    if (auto* wrong = std::get_if<NoVariation>(&values)) return std::move(*wrong);
+    range.values = std::get<std::vector<std::string>>(std::move(values));
+    return range;
+  }
+  range.logarithmic = parts.parts.size() == 3 && parts.parts[2] == "log";
+  if (parts.parts.size() != 2 && !range.logarithmic)
+    return NoVariation{fmt::format("`{}` is not a range to draw from", parts.range), range_forms};
+  const auto ends = read_ends(parts, range.logarithmic, range_forms);
+  if (const auto* wrong = std::get_if<NoVariation>(&ends)) return *wrong;
+  const auto& [from, to] = std::get<Ends>(ends);
+  range.from = from.value;
+  range.to = to.value;
+  range.unit = to.unit;
+  return range;
 }
 
 }  // namespace rheonet::tool

@@ -1,0 +1,273 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/netlist/csv_fields.hpp"
+#include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
+
+using namespace rheonet;
+using namespace rheonet::test;
+
+namespace {
+
+using Row = std::vector<std::string>;
+
+/// The rows of a CSV text, the header first.
+std::vector<Row> table(const std::string& text) {
+  std::vector<Row> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    for (const CsvField& field : csv_fields(line)) rows.back().emplace_back(field.text);
+  }
+  return rows;
+}
+
+double number(const std::string& cell) { return std::strtod(cell.c_str(), nullptr); }
+
+/// A dashpot B in a drive of 2 m/s for 3 s: its force is 2 B, its heat 12 B.
+const char* const dragged = R"([parameters]
+B = "3 N*s/m"
+[elements]
+drive = { type = "motion", at = "a", velocity = 2 }
+c = { type = "dashpot", between = ["a", "ground"], damping = "B" }
+[simulate]
+stop = 3
+output = { points = 4 }
+record = ["c.force", "a.position"]
+)";
+
+/// So many runs, and a wave in each, that it can be killed on the way.
+const std::string many = "sweep scene.toml --vary k1.stiffness=50:500:20 block_mass.mass=1:3:15 --measure 'min(block.position)' "
+                         "'time of min(block.position)' ";
+
+}  // namespace
+
+TEST_CASE("sweep: a grid, the last value first; measures, values in SI, one row for each run") {
+  const Folder folder(dragged);
+  const Finished result = folder.shell(
+      "rheonet sweep scene.toml --vary 'parameters.B=0.1 N*s/m:10 N*s/m:3:log' --vary simulate.stop=1,2 --measure 'max(c.force)' "
+      "'energy dissipated' 'mean(a.position)' -o sweep.csv",
+      0);
+  CHECK(contains(result.err, "scene.toml: 6 runs\n"));
+  const auto rows = table(folder.read("sweep.csv"));
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[0] == Row{"run", "parameters.B", "simulate.stop", "max(c.force)", "energy dissipated", "mean(a.position)", "error"});
+  int run = 0;
+  for (const double B : {0.1, 1.0, 10.0})
+    for (const double stop : {1.0, 2.0}) {
+      const Row& row = rows[static_cast<std::size_t>(++run)];
+      CAPTURE(run);
+      CHECK(row[0] == std::to_string(run));
+      CHECK(number(row[1]) == doctest::Approx(B).epsilon(1e-5));
+      CHECK(number(row[2]) == stop);
+      CHECK(number(row[3]) == doctest::Approx(2 * number(row[1])).epsilon(1e-9));
+      CHECK(number(row[4]) == doctest::Approx(4 * number(row[1]) * stop).epsilon(1e-6));
+      CHECK(number(row[5]) == doctest::Approx(stop).epsilon(1e-6));
+      CHECK(row[6] == "");
+    }
+}
+
+TEST_CASE("sweep: without measures the rows are those of `run`") {
+  const Folder folder(dragged);
+  const auto rows = table(folder.shell("rheonet sweep scene.toml --vary parameters.B=3,4 -q", 0).out);
+  const auto alone = table(folder.shell("rheonet run scene.toml --set parameters.B=4 -q", 0).out);
+  REQUIRE(rows.size() == 9);
+  CHECK(rows[0] == Row{"run", "parameters.B", "time", "c.force", "a.position", "error"});
+  for (std::size_t k = 1; k <= 4; ++k) {
+    CHECK(Row(rows[4 + k].begin(), rows[4 + k].begin() + 2) == Row{"2", "4"});
+    CHECK(Row(rows[4 + k].begin() + 2, rows[4 + k].end() - 1) == alone[k]);
+  }
+}
+
+TEST_CASE("sweep: each measure is what it says, in the part of the run that is looked at") {
+  // x = 1 mm cos(w t), w^2 = k/m.
+  const Folder folder(oscillator);
+  const auto rows = table(
+      folder
+          .shell("rheonet sweep scene.toml --vary 'k1.stiffness=100 N/m,225 N/m' -q --measure 'time of min(block.position)' "
+                 "'time of max(block.position, from 0.1 s)' 'max(block.position, from 0.1 s, to 0.3 s)' 'rms(k1.force)' "
+                 "'time of crossing(block.position, 0.5 mm)' 'final(k1.force)' 'value(block.position, 0.2 s)' "
+                 "'time of crossing(block.position, 2 mm)' events steps 'energy stored'",
+                 0)
+          .out);
+  REQUIRE(rows.size() == 3);
+  for (std::size_t k = 1; k < 3; ++k) {
+    const Row& row = rows[k];
+    const double stiffness = number(row[1]), w = std::sqrt(stiffness), pi = std::numbers::pi, A = 1e-3;
+    CAPTURE(stiffness);
+    const auto near = [](double value) { return doctest::Approx(value).epsilon(1e-5); };
+    CHECK(number(row[2]) == near(pi / w));
+    CHECK(number(row[3]) == near(2 * pi / w));
+    CHECK(number(row[4]) == near(A * std::max(std::cos(0.1 * w), std::cos(0.3 * w))));
+    CHECK(number(row[5]) == near(stiffness * A * std::sqrt(0.5 + std::sin(2 * w) / (4 * w))));
+    CHECK(number(row[6]) == near(std::acos(0.5) / w));
+    CHECK(number(row[7]) == near(stiffness * A * std::cos(w)));
+    CHECK(number(row[8]) == near(A * std::cos(0.2 * w)));
+    CHECK(row[9] == "");  // never
+    CHECK(row[10] == "0");
+    CHECK(number(row[11]) > 10);
+    CHECK(std::abs(number(row[12])) < 1e-6 * stiffness * A * A);
+  }
+}
+
+TEST_CASE("sweep: a Latin hypercube has each stratum of each range once, a seed its points; random draws fill the range") {
+  const Folder folder(dragged);
+  const auto draw = [&](const std::string& how) {
+    return folder.shell("rheonet sweep scene.toml --vary 'parameters.B=1 N*s/m:100 N*s/m:log' simulate.stop=1:2 -q --measure steps " + how, 0).out;
+  };
+  const std::string points = draw("--latin 40 --seed 5");
+  const auto rows = table(points);
+  REQUIRE(rows.size() == 41);
+  std::set<int> of_B, of_stop;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    of_B.insert(static_cast<int>(std::floor(20 * std::log10(number(rows[k][1])))));
+    of_stop.insert(static_cast<int>(std::floor(40 * (number(rows[k][2]) - 1))));
+  }
+  for (const auto& strata : {of_B, of_stop}) {
+    CHECK(strata.size() == 40);
+    CHECK(*strata.begin() == 0);
+    CHECK(*strata.rbegin() == 39);
+  }
+  CHECK(draw("--latin 40 --seed 5 --jobs 3") == points);
+  CHECK(draw("--latin 40 --seed 6") != points);
+  const auto random = table(draw("--random 200"));
+  REQUIRE(random.size() == 201);
+  double sum = 0;
+  for (std::size_t k = 1; k < random.size(); ++k) {
+    const double u = std::log10(number(random[k][1])) / 2;
+    CHECK(u >= 0);
+    CHECK(u < 1);
+    sum += u;
+  }
+  CHECK(std::abs(sum / 200 - 0.5) < 4 / std::sqrt(12 * 200.0));  // four standard deviations
+}
+
+TEST_CASE("sweep: a list, with units in its headings; and a grid for each of its rows") {
+  const Folder folder(dragged);
+  folder.write("list.csv", "# two drags\nparameters.B [N*s/cm],drive.velocity\n0.01,2\n\"0.02\",300 cm/s\n");
+  const auto rows = table(folder.shell("rheonet sweep scene.toml --list list.csv --vary simulate.stop=1,2 --measure 'final(c.force)' -q", 0).out);
+  REQUIRE(rows.size() == 5);
+  CHECK(rows[1] == Row{"1", "1", "2", "1", "2", ""});
+  CHECK(rows[4] == Row{"4", "2", "3", "2", "6", ""});
+}
+
+TEST_CASE("sweep: a run that fails is a row that says why, the others are done") {
+  const Folder folder(overcome);
+  const Finished result = folder.shell("rheonet sweep scene.toml --vary s2.coulomb=1,3,-2 --measure 'max(k1.force)'", 1);
+  const auto rows = table(result.out);
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[1][2] == "");
+  CHECK(contains(rows[1][3], "s2"));
+  CHECK(number(rows[2][2]) == doctest::Approx(1));
+  CHECK(rows[2][3] == "");
+  CHECK(rows[3] == Row{"3", "-2", "", "`coulomb` must be at least 0, but is -2 N"});
+  CHECK(contains(result.err, "3 runs, of which 2 failed"));
+  // With rows too, where the first run cannot even be read.
+  const auto all = table(folder.shell("rheonet sweep scene.toml --vary s2.coulomb=-2,3 -q", 1).out);
+  REQUIRE(all.size() == 7);
+  CHECK(all[0] == Row{"run", "s2.coulomb", "time", "k1.force", "error"});
+  CHECK(Row(all[1].begin(), all[1].begin() + 4) == Row{"1", "-2", "", ""});
+}
+
+TEST_CASE("sweep: the file is the same however many run side by side, and after being killed and resumed") {
+  const Folder folder(oscillator);
+  folder.shell("rheonet " + many + "-o whole.csv --jobs 1", 0);
+  const std::string whole = folder.read("whole.csv");
+  CHECK(table(whole).size() == 301);
+  folder.shell("rheonet " + many + "-o three.csv --jobs 3 -q", 0);
+  CHECK(folder.read("three.csv") == whole);
+  for (const std::size_t bytes : {std::size_t{0}, std::size_t{20}, whole.find('\n') + 1, whole.size() / 3, whole.size() / 2 + 7, whole.size()}) {
+    CAPTURE(bytes);
+    folder.write("cut.csv", whole.substr(0, bytes));
+    folder.shell("rheonet " + many + "-o cut.csv --resume", 0);
+    CHECK(folder.read("cut.csv") == whole);
+  }
+  folder.shell("rheonet " + many + "-o new.csv --resume -q", 0);
+  CHECK(folder.read("new.csv") == whole);
+  // Killed in earnest, whenever that is.
+  folder.shell("timeout -s KILL 0.2 rheonet " + many + "-o killed.csv; rheonet " + many + "-o killed.csv --resume -q", 0);
+  CHECK(folder.read("killed.csv") == whole);
+  // Rows of runs, cut within one.
+  const std::string rows = "rheonet sweep scene.toml --vary k1.stiffness=50:500:9 -q ";
+  const std::string all = folder.shell(rows, 0).out;
+  folder.write("rows.csv", all.substr(0, all.size() / 2 + 3));
+  folder.shell(rows + "-o rows.csv --resume", 0);
+  CHECK(folder.read("rows.csv") == all);
+}
+
+TEST_CASE("sweep: what is not of this sweep is not gone on with, and not lost") {
+  const Folder folder(oscillator);
+  folder.shell("rheonet " + many + "-o sweep.csv -q", 0);
+  const std::string whole = folder.read("sweep.csv");
+  const auto refused = [&](const std::string& command, const std::string& why) {
+    CAPTURE(command);
+    CHECK(contains(folder.shell("rheonet " + command + " --resume", 2).err, why));
+    CHECK(folder.read("sweep.csv") == whole);
+  };
+  refused(many + "-o sweep.csv --measure steps", "sweep.csv:1 names other columns");
+  refused(many + "-o sweep.csv --set nodes.block.position=0.002", "run 300 comes out otherwise than in sweep.csv:301: the scene");
+  refused("sweep scene.toml --vary k1.stiffness=50:500:21 block_mass.mass=1:3:15 --measure 'min(block.position)' 'time of min(block.position)' -o sweep.csv",
+          "sweep.csv:17 does not begin with `16,72.5,1,`");
+  refused(many, "`--resume` needs the file");
+}
+
+TEST_CASE("sweep: an interrupt keeps the runs that are done, and says how to go on") {
+  const Folder folder(endless);
+  const Finished result = folder.shell(
+      "rheonet sweep scene.toml --vary simulate.stop=1,2,9e6 --measure 'max(block.position)' -o sweep.csv --jobs 1 & sleep 1; kill -INT $!; wait $!", 1);
+  CHECK(contains(result.err, "error: the sweep was interrupted after 2 of 3 runs\n  the 2 rows up to there are in `sweep.csv`\n  with `--resume`"));
+  CHECK(table(folder.read("sweep.csv")).size() == 3);
+}
+
+TEST_CASE("sweep: what is wrong for every run has status 2, and writes nothing") {
+  const Folder folder(dragged);
+  folder.write("mistaken.toml", mistaken);
+  folder.write("list.csv", "parameters.B,\n1,2\n");
+  const auto refused = [&](const std::string& command, const std::string& why) {
+    CAPTURE(command);
+    const Finished result = folder.shell("rheonet sweep " + command + " -o sweep.csv", 2);
+    CAPTURE(result.err);
+    CHECK(contains(result.err, why));
+    CHECK_FALSE(folder.has("sweep.csv"));
+  };
+  refused("scene.toml", "nothing is varied");
+  refused("scene.toml --vary c.dumping=1,2", "did you mean `damping`?");
+  refused("mistaken.toml --vary simulate.stop=1,2", "did you mean `spring`?");
+  refused("scene.toml --vary parameters.B=1:2", "`1:2` is not a range");
+  refused("scene.toml --vary parameters.B=1:2:3 --random 4", "`1:2:3` is not a range to draw from");
+  refused("scene.toml --vary parameters.B=1:2 parameters.B=3:4 --random 4", "`parameters.B` is varied twice");
+  refused("scene.toml --vary parameters.B=1:2 --random 4 --latin 3", "exclude each other");
+  refused("scene.toml --vary parameters.B=1,2 --seed 3", "`--seed` is for");
+  refused("scene.toml --random 3", "no range to draw from");
+  refused("scene.toml --list list.csv", "list.csv:1:14: expected the path of a value");
+  refused("scene.toml --list none.csv", "`--list none.csv` cannot be read");
+  refused("scene.toml --vary parameters.B=1:2:9999 drive.velocity=1:2:9999", "more than 10000000 runs");
+  const std::string vary = "scene.toml --vary parameters.B=1,2 --measure ";
+  refused(vary + "'max(c.forse)'", "did you mean `c.force`?");
+  refused(vary + "'maximum(c.force)'", "there is no measure `maximum` of a record");
+  refused(vary + "'crossing(c.force, 2 N)'", "did you mean `time of crossing`?");
+  refused(vary + "'time of crossing(c.force)'", "which level is crossed is missing");
+  refused(vary + "'time of crossing(c.force, 2 m)'", "expected a force (N), found a length (m)");
+  refused(vary + "'value(c.force)'", "the time is missing");
+  refused(vary + "'final(c.force, from 1 s)'", "`final` does not take `from 1 s`");
+  refused(vary + "'max(c.force, from 4 s)'", "`from` must be within the run, 0 s to 3 s, but is 4 s");
+  refused(vary + "'max(c.force, from 2 s, to 1 s)'", "`to` must be later than `from`");
+  refused(vary + "'energy disipated'", "did you mean `energy dissipated`?");
+  CHECK(contains(folder.shell("rheonet sweep scene.toml --vary parameters.B=1,2 -o scene.toml", 2).err, "would overwrite the scene itself"));
+}
+
+TEST_CASE("sweep: its table can be drawn, measures with their units, a failed run as a gap") {
+  const Folder folder(dragged);
+  folder.shell("rheonet sweep scene.toml --vary parameters.B=1,-2,3,4 --measure 'max(c.force)' 'time of max(a.position, from 1 s)' -o sweep.csv -q", 1);
+  folder.shell("rheonet plot sweep.csv -x parameters.B -y 'max(c.force)' --domain translation -o force.svg", 0);
+  CHECK(contains(folder.read("force.svg"), "force [N]"));
+}

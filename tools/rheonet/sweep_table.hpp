@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/netlist/scene.hpp"
+#include "core/result/run.hpp"
+#include "tools/rheonet/variation.hpp"
+
+namespace rheonet::tool {
+
+/// A figure of a run that is no record's: of the energy, or of the work that it took.
+struct RunFigure {
+  const char* name;
+  double (*of)(const Summary&);
+};
+
+/// The columns of a sweep's table, and its rows as CSV: the number of the run, from 1 on, its values in SI (as text where
+/// that is no number), then for each run one row with its measures, or all of its rows; at last why a run failed.
+class SweepTable {
+ public:
+  /// What is wrong with a measure of the run as a whole is told from one of a record by its having no brackets.
+  static std::variant<SweepTable, NoVariation> make(const std::vector<std::string>& paths,
+                                                    const std::vector<std::string>& measures);
+
+  bool measures() const { return !measures_.empty(); }
+  /// Those that are a record's, for ReadOptions.
+  std::vector<std::string> record_measures() const;
+  /// Without measures: the records that the rows have.
+  void set_records(const std::vector<Record>& records);
+
+  std::string header() const;
+  /// The cells that each row of a run begins with: "17,200,", and ends in a comma.
+  static std::string key(long run, const std::vector<std::string>& values);
+  /// The row of measures.
+  std::string row(const std::string& key, const Summary& summary) const;
+  /// A row of a run's records. Throws SimulationError if they are not those of the columns.
+  static void append(std::string& text, const std::string& key, double time, const std::vector<double>& values);
+  void check_records(const std::vector<Record>& records) const;
+  std::string failed(const std::string& key, const std::string& why) const;
+
+ private:
+  struct Measure {
+    std::string text;
+    const RunFigure* figure = nullptr;  ///< nullptr: of a record
+  };
+
+  std::vector<std::string> paths_;
+  std::vector<Measure> measures_;
+  std::vector<std::string> records_;
+};
+
+}  // namespace rheonet::tool
