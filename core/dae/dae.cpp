@@ -242,7 +242,7 @@ bool Dae::differentiated(int unknown) const {
     if (fixed_mass_[at(e)] != 0) return true;
   }
   // Deflections are; the balance at a massless node or a dashpot's force are not.
-  return std::find(ip_.begin(), ip_.end(), unknown) != ip_.end();
+  return unknown >= deflections_begin_ && unknown < deflections_end_;
 }
 
 Dae::Subject Dae::subject(int unknown) const {

@@ -226,6 +226,7 @@ class Dae {
   int size_ = 0;
   bool idle_ = false, rough_ = false, secants_ = false;
   std::vector<int> iv_, ip_, if_, ix_, iz_;
+  int deflections_begin_ = 0, deflections_end_ = 0;  ///< those of ip_ are one after the other
   std::vector<Coupling> couplings_;
   std::vector<Row> rows_;
   std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes

@@ -31,9 +31,11 @@ void Dae::number_unknowns() {
     const Kind kind = structure_->kind[at(node)];
     if (kind != Kind::known && kind != Kind::joined && !reference) iv_[at(node)] = size_++;
   }
+  deflections_begin_ = size_;
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     if (!structure_->driven[j]) ip_[j] = size_++;
   }
+  deflections_end_ = size_;
   const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
   const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
   // Velocities that laws without a flat place tell from each other, or that masses and motions give; the softest linear
