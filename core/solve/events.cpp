@@ -130,7 +130,8 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
   at_begin_.resize(events_.size());
   evaluate(t, y, yp, at_begin_.data());
-  const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) : 0; };
+  // Never exactly 0, as of limits.
+  const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) + std::numeric_limits<double>::min() : 0; };
   for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = margin(at_begin_[k]);
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/network/index.hpp"
+#include "core/network/time_grain.hpp"
 
 namespace rheonet {
 
@@ -27,14 +28,35 @@ std::vector<int> turning_along(const std::vector<NetworkEvents::Turned>& all, co
   return along;
 }
 
+/// Which events there are at t: those that the integrator has found, and those of laws that would follow within the rounding
+/// of time. Of two laws in series that come to equal bounds at once the second would never come to its own.
+std::vector<char> at_once(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
+  const std::vector<int>& found = system.integrator.events();
+  std::vector<char> result(found.size(), 0);
+  for (std::size_t k = 0; k < found.size(); ++k) result[k] = found[k] != 0;
+  constexpr double end_of_step = 1e-2;
+  const double begin = t - end_of_step * (t - system.integrator.previous_time());
+  if (!(begin < t)) return result;
+  std::vector<double> before(found.size()), now(found.size()), y_before, yp_before;
+  system.integrator.interpolate(begin, 0, y_before);
+  system.integrator.interpolate(begin, 1, yp_before);
+  system.events.evaluate(begin, y_before.data(), yp_before.data(), before.data());
+  system.events.evaluate(t, y.data(), yp.data(), now.data());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const double slope = (now[k] - before[k]) / (t - begin);
+    if (system.events[k].which >= 0 && slope < 0 && now[k] + slope * time_grain(t) <= 0) result[k] = 1;
+  }
+  return result;
+}
+
 }  // namespace
 
 Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
   Dae& dae = system.dae;
   // As the events saw it: what is switched changes the velocities.
   const std::vector<NetworkEvents::Turned> turned = system.events.turned(t, y, yp);
+  const std::vector<char> events = at_once(system, t, y, yp);
   const Dae::View view = dae.view(t, y.data(), yp.data());
-  const std::vector<int>& events = system.integrator.events();
   Fired fired;
   std::vector<int> switched;
   for (std::size_t k = 0; k < events.size(); ++k) {

@@ -40,6 +40,11 @@ struct Integrator::Implementation {
   double first_change = 0;              // of Newton's iteration that is under way
   void* ida = nullptr;
   double time = 0, previous = 0, stop = 0;
+  /// IDA adds up the lengths of its steps, and rounds each sum. Where a step is a small part of the time that it has come to,
+  /// and one like the next, that goes astray by half a rounding of the time in every step. What has been lost is kept here,
+  /// and time is the sum of both [s].
+  double lost = 0;
+  double reached = 0;  ///< by IDA's sum [s]
   std::vector<int> fired;
   Statistics past;  // of the stretches before the last restart
   bool started = false;
@@ -104,7 +109,8 @@ struct Integrator::Implementation {
   static double* data(N_Vector v) { return N_VGetArrayPointer(v); }
 
   static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
-    static_cast<Implementation*>(user)->dae.residual(t, data(y), data(yp), data(r));
+    auto& self = *static_cast<Implementation*>(user);
+    self.dae.residual(t + self.lost, data(y), data(yp), data(r));
     const double* values = data(r);
     const sunindextype n = N_VGetLength(r);
     // A trial value out of a law's range: IDA tries a smaller step.
@@ -122,10 +128,10 @@ struct Integrator::Implementation {
       sunindextype* start = SUNSparseMatrix_IndexPointers(J);
       std::copy(pattern.column_start.begin(), pattern.column_start.end(), start);
       std::copy(pattern.row.begin(), pattern.row.end(), SUNSparseMatrix_IndexValues(J));
-      self.dae.jacobian(t, cj, data(y), data(yp), SUNSparseMatrix_Data(J));
+      self.dae.jacobian(t + self.lost, cj, data(y), data(yp), SUNSparseMatrix_Data(J));
       return 0;
     }
-    self.dae.jacobian(t, cj, data(y), data(yp), self.values.data());
+    self.dae.jacobian(t + self.lost, cj, data(y), data(yp), self.values.data());
     for (int c = 0; c < pattern.size; ++c) {
       double* column = SUNDenseMatrix_Column(J, c);
       for (int e = pattern.column_start[at(c)]; e < pattern.column_start[at(c) + 1]; ++e) {
@@ -195,12 +201,22 @@ struct Integrator::Implementation {
     // IDA's search multiplies functions and divides by differences of their multiples: where one underflows it misses a zero,
     // or goes to infinity, and would stay. Only where they are 0 matters: the least of them are made larger.
     if (!std::isfinite(t)) return -1;
-    self.event_functions.evaluate(t, data(y), data(yp), g);
+    self.event_functions.evaluate(t + self.lost, data(y), data(yp), g);
     constexpr double little = 1e-100;
     for (std::size_t k = 0; k < self.fired.size(); ++k) {
       if (std::abs(g[k]) < little) g[k] = std::copysign(little * std::pow(std::abs(g[k]) / little, 0.25), g[k]);
     }
     return 0;
+  }
+
+  /// After a step: what its sum has lost (exactly: T. J. Dekker, Numerische Mathematik 18 (1971) 224).
+  void keep_time() {
+    double length = 0, sum = 0;
+    IDAGetLastStep(ida, &length);
+    IDAGetCurrentTime(ida, &sum);
+    lost += length - (sum - reached);
+    reached = sum;
+    require(IDASetStopTime(ida, stop - lost), "IDASetStopTime");
   }
 
   Failures failures() const {
@@ -249,6 +265,8 @@ void Integrator::restart(double t, const std::vector<double>& y, const std::vect
   s.yp = yp;
   s.time = s.previous = t;
   s.stop = stop;
+  s.lost = 0;
+  s.reached = t;
   require(IDAReInit(s.ida, t, s.ny, s.np), "IDAReInit");
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
   require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
@@ -260,7 +278,9 @@ Integrator::Outcome Integrator::step() {
   s.previous = s.time;
   double reached = s.time;
   const int flag = IDASolve(s.ida, s.stop, &reached, s.ny, s.np, IDA_ONE_STEP);
-  if (flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN || flag == IDA_ROOT_RETURN) s.time = reached;
+  if (flag == IDA_SUCCESS) s.keep_time();
+  if (flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN) s.time = reached + s.lost;
+  if (flag == IDA_TSTOP_RETURN) s.time = s.stop;
   switch (flag) {
     case IDA_SUCCESS:
       return Outcome::step;
@@ -311,7 +331,7 @@ const std::vector<double>& Integrator::yp() const { return impl_->yp; }
 const std::vector<int>& Integrator::events() const { return impl_->fired; }
 
 void Integrator::interpolate(double t, int derivative, std::vector<double>& out) const {
-  require(IDAGetDky(impl_->ida, t, derivative, impl_->nw), "IDAGetDky");
+  require(IDAGetDky(impl_->ida, t - impl_->lost, derivative, impl_->nw), "IDAGetDky");
   out = impl_->work;
 }
 

@@ -15,6 +15,7 @@
 #include "core/network/time_grain.hpp"
 #include "core/solve/foresight.hpp"
 #include "core/solve/fired.hpp"
+#include "core/solve/accumulation.hpp"
 #include "core/solve/headway.hpp"
 #include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
@@ -24,9 +25,8 @@ namespace rheonet {
 
 namespace {
 
-// The local error of a step against the global error promised. Errors add up: over 16 cycles of an undamped oscillator
-// by a factor of 100 to 900 (measured with IDA at order 5).
-constexpr double local_share = 6.4e-4;
+// An unknown cannot be known better than to some roundings; IDA asks for no less.
+constexpr double least_tolerance = 6.4e-16;
 // What jumps by less than this share of the accuracy may be smooth as well: so much error is left at the end of a stretch in
 // what no error test looks at.
 constexpr double jump_share = 0.1;
@@ -60,7 +60,8 @@ class Run {
         given_reversals_(network, classified_, drive_),
         state_(begin_.state),
         instant_(network, classified_, drive_),
-        tolerances_(network, local_share * settings.accuracy),
+        accumulation_(network, classified_, settings.stop),
+        tolerances_(network, tolerance()),
         systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order}),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
@@ -231,6 +232,8 @@ class Run {
       if (settings_.profile) settings_.profile->step(system_->integrator);
       observer_.step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
+      accumulation_.follow(t, view);
+      tolerances_.allow(tolerance());
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       drive_.remember(t, view.velocity, view.acceleration);
       for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
@@ -339,6 +342,8 @@ class Run {
     return std::min(longest_angle, std::pow(share * settings_.accuracy / at_middle, 1.0 / static_cast<double>(step_points)));
   }
 
+  double tolerance() const { return std::max(accumulation_.local_share() * settings_.accuracy, least_tolerance); }
+
   void tell_overload() const {
     const double t = std::max(left_, system_->integrator.time());
     instant_.check_load(t, t + soon * horizon(t), state_, slider_force_);
@@ -367,6 +372,7 @@ class Run {
   const GivenReversals given_reversals_;
   State& state_;
   Instant instant_;
+  Accumulation accumulation_;
   Tolerances tolerances_;
   Modes modes_;
   Systems systems_;

@@ -93,6 +93,7 @@ void Tolerances::attach(Dae& dae) {
   rounding_.assign(n, 0);
   drift_.assign(n, {});
   find_parts();
+  find_driven();
   find_gaps();
 }
 
@@ -236,7 +237,7 @@ Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest
 }
 
 void Tolerances::update(double t, const std::vector<double>& yp) {
-  // Time itself is known to half a unit in the last place; what changes meanwhile cannot be resolved.
+  // Time itself is known to half a unit in the last place; what changes with it meanwhile cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Structure& structure = dae_->structure();
   const std::vector<double>& slope = dae_->slopes();
@@ -280,7 +281,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(q.sort)];
     }
-    tolerance_[i] = std::max({local() * scale, grain * std::abs(yp[i]), rounding_[i]});
+    tolerance_[i] = std::max({local() * scale, jitters_[i] ? grain * std::abs(yp[i]) : 0.0, rounding_[i]});
     if (q.sort == Sort::deflection) {
       tolerance_[i] = std::max({tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q),
                                 step_ * difference_rounding_[q.index]});

@@ -25,6 +25,8 @@ class Tolerances {
   /// do not foresee); they are forgotten after ten times that.
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                const std::vector<double>& coming_size);
+  /// From here on an unknown is allowed this share of its scale.
+  void allow(double relative) { relative_ = relative; }
   /// After a step, with the view of the state that it reached.
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
@@ -60,6 +62,7 @@ class Tolerances {
   Scales scales_to_come(double time, const Scales& largest) const;
   void update(double t, const std::vector<double>& yp);
   void find_parts();
+  void find_driven();
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
   void loosen_positions();
@@ -96,6 +99,7 @@ class Tolerances {
   std::vector<double> gap_seen_;                      ///< of each node: the largest of them [m]
   std::vector<char> has_gap_;                         ///< of each node: it has one at present
   std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
+  std::vector<char> jitters_;                         ///< of each unknown: with the rounding of time
   std::vector<double> rounding_;                      ///< of each unknown: what rounding leaves of it where it is 0
   /// That of a velocity, and how long it adds up in what comes of it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/dae/dae.hpp"
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// How the errors of single steps add up in a run: what tolerance of a step an accuracy of the result takes.
+///
+/// What is damped forgets an error after a while, what is driven is brought back to its course. But an oscillation keeps
+/// the phase that it has: there the errors of all steps add up. Each part of the network that is joined by branches is
+/// judged by itself: it oscillates once the velocity of one of its masses has turned; and it has forgotten so many times
+/// what it was as it has turned the energy that it can hold into heat. Where something switches, no damping brings a phase
+/// back: there nothing is forgotten.
+class Accumulation {
+ public:
+  /// `structure` is the network's with every slider slipping; both must outlive this. A run of `length` [s].
+  Accumulation(const Network& network, const Structure& structure, double length);
+
+  /// After each step, with the view of the state that it reached at t.
+  void follow(double t, const Dae::View& view);
+  /// The tolerance of a step, as a share of the accuracy of the result.
+  double local_share() const;
+
+ private:
+  /// A part of the network.
+  struct Part {
+    bool oscillates = false;
+    double power = 0, heat = 0;  ///< dissipated at the last step [W], and so far [J]
+    double energy = 0;           ///< the most that was stored so far [J]
+    double stored = 0;           ///< at present [J]
+  };
+  /// A mass that moves freely.
+  struct Mover {
+    NodeId node;
+    int part;
+    double mass;
+    double fastest = 0;      ///< so far [m/s]
+    signed char heading = 0; ///< the direction in which it last was of any speed
+  };
+  int part_of(const Branch& b) const;
+  void account(double step, const Dae::View& view);
+
+  const Network& network_;
+  const Structure& structure_;
+  double length_;
+  bool switches_;
+  std::vector<int> part_of_node_;  ///< -1: not free to move, or in a part without mass
+  std::vector<Part> parts_;
+  std::vector<Mover> movers_;
+  std::vector<double> power_;      ///< of each part, at the present step [W]
+  double time_ = 0;
+  long steps_ = 0;
+};
+
+}  // namespace rheonet
