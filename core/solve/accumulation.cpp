@@ -18,7 +18,7 @@ constexpr double forgetful_share = 2e-3;
 // oscillator, free and at resonance: 0.05 at an accuracy of 1e-6, 0.5 at 1e-9.)
 constexpr double added = 1;
 // A mass turns that comes to this share of its fastest speed the other way. What is slower shakes at rest.
-constexpr double of_any_speed = 1e-3;
+constexpr double of_any_size = 1e-3;
 
 }  // namespace
 
@@ -41,12 +41,21 @@ Accumulation::Accumulation(const Network& network, const Structure& structure, d
       part = static_cast<int>(parts_.size());
       parts_.emplace_back();
     }
-    movers_.push_back({static_cast<NodeId>(n), part, structure.own_mass[n]});
+    movers_.push_back({.node = static_cast<NodeId>(n), .part = part, .mass = structure.own_mass[n]});
   }
   for (std::size_t n = 0; n < part_of_node_.size(); ++n) {
     if (structure.kind[n] != Kind::known) part_of_node_[n] = number[at(sets.find(static_cast<NodeId>(n)))];
   }
   power_.assign(parts_.size(), 0);
+}
+
+bool Accumulation::Swing::turns(double x) {
+  largest = std::max(largest, std::abs(x));
+  if (std::abs(x) <= of_any_size * largest) return false;
+  const signed char now = x > 0 ? 1 : -1;
+  const bool turned = side == -now;
+  side = now;
+  return turned;
 }
 
 int Accumulation::part_of(const Branch& b) const { return std::max(part_of_node_[at(b.a)], part_of_node_[at(b.b)]); }
@@ -56,12 +65,8 @@ void Accumulation::follow(double t, const Dae::View& view) {
   time_ = t;
   ++steps_;
   for (Mover& m : movers_) {
-    const double v = view.velocity[at(m.node)];
-    m.fastest = std::max(m.fastest, std::abs(v));
-    if (std::abs(v) <= of_any_speed * m.fastest) continue;
-    const signed char heading = v > 0 ? 1 : -1;
-    if (m.heading == -heading) parts_[at(m.part)].oscillates = true;
-    m.heading = heading;
+    const bool velocity = m.velocity.turns(view.velocity[at(m.node)]), acceleration = m.acceleration.turns(view.acceleration[at(m.node)]);
+    if (velocity || acceleration) parts_[at(m.part)].oscillates = true;
   }
   if (!switches_) account(step, view);
 }
@@ -89,16 +94,17 @@ void Accumulation::account(double step, const Dae::View& view) {
   }
   for (std::size_t k = 0; k < parts_.size(); ++k) {
     Part& part = parts_[k];
-    part.heat += step * (part.power + power_[k]) / 2;
+    const double heat = step * (part.power + power_[k]) / 2;
     part.power = power_[k];
-    part.energy = std::max(part.energy, part.stored);
+    part.energy = std::max(part.energy - heat, part.stored);
+    if (part.energy > 0) part.forgotten += heat / part.energy;
   }
 }
 
 double Accumulation::local_share() const {
   double remembered = 0;  // in parts of the time so far
   for (const Part& part : parts_) {
-    if (part.oscillates) remembered = std::max(remembered, part.energy < length_ / time_ * part.heat ? part.energy / part.heat : length_ / time_);
+    if (part.oscillates) remembered = std::max(remembered, 1 / std::max(part.forgotten, time_ / length_));
   }
   // As many steps as it has taken so far it takes in the time to come.
   return 1 / (1 / forgetful_share + added * remembered * static_cast<double>(steps_));

@@ -12,8 +12,8 @@ namespace rheonet {
 ///
 /// What is damped forgets an error after a while, what is driven is brought back to its course. But an oscillation keeps
 /// the phase that it has: there the errors of all steps add up. Each part of the network that is joined by branches is
-/// judged by itself: it oscillates once the velocity of one of its masses has turned; and it has forgotten so many times
-/// what it was as it has turned the energy that it can hold into heat. Where something switches, no damping brings a phase
+/// judged by itself: it oscillates once the velocity of one of its masses has turned, or what accelerates it; and it has forgotten so many times
+/// what it was as it has turned the energy that it held into heat. Where something switches, no damping brings a phase
 /// back: there nothing is forgotten.
 class Accumulation {
  public:
@@ -29,17 +29,23 @@ class Accumulation {
   /// A part of the network.
   struct Part {
     bool oscillates = false;
-    double power = 0, heat = 0;  ///< dissipated at the last step [W], and so far [J]
-    double energy = 0;           ///< the most that was stored so far [J]
-    double stored = 0;           ///< at present [J]
+    double power = 0;      ///< dissipated at the last step [W]
+    double stored = 0;     ///< at present [J]
+    double energy = 0;     ///< that was stored last and has not become heat since [J]
+    double forgotten = 0;  ///< how many times it has become heat
+  };
+  /// Whether a quantity turns: comes to the other side of 0, and to some size there.
+  struct Swing {
+    double largest = 0;    ///< magnitude so far
+    signed char side = 0;  ///< on which it last was of any size
+    bool turns(double x);
   };
   /// A mass that moves freely.
   struct Mover {
     NodeId node;
     int part;
     double mass;
-    double fastest = 0;      ///< so far [m/s]
-    signed char heading = 0; ///< the direction in which it last was of any speed
+    Swing velocity = {}, acceleration = {};
   };
   int part_of(const Branch& b) const;
   void account(double step, const Dae::View& view);

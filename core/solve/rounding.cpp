@@ -112,32 +112,23 @@ void Tolerances::find_parts() {
   for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
-/// What a drive moves at once, through dashpots, jitters as time is rounded. What nothing moves does not; nor does what only
-/// springs connect to a drive, where motion goes by the lengths of steps.
-void Tolerances::find_driven() {
+/// Through dashpots and friction motion follows what moves at once, and jitters as time is rounded. Where there are only
+/// springs it goes by the lengths of steps.
+void Tolerances::find_jitter() {
   const Structure& structure = dae_->structure();
-  std::vector<char> moves(structure.kind.size(), 0), driven(moves), follows(moves);
-  for (const Network::Motion& m : network_.motions) moves[at(m.node)] = 1;
-  const auto meet = [&](const Branch& b, bool dissipates) {
-    if (moves[at(b.a)] || moves[at(b.b)]) driven[at(part_of(b))] = 1;
-    if (dissipates) follows[at(part_of(b))] = 1;
-  };
+  std::vector<char> dissipates(structure.kind.size(), 0);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) meet(structure.deflections[at(laws.first) + i], laws.batch->creeps(i));
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->creeps(i) || laws.batch->events(i) > 0) dissipates[at(part_of(structure.deflections[at(laws.first) + i]))] = 1;
+    }
   }
-  for (const Branch& b : structure.rates) meet(b, true);
-  for (const Branch& b : structure.sliders) meet(b, false);
-  for (const Network::Force& f : network_.forces) {
-    if (f.block < 0 && std::holds_alternative<Signal::Constant>(f.signal.shape())) continue;
-    driven[at(part_[at(f.a)])] = 1;
-    if (f.b >= 0) driven[at(part_[at(f.b)])] = 1;
-  }
+  for (const Branch& b : structure.rates) dissipates[at(part_of(b))] = 1;
+  for (const Branch& b : structure.sliders) dissipates[at(part_of(b))] = 1;
   jitters_.assign(quantity_.size(), 1);
-  const auto jitters = [&](NodeId part) { return driven[at(part)] && follows[at(part)]; };
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
-    if (q.sort == Sort::velocity || q.sort == Sort::position) jitters_[i] = jitters(part_[q.index]);
-    if (q.sort == Sort::deflection) jitters_[i] = jitters(part_of(structure.deflections[q.index]));
+    if (q.sort == Sort::velocity || q.sort == Sort::position) jitters_[i] = dissipates[at(part_[q.index])];
+    if (q.sort == Sort::deflection) jitters_[i] = dissipates[at(part_of(structure.deflections[q.index]))];
   }
 }
 

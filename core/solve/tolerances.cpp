@@ -93,7 +93,7 @@ void Tolerances::attach(Dae& dae) {
   rounding_.assign(n, 0);
   drift_.assign(n, {});
   find_parts();
-  find_driven();
+  find_jitter();
   find_gaps();
 }
 

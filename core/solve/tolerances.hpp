@@ -62,7 +62,7 @@ class Tolerances {
   Scales scales_to_come(double time, const Scales& largest) const;
   void update(double t, const std::vector<double>& yp);
   void find_parts();
-  void find_driven();
+  void find_jitter();
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
   void loosen_positions();
