@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/netlist/document.hpp"
+#include "core/netlist/expression.hpp"
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
 #include "core/result/course.hpp"
@@ -102,6 +104,27 @@ TEST_CASE("every demo says what it teaches, and claims it") {
     CHECK_FALSE(demo.sliders.empty());
     CHECK_FALSE(read.presentation.plot.curves.empty());
     CHECK_FALSE(read.scene->claims.empty());
+  }
+}
+
+// So that whoever turns it finds a number to turn, and not an expression.
+TEST_CASE("a slider begins where its scene is, at a number") {
+  for (const std::filesystem::path& file : demos()) {
+    CAPTURE(file.string());
+    const ReadResult read = read_sound(file);
+    Mistakes mistakes(read.sources);
+    const auto document = parse_toml(0, read.sources, mistakes);
+    REQUIRE(document);
+    for (const Demo::Slider& slider : read.presentation.demo.sliders) {
+      CAPTURE(slider.parameter);
+      const TomlValue& value = document->find("parameters")->value.find(slider.parameter)->value;
+      const std::string text = value.is_string() ? value.text : fmt::format("{}", value.number);
+      const auto at = evaluate_text(text, Environment{}), unit = evaluate_text("1 " + slider.unit, Environment{});
+      REQUIRE(std::holds_alternative<Number>(at));
+      const double size = slider.unit.empty() ? 1 : std::get<Number>(unit).value;
+      CHECK(std::get<Number>(at).value >= slider.least * size * (1 - 1e-12));
+      CHECK(std::get<Number>(at).value <= slider.most * size * (1 + 1e-12));
+    }
   }
 }
 
