@@ -53,10 +53,16 @@ TEST_CASE("the tutorial does what it says") {
   for (const Block& block : blocks(page)) {
     if (block.language != "text") continue;
     std::istringstream lines(block.text);
-    for (std::string line; std::getline(lines, line); ++quoted)
-      CHECK_MESSAGE(contains(walked.out, '\n' + line + '\n'), "nothing says:\n", line);
+    for (std::string line; std::getline(lines, line); ++quoted) {
+      const bool cut = line.ends_with(" ...");
+      const std::string said = '\n' + (cut ? line.substr(0, line.size() - 4) : line + '\n');
+      CHECK_MESSAGE(contains(walked.out, said), "nothing says:\n", line);
+    }
   }
-  CHECK(quoted >= 15);
+  CHECK(quoted >= 10);
+  const std::vector<std::string> figures = matches(page, R"(\| (\d\.\d\de[-+]\d\d) \|)");
+  CHECK(figures.size() == 4);
+  for (const std::string& figure : figures) CHECK_MESSAGE(contains(walked.out, figure), figure);
 
   const std::vector<std::string> pictures = matches(page, R"(\]\((tutorial/[^)]*)\))");
   CHECK(pictures.size() >= 10);
