@@ -4,6 +4,7 @@
 #include "core/netlist/keys.hpp"
 #include "core/netlist/read_presentation.hpp"
 #include "core/netlist/records.hpp"
+#include "core/netlist/units.hpp"
 
 namespace rheonet {
 
@@ -63,8 +64,13 @@ PlotTable read_plot_table(const TomlValue& plot, const std::set<std::string>& do
   pairs("loop", ".displacement", ".force", "loop = \"k1\": its force against its displacement");
   pairs("flow", ".velocity", ".force", "flow = \"c1\": its force against its velocity");
   pairs("phase", ".position", ".velocity", "phase = \"block\": the velocity of a node against its position");
-  for (const TomlValue& text : texts_of(keys.find("unit"), "unit = [\"mm\", \"ms\"]", mistakes))
-    table.units.push_back(text.text);
+  for (const TomlValue& text : texts_of(keys.find("unit"), "unit = [\"mm\", \"ms\"]", mistakes)) {
+    const auto unit = parse_unit(text.text);
+    if (const auto* wrong = std::get_if<TextError>(&unit))
+      mistakes.error(mistakes.inside(text, wrong->offset), "`unit`: " + wrong->message, wrong->hint);
+    else
+      table.units.push_back(text.text);
+  }
   if (const TomlEntry* log = keys.find("log"); log && expect_string(log->value, "`log`", mistakes, "log = \"y\"")) {
     if (is_log(log->value.text))
       table.log = log->value.text;

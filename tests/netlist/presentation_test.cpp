@@ -119,6 +119,10 @@ scene.toml:16:1: error: unknown key `lop` of [plot]
       | ^
   did you mean `loop`?
 )~");
+  CHECK_EQ(said_of("[plot]\ny = \"k1.force\"\nunit = [\"mm\", \"kp*q\"]\n"), R"~(scene.toml:14:19: error: `unit`: unknown unit `q`
+   14 | unit = ["mm", "kp*q"]
+      |                   ^
+)~");
   CHECK_EQ(said_of("[plot]\nx = \"a.position\"\n"), R"~(scene.toml:13:1: error: [plot] has `x` without `y`
    13 | x = "a.position"
       | ^

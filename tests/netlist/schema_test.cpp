@@ -167,3 +167,18 @@ TEST_CASE("a claim has one figure, and a time where that needs one; a record has
   CHECK(claim["properties"]["max"]["anyOf"][1]["maxItems"] == 2);
   CHECK(claim["additionalProperties"] == false);
 }
+
+TEST_CASE("a demo has its four texts, a slider two ends and perhaps a step; a plot with an x has a y") {
+  const json& demo = schema()["properties"]["demo"];
+  CHECK(demo["required"] == json::array({"question", "change", "see", "why"}));
+  CHECK(demo["additionalProperties"] == false);
+  const json& slider = demo["properties"]["sliders"]["additionalProperties"];
+  CHECK(slider["minItems"] == 2);
+  CHECK(slider["maxItems"] == 3);
+  CHECK(slider["items"]["$ref"] == "#/$defs/value");
+  const json& plot = schema()["properties"]["plot"];
+  CHECK(plot["dependentRequired"]["x"] == json::array({"y"}));
+  CHECK(plot["properties"]["loop"]["anyOf"][1]["items"]["type"] == "string");
+  CHECK(plot["properties"]["log"]["enum"] == json::array({"x", "y", "xy"}));
+  CHECK(plot["additionalProperties"] == false);
+}
