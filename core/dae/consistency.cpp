@@ -53,7 +53,8 @@ void Consistency::eliminate(double t) {
 }
 
 double Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
-  constexpr int most_iterations = 30;  // a law with a corner takes some more than a smooth one
+  // A law with a corner takes some more than a smooth one; where all are as good as linear there is no more to gain.
+  const int most_iterations = dae_.rough() ? 30 : 2;
   const std::size_t n = y.size();
   std::vector<double> change(n), scale(n, 0);
   double last = 0;

@@ -8,10 +8,14 @@
 namespace rheonet {
 
 Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
-    : network_(&network), structure_(&structure), drive_(&drive), bonds_(network, structure) {
+    : network_(&network),
+      structure_(&structure),
+      drive_(&drive),
+      bonds_(network, structure),
+      positions_(find_positions(network, structure, needed)) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
-  derive_positions(needed);
+  for (NodeId node : positions_.integrated) ix_[at(node)] = size_++;
   for (std::size_t k = 0; k < drive.blocks().states(); ++k) iz_.push_back(size_++);
 
   // All motions given: IDA still wants an equation. y' = 0 costs nothing.
@@ -19,8 +23,8 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   if (idle_) size_ = 1;
 
   for (const Structure::Loop& loop : structure.loops) add_row(ip_[at(loop.branch)], false, loop);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    if (ix_[n] >= 0) add_row(ix_[n], true, minus_velocity(structure, static_cast<NodeId>(n)));
+  for (NodeId node : positions_.integrated) {
+    add_row(ix_[at(node)], true, minus_velocity(structure, node, positions_.of[at(node)].parent));
   }
   for (const Structure::Group& g : structure.groups) group_row_.push_back(g.tie < 0 ? ip_[at(g.tree_branch)] : -1);
 
@@ -40,6 +44,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
+  follows_time_ = (drive.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time();
 }
 
 Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
@@ -90,10 +95,7 @@ void Dae::build_pattern() {
 
   // Balances: a branch adds +f at its first node and -f at its second; a group's row is the sum over its nodes.
   const auto balance_row = [&](NodeId node) { return iv_[at(node)]; };
-  const auto group_row = [&](NodeId node) {
-    const int g = structure_->group[at(node)];
-    return g < 0 ? -1 : group_row_[at(g)];
-  };
+  const auto group_row = [&](NodeId node) { return balance_of_group(node); };
   for (std::size_t j = 0; j < network.deflections.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     if (b.a == b.b) continue;
@@ -197,7 +199,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     }
   }
   for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n];
+    if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n] - state.position[at(positions_.of[n].parent)];
     if (iv_[n] < 0) continue;
     const int group = structure_->group[n];
     const double base = group < 0 ? 0 : state.velocity[at(structure_->groups[at(group)].nodes.front())];
@@ -211,7 +213,7 @@ void Dae::leave(State& state) const {
   state.velocity = view_.velocity;
   state.p = view_.p;
   for (std::size_t k = 0; k < iz_.size(); ++k) state.blocks[k] = drive_->blocks().state[k].value;
-  for (NodeId node : position_order_) state.position[at(node)] = view_.position[at(node)];
+  for (NodeId node : positions_.order) state.position[at(node)] = view_.position[at(node)];
 }
 
 void Dae::set_rate_forms() {

@@ -6,6 +6,7 @@
 #include "core/dae/bonds.hpp"
 #include "core/dae/drive.hpp"
 #include "core/dae/matrix.hpp"
+#include "core/dae/positions.hpp"
 #include "core/dae/state.hpp"
 #include "core/network/index.hpp"
 #include "core/network/network.hpp"
@@ -99,6 +100,9 @@ class Dae {
   /// Some algebraic unknown may change like the root of time (a power law at rest): no polynomial follows it, and its
   /// error says nothing of that of the others.
   bool rough() const { return rough_; }
+  /// Some algebraic unknown follows from time as well as from the others: a drive pulls a massless node through a dashpot, say.
+  /// No step need be short on its account, and between steps it is off by as much as the drive is from a polynomial.
+  bool follows_time() const { return follows_time_; }
   /// y' of this unknown is in some equation.
   bool differentiated(int unknown) const;
 
@@ -106,9 +110,13 @@ class Dae {
   int velocity_unknown(NodeId node) const { return iv_[at(node)]; }
   int deflection_unknown(int branch) const { return ip_[at(branch)]; }
   int force_unknown(int rate) const { return if_[at(rate)]; }
+  /// Of a node whose distance from another one (see Positions) is integrated.
   int position_unknown(NodeId node) const { return ix_[at(node)]; }
+  const std::vector<NodeId>& integrated_positions() const { return positions_.integrated; }
+  /// That other one; ground if there is none.
+  NodeId integrated_beside(NodeId node) const { return ix_[at(node)] < 0 ? ground : positions_.of[at(node)].parent; }
   /// Nodes whose position a view gives, but for those that are known.
-  const std::vector<NodeId>& positioned() const { return position_order_; }
+  const std::vector<NodeId>& positioned() const { return positions_.order; }
   int block_unknown(std::size_t state) const { return iz_[state]; }
   /// Gives the unknown forces of dashpots the values that belong to the velocities of y.
   void guess_forces(double t, double* y);
@@ -201,12 +209,16 @@ class Dae {
   void block_jacobian(double* values) const;
 
   void number_unknowns();
+  bool any_follows_time() const;
   std::vector<char> told_by_dilatant_laws(Sets told) const;
-  void derive_positions(const std::vector<char>& needed);
-  void order_positions(const std::vector<char>& needed, const std::vector<NodeId>& order);
   void add_row(int row, bool position, const Structure::Loop& loop);
   Terms add_terms(const Structure::Loop& loop);
   double sum_of(const Terms& terms, const double* yp) const;
+  /// The equation that balances the forces on a node's group as a whole, -1.
+  int balance_of_group(NodeId node) const {
+    const int group = structure_->group[at(node)];
+    return group < 0 ? -1 : group_row_[at(group)];
+  }
   void build_pattern();
   // evaluate.cpp
   void gather(double t, const double* y);
@@ -223,8 +235,9 @@ class Dae {
   const Structure* structure_;
   Drive* drive_;
   Bonds bonds_;
+  Positions positions_;
   int size_ = 0;
-  bool idle_ = false, rough_ = false, secants_ = false;
+  bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;
   std::vector<int> iv_, ip_, if_, ix_, iz_;
   int deflections_begin_ = 0, deflections_end_ = 0;  ///< those of ip_ are one after the other
   std::vector<Coupling> couplings_;
@@ -244,12 +257,6 @@ class Dae {
   std::vector<double> fixed_mass_;         ///< mass_ without those
   std::vector<double> moving_;             ///< of each deflection branch: 1, or 0 while it is held still
   std::vector<Scatter> scatter_;
-
-  /// A position follows from a parent's through the deflection of `branch`: x = x_parent + sign (p + offset).
-  /// Or, along a slider that sticks, by what it has been since it does.
-  struct Derived { int branch = -1, slider = -1; NodeId parent = ground; double sign = 1; };
-  std::vector<Derived> derived_;
-  std::vector<NodeId> position_order_;  ///< needed for positions, parents first
 
   std::vector<double> offset_;  ///< displacement less deflection of each deflection branch that does not creep
   std::vector<double> drive_offset_;   ///< the same of driven ones, between the nodes that stand for their ends

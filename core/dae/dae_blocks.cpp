@@ -47,8 +47,7 @@ void Dae::build_couplings(PatternBuilder& builder) {
       if (end < 0) continue;
       const NodeId node = structure_->rigid[at(end)];
       couple(builder, iv_[at(node)], false, at(f.block), sign);
-      const int g = structure_->group[at(node)];
-      if (g >= 0) couple(builder, group_row_[at(g)], false, at(f.block), sign);
+      couple(builder, balance_of_group(node), false, at(f.block), sign);
     }
   }
 }

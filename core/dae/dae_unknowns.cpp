@@ -75,6 +75,18 @@ void Dae::number_unknowns() {
   }
 }
 
+bool Dae::any_follows_time() const {
+  const auto moves = [&](NodeId node) { return structure_->motion[at(node)] >= 0; };
+  // Its velocity is an unknown that no equation differentiates.
+  const auto at_once = [&](NodeId node) { return iv_[at(node)] >= 0 && structure_->kind[at(node)] != Kind::massive; };
+  const auto pulled = [&](const Branch& b) { return (moves(b.a) && at_once(b.b)) || (moves(b.b) && at_once(b.a)); };
+  const auto pushed = [&](const Network::Force& f) {
+    return at_once(structure_->rigid[at(f.a)]) || (f.b >= 0 && at_once(structure_->rigid[at(f.b)]));
+  };
+  return std::any_of(structure_->rates.begin(), structure_->rates.end(), pulled) ||
+         std::any_of(network_->forces.begin(), network_->forces.end(), pushed);
+}
+
 /// Of each rate branch: a dilatant law that is solved for its velocity, as others like it tell that by their forces (on top of
 /// what `told` joins). Beside a law with a memory it may rest under load, where its force is 0 to more digits than there are.
 std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
@@ -92,92 +104,6 @@ std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
     }
   }
   return result;
-}
-
-void Dae::derive_positions(const std::vector<char>& needed) {
-  const Network& network = *network_;
-  const std::size_t nodes = iv_.size();
-  std::vector<std::vector<int>> branches(nodes);
-  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->creeps(i)) continue;
-      const int j = laws.first + static_cast<int>(i);
-      branches[at(network.deflections[at(j)].a)].push_back(j);
-      branches[at(network.deflections[at(j)].b)].push_back(j);
-    }
-  }
-  std::vector<std::vector<int>> sliders(nodes);
-  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
-    const Branch& b = network.sliders[k].branch;
-    if (!structure_->stuck[k] || !needed[at(b.a)] || !needed[at(b.b)]) continue;
-    sliders[at(b.a)].push_back(static_cast<int>(k));
-    sliders[at(b.b)].push_back(static_cast<int>(k));
-  }
-  derived_.assign(nodes, {});
-  std::vector<char> reached(nodes, 0);
-  std::vector<NodeId> order;
-  std::size_t next = 0;  // in the order
-  // What sticks moves as one: no deflection comes between.
-  const auto reach = [&](NodeId node) {
-    reached[at(node)] = 1;
-    order.push_back(node);
-    for (std::size_t k = order.size() - 1; k < order.size(); ++k) {
-      const NodeId from = order[k];
-      for (int slider : sliders[at(from)]) {
-        const Branch& b = network.sliders[at(slider)].branch;
-        const NodeId other = b.a == from ? b.b : b.a;
-        if (reached[at(other)] || structure_->kind[at(other)] == Kind::known) continue;
-        reached[at(other)] = 1;
-        derived_[at(other)] = {-1, slider, from, b.a == other ? 1.0 : -1.0};
-        order.push_back(other);
-      }
-    }
-  };
-  const auto spread = [&] {
-    for (; next < order.size(); ++next) {
-      const NodeId node = order[next];
-      for (int j : branches[at(node)]) {
-        const Branch& b = network.deflections[at(j)];
-        const NodeId other = b.a == node ? b.b : b.a;
-        if (reached[at(other)]) continue;
-        derived_[at(other)] = {j, -1, node, b.a == other ? 1.0 : -1.0};
-        reach(other);
-      }
-    }
-  };
-  for (NodeId node : network.node_order) {
-    if (structure_->kind[at(node)] != Kind::known) continue;
-    reach(node);
-    if (!structure_->of_time[at(node)]) ix_[at(node)] = size_++;
-  }
-  for (const Blocks::Sensor& sensor : network.blocks.sensors) {
-    if (sensor.what != Blocks::Sensor::What::position || sensor.motion >= 0 || ix_[at(sensor.index)] >= 0) continue;
-    ix_[at(sensor.index)] = size_++;
-    derived_[at(sensor.index)] = {};  // a slider that sticks may have reached it
-    if (!reached[at(sensor.index)]) reach(sensor.index);
-  }
-  spread();
-  for (NodeId node : network.node_order) {
-    if (!needed[at(node)] || reached[at(node)]) continue;
-    ix_[at(node)] = size_++;
-    reach(node);
-    spread();
-  }
-  order_positions(needed, order);
-}
-
-/// What the positions that are needed follow from, in this order.
-void Dae::order_positions(const std::vector<char>& needed, const std::vector<NodeId>& order) {
-  std::vector<char> wanted(needed.size(), 0);
-  for (std::size_t n = 0; n < needed.size(); ++n) {
-    for (auto node = static_cast<NodeId>(n); needed[n] && !wanted[at(node)]; node = derived_[at(node)].parent) {
-      wanted[at(node)] = 1;
-      if (derived_[at(node)].branch < 0 && derived_[at(node)].slider < 0) break;
-    }
-  }
-  for (NodeId node : order) {
-    if (wanted[at(node)]) position_order_.push_back(node);
-  }
 }
 
 }  // namespace rheonet

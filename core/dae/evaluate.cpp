@@ -112,8 +112,9 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
 void Dae::magnitudes(double* r) const {
   std::fill(r, r + size_, 0.0);
   const auto add = [&](NodeId node, double x) {
-    if (iv_[at(node)] >= 0) r[iv_[at(node)]] += std::abs(x);
-    if (const int g = structure_->group[at(node)]; g >= 0 && group_row_[at(g)] >= 0) r[group_row_[at(g)]] += std::abs(x);
+    for (int row : {iv_[at(node)], balance_of_group(node)}) {
+      if (row >= 0) r[row] += std::abs(x);
+    }
   };
   const auto add_branch = [&](const Branch& b, double f) {
     add(b.a, f);
@@ -133,15 +134,18 @@ void Dae::magnitudes(double* r) const {
     add(structure_->rigid[at(f.a)], drive_->force[k]);
     if (f.b >= 0) add(structure_->rigid[at(f.b)], drive_->force[k]);
   }
-  // The velocity of a dilatant law changes without bound with what rounding leaves of its force, where that is near 0.
+  // With what rounding leaves of a force a velocity changes: that of a dilatant law without bound, where its force is near
+  // 0; that of a pseudoplastic one there by much of its own.
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t k = at(laws.first) + i;
-      if (if_[k] < 0 || laws.batch->growth(i).exponent <= 1) continue;
+      if (if_[k] < 0) continue;
       const Branch& b = structure_->rates[k];
       double forces = 0;
       for (const NodeId n : {b.a, b.b}) {
-        if (iv_[at(n)] >= 0) forces = std::max(forces, r[iv_[at(n)]]);
+        for (int row : {iv_[at(n)], balance_of_group(n)}) {
+          if (row >= 0) forces = std::max(forces, r[row]);
+        }
       }
       const double f = std::abs(rate_in_[k]), lost = rounding_share * forces;
       r[if_[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / rounding_share;
@@ -221,7 +225,7 @@ void Dae::time_derivative(double* r) const {
     if (node < 0) return;
     node = structure_->rigid[at(node)];
     if (iv_[at(node)] >= 0 && !differential_[at(iv_[at(node)])]) r[iv_[at(node)]] += x;
-    if (const int g = structure_->group[at(node)]; g >= 0 && group_row_[at(g)] >= 0) r[group_row_[at(g)]] += x;
+    if (const int row = balance_of_group(node); row >= 0) r[row] += x;
   };
   for (std::size_t k = 0; k < if_.size(); ++k) {
     const Branch& b = structure_->rates[k];

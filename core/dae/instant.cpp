@@ -67,6 +67,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
       std::fill(dx.begin(), dx.end(), 0.0);
       drive_.sense(t, state);
     }
+    change.standing.clear();  // what would stand if nothing let go
     const std::vector<int> broken =
         onset(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
     for (int k : broken) broken_[at(k)] = 1;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -175,7 +176,7 @@ class Consistency::Projection {
         find_change(next_);
         if (norm(next_) <= (1 - damping / 4) * size || norm(next_) <= change_rounding) break;
         if (damping < least_damping) {
-          if (size <= loose_change || within_rounding(y_)) return;
+          if (size <= loose_change || within_rounding(y_) || lost_in_rounding()) return;
           c_.report_unsolved(t_);
         }
       }
@@ -184,6 +185,32 @@ class Consistency::Projection {
       damping = std::min(1.0, 2 * damping);
     }
     c_.report_unsolved(t_);
+  }
+
+  /// Newton's step is no more than what rounding of the equations' terms makes of the unknowns. That of a large force may go a
+  /// long way: through the deflection that it stretches to another one, and from there to a velocity that hardly has a force.
+  bool lost_in_rounding() {
+    constexpr double grains = 4 * std::numeric_limits<double>::epsilon(), several = 4;
+    constexpr unsigned patterns = 8;  // of signs, as contributions may cancel
+    within_rounding(y_);
+    const Pattern& pattern = dae_.pattern();
+    std::vector<double> lost = magnitude_, reach(n_, 0), moved(n_);
+    for (std::size_t column = 0; column < n_; ++column) {
+      for (int e = pattern.column_start[column]; e < pattern.column_start[column + 1]; ++e) {
+        const std::size_t row = at(pattern.row[at(e)]);
+        if (differential(row)) lost[row] += std::abs(c_.values_[at(e)] * y_[column]);
+      }
+    }
+    for (unsigned p = 0; p < patterns; ++p) {
+      // Rows of a Hadamard matrix: of any few rows the signs come in every combination.
+      for (std::size_t i = 0; i < n_; ++i) moved[i] = std::popcount(static_cast<unsigned>(i) & p) % 2 ? -grains * lost[i] : grains * lost[i];
+      c_.elimination_.solve(moved);
+      for (std::size_t i = 0; i < n_; ++i) reach[i] = std::max(reach[i], std::abs(moved[i]));
+    }
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (!(std::abs(change_[i]) <= std::max(several * reach[i], change_rounding * scale_[i]))) return false;
+    }
+    return true;
   }
 
   /// What is small beside others of its kind is not small by itself: it may be their rounding.

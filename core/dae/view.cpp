@@ -65,14 +65,16 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
     if (network_->motions[m].block < 0) view_.position[at(network_->motions[m].node)] = drive_->position[m];
   }
-  for (NodeId node : position_order_) {
-    const Derived& d = derived_[at(node)];
-    if (ix_[at(node)] >= 0) {
-      view_.position[at(node)] = y[ix_[at(node)]];
-    } else if (d.branch >= 0) {
-      view_.position[at(node)] = view_.position[at(d.parent)] + d.sign * (view_.p[at(d.branch)] + offset_[at(d.branch)]);
-    } else if (d.slider >= 0) {
-      view_.position[at(node)] = view_.position[at(d.parent)] + d.sign * slider_shift_[at(d.slider)];
+  for (NodeId node : positions_.order) {
+    const Position& x = positions_.of[at(node)];
+    double& position = view_.position[at(node)];
+    const double parent = view_.position[at(x.parent)];
+    if (x.integrated) {
+      position = parent + y[ix_[at(node)]];
+    } else if (x.branch >= 0) {
+      position = parent + x.sign * (view_.p[at(x.branch)] + offset_[at(x.branch)]);
+    } else if (x.slider >= 0) {
+      position = parent + x.sign * slider_shift_[at(x.slider)];
     }
   }
   return view_;

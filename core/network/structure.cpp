@@ -135,8 +135,8 @@ Structure blank(const Network& network) {
 
 }  // namespace
 
-Structure::Loop minus_velocity(const Structure& structure, NodeId node) {
-  return express(structure, structure.rigid[at(node)], ground, -1);
+Structure::Loop minus_velocity(const Structure& structure, NodeId node, NodeId against) {
+  return express(structure, structure.rigid[at(node)], structure.rigid[at(against)], -1);
 }
 
 Structure classify(const Network& network) {

@@ -74,9 +74,9 @@ struct Structure {
   std::vector<char> driven;      ///< of each deflection branch: its deflection is a function of time alone
 };
 
-/// The velocity of a node, negated, as such a sum along the tree (`branch` is -1); for a node that is not floating just
-/// its own velocity.
-Structure::Loop minus_velocity(const Structure& structure, NodeId node);
+/// The velocity of a node against another one, negated, as such a sum along the tree (`branch` is -1); against ground, for a
+/// node that is not floating, just its own velocity.
+Structure::Loop minus_velocity(const Structure& structure, NodeId node, NodeId against);
 
 /// What nodes are when every slider slips: kinds, masses, motions and groups, without trees and loops. Throws
 /// SimulationError where a motion is prescribed twice.

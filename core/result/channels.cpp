@@ -217,7 +217,7 @@ double Channels::velocity(const Record& record, const Dae::View& view) const {
 
 const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                           double rate) {
-  if (dae_->rough() && rate > 0) {
+  if ((dae_->rough() || dae_->follows_time()) && rate > 0) {
     y_ = y;
     slope_ = yp;
     consistency_->collocate(t, rate, y_, slope_);

@@ -46,7 +46,9 @@ void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vec
 EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t) {
   integrator.interpolate(t, 0, y_);
   integrator.interpolate(t, 1, yp_);
-  if (dae_->rough()) consistency_->collocate(t, 1 / (integrator.time() - integrator.previous_time()), y_, yp_);
+  if (dae_->rough() || dae_->follows_time()) {
+    consistency_->collocate(t, 1 / (integrator.time() - integrator.previous_time()), y_, yp_);
+  }
   dae_->view(t, y_.data(), yp_.data());
   return {dae_->supplied_power(), dae_->dissipated_power()};
 }

@@ -60,7 +60,7 @@ void NetworkEvents::find_pseudoplastic() {
   for (const Laws<RateBatch>& laws : dae_.network().rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int r = laws.first + static_cast<int>(i);
-      if (laws.batch->by_force(i)) between[std::minmax(structure.rates[at(r)].a, structure.rates[at(r)].b)] = r;
+      if (dae_.force_unknown(r) >= 0 && laws.batch->growth(i).exponent < 1) between[std::minmax(structure.rates[at(r)].a, structure.rates[at(r)].b)] = r;
     }
   }
   if (between.empty()) return;
@@ -215,10 +215,11 @@ const Dae::View& NetworkEvents::resolved(double t, const double* y, const double
   // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of the
   // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
   // The same of a velocity that goes like a power of time: no polynomial follows it.
-  if (rates_needed_ || (dae_.rough() && !events_.empty())) {
+  const bool between_steps = dae_.rough() || dae_.follows_time();
+  if (rates_needed_ || (between_steps && !events_.empty())) {
     y_.assign(y, y + dae_.size());
     try {
-      if (dae_.rough()) consistency_.project(t, y_);
+      if (between_steps) consistency_.project(t, y_);
       consistency_.derivative(t, y_, yp_);
       y = y_.data();
       yp = yp_.data();

@@ -2,19 +2,17 @@
 
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunlinsol/sunlinsol_klu.h>
-#include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "core/network/index.hpp"
+#include "core/solve/linear_solver.hpp"
 
 namespace rheonet {
 
@@ -31,10 +29,9 @@ struct Integrator::Implementation {
   EventFunctions& event_functions;
   const std::vector<double>& tolerance;
   SUNContext context = nullptr;
-  std::vector<double> y, yp, work, values;
+  std::vector<double> y, yp, work;
   N_Vector ny = nullptr, np = nullptr, nw = nullptr;
-  SUNMatrix matrix = nullptr;
-  SUNLinearSolver linear = nullptr;
+  std::unique_ptr<LinearSolver> linear;
   SUNNonlinearSolver newton = nullptr;  // where IDA's own would not do
   std::vector<double> last_change;      // of Newton's iteration, where it is our own test that ends it
   double first_change = 0;              // of Newton's iteration that is under way
@@ -62,16 +59,8 @@ struct Integrator::Implementation {
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
     past.sparse = n > options.dense;
-    if (past.sparse) {
-      matrix = SUNSparseMatrix(n, n, dae.pattern().entries(), CSC_MAT, context);
-      linear = SUNLinSol_KLU(ny, matrix, context);
-      linear->ops->setup = factorise;
-    } else {
-      values.resize(at(dae.pattern().entries()));
-      matrix = SUNDenseMatrix(n, n, context);
-      linear = SUNLinSol_Dense(ny, matrix, context);
-    }
-    require(IDASetLinearSolver(ida, linear, matrix), "IDASetLinearSolver");
+    linear = std::make_unique<LinearSolver>(dae.pattern(), past.sparse, tolerance, ny, context);
+    require(IDASetLinearSolver(ida, linear->solver(), linear->matrix()), "IDASetLinearSolver");
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
@@ -98,8 +87,7 @@ struct Integrator::Implementation {
   ~Implementation() {
     IDAFree(&ida);
     if (newton) SUNNonlinSolFree(newton);
-    SUNLinSolFree(linear);
-    SUNMatDestroy(matrix);
+    linear.reset();
     N_VDestroy(nw);
     N_VDestroy(np);
     N_VDestroy(ny);
@@ -120,33 +108,12 @@ struct Integrator::Implementation {
     return 0;
   }
 
-  static int jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix J, void* user, N_Vector, N_Vector,
+  static int jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector,
                       N_Vector) {
     auto& self = *static_cast<Implementation*>(user);
-    const Pattern& pattern = self.dae.pattern();
-    if (self.past.sparse) {
-      sunindextype* start = SUNSparseMatrix_IndexPointers(J);
-      std::copy(pattern.column_start.begin(), pattern.column_start.end(), start);
-      std::copy(pattern.row.begin(), pattern.row.end(), SUNSparseMatrix_IndexValues(J));
-      self.dae.jacobian(t + self.lost, cj, data(y), data(yp), SUNSparseMatrix_Data(J));
-      return 0;
-    }
-    self.dae.jacobian(t + self.lost, cj, data(y), data(yp), self.values.data());
-    for (int c = 0; c < pattern.size; ++c) {
-      double* column = SUNDenseMatrix_Column(J, c);
-      for (int e = pattern.column_start[at(c)]; e < pattern.column_start[at(c) + 1]; ++e) {
-        column[pattern.row[at(e)]] = self.values[at(e)];
-      }
-    }
+    self.dae.jacobian(t + self.lost, cj, data(y), data(yp), self.linear->entries());
+    self.linear->filled();
     return 0;
-  }
-
-  /// KLU keeps the pivots that it chose first. What was one may since have come to 0, friction's slope at its bound for one.
-  static int factorise(SUNLinearSolver solver, SUNMatrix J) {
-    const int flag = SUNLinSolSetup_KLU(solver, J);
-    if (flag != SUNLS_PACKAGE_FAIL_REC) return flag;
-    if (SUNLinSol_KLUReInit(solver, J, SUNSparseMatrix_NNZ(J), SUNKLU_REINIT_PARTIAL) != SUNLS_SUCCESS) return flag;
-    return SUNLinSolSetup_KLU(solver, J) == SUNLS_SUCCESS ? SUNLS_SUCCESS : SUNLS_PACKAGE_FAIL_REC;
   }
 
   static int weights(N_Vector, N_Vector w, void* user) {

@@ -201,7 +201,9 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const Branch& b = structure.deflections[k];
       const bool alone = known(b.a) && known(b.b);
       const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
-      if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / std::abs(df[k]);
+      // At its bound friction has hardly any slope, and its deflection goes with others.
+      const double slope = std::max(std::abs(df[k]), view.p[k] != 0 ? std::abs(f[k] / view.p[k]) : 0);
+      if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / slope;
       drift_[i] = {eps * (alone ? speed_at(view, b) : speed[part]),
                    dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {

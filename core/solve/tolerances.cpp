@@ -19,6 +19,9 @@ constexpr double floor_of_kind = 1e-8;
 // What moves along with others is resolved as it moves beside them, down to this share of how they move together and to so
 // many roundings of that: nearer to rounding a step is rejected for nothing.
 constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
+// Of how far two nodes have gone the distance between them, which is integrated, may be off by so much, and by so many
+// roundings: those of the deflections that their velocities are derivatives of.
+constexpr double least_distance = 1e-7, distance_grains = 64;
 // A position is allowed no more than so many times its own share for the sake of its velocity.
 constexpr double most_of_velocity = 10;
 // The largest share of the tolerance that a reversal's velocity may hide in.
@@ -55,7 +58,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
   relative_seen_.assign(nodes, 0);
-  gap_seen_ = relative_seen_;
+  gap_seen_ = place_seen_ = way_seen_ = relative_seen_;
   slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
@@ -134,6 +137,11 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   for (const Gap& gap : gaps_) {
     double& seen = gap_seen_[at(gap.node)];
     seen = std::max(seen, std::abs(view.position[at(gap.branch.a)] - view.position[at(gap.branch.b)]));
+  }
+  for (const NodeId node : dae_->integrated_positions()) {
+    const double x = std::abs(view.position[at(node)]), beside = std::abs(view.position[at(dae_->integrated_beside(node))]);
+    place_seen_[at(node)] = std::max(place_seen_[at(node)], x);
+    way_seen_[at(node)] = std::max({way_seen_[at(node)], x, beside});
   }
   for (const Network::Motion& m : network_.motions) {
     known_velocity_ = std::max(known_velocity_, std::abs(view.velocity[at(m.node)]));
@@ -254,10 +262,12 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
   std::optional<Scales> to_come;  // mostly not asked for
-  const auto least_share = [&](double grains) {
-    return std::max(least_relative, grains * std::numeric_limits<double>::epsilon() / local());
+  const auto least_share = [&](double least, double grains) {
+    return std::max(least, grains * std::numeric_limits<double>::epsilon() / local());
   };
-  const double least_velocity = least_share(velocity_grains), least_position = least_share(position_grains);
+  const double least_velocity = least_share(least_relative, velocity_grains);
+  const double least_position = least_share(least_relative, position_grains);
+  const double least_of_way = least_share(least_distance, distance_grains);
 
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];
@@ -265,7 +275,11 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     const auto resolve = [&](double beside, double share) {
       if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
     };
-    if (q.sort == Sort::position && has_gap_[q.index]) resolve(gap_seen_[q.index], least_position);
+    if (q.sort == Sort::position) {
+      if (has_gap_[q.index]) resolve(gap_seen_[q.index], least_position);
+      resolve(place_seen_[q.index], least_position);
+      scale = std::max(scale, least_of_way * way_seen_[q.index]);
+    }
     if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least_velocity);
     scale = std::max(scale, foreseen_of(q));
     if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);

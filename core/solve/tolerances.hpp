@@ -97,6 +97,9 @@ class Tolerances {
   struct Gap { NodeId node; Branch branch; };
   std::vector<Gap> gaps_;
   std::vector<double> gap_seen_;                      ///< of each node: the largest of them [m]
+  /// Of each node whose distance from another one is integrated: the farthest that it has been from where positions count
+  /// from, and the same of both [m].
+  std::vector<double> place_seen_, way_seen_;
   std::vector<char> has_gap_;                         ///< of each node: it has one at present
   std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
   std::vector<char> jitters_;                         ///< of each unknown: with the rounding of time

@@ -106,9 +106,11 @@ void check_identities(const Analysed& net, Random& random) {
     CHECK_EQ(own->sign, 1);
   }
   for (std::size_t n = 1; n < nodes; ++n) {
-    const Structure::Loop l = minus_velocity(s, static_cast<NodeId>(n));
+    const Structure::Loop l = minus_velocity(s, static_cast<NodeId>(n), ground);
     CHECK_EQ(l.branch, -1);
     CHECK(std::abs(sum_over(l, flow, relative) + velocity[n]) < 1e-13);
+    const Structure::Loop to_last = minus_velocity(s, static_cast<NodeId>(n), static_cast<NodeId>(nodes - 1));
+    CHECK(std::abs(sum_over(to_last, flow, relative) + velocity[n] - velocity[nodes - 1]) < 1e-13);
     if (s.kind[n] == Kind::floating) continue;
     REQUIRE_EQ(l.velocities.size(), 1);
     CHECK_EQ(l.velocities[0].index, static_cast<int>(n));

@@ -1,0 +1,148 @@
+#include "core/dae/positions.hpp"
+
+#include "core/network/index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+class PositionFinder {
+ public:
+  PositionFinder(const Network& network, const Structure& structure, const std::vector<char>& needed)
+      : network_(network), structure_(structure), needed_(needed), tight_(network.nodes()), stuck_(tight_.size()),
+        beside_(tight_.size()), reached_(tight_.size(), 0) {
+    result_.of.assign(tight_.size(), {});
+    list_neighbours();
+  }
+
+  Positions find() {
+    begin();
+    spread();
+    for (NodeId node : network_.node_order) {
+      integrate_neighbours();
+      if (needed_[at(node)] && !reached_[at(node)]) integrate(node, ground);
+    }
+    integrate_neighbours();
+    put_in_order();
+    return std::move(result_);
+  }
+
+ private:
+  void list_neighbours() {
+    const auto list = [](std::vector<std::vector<int>>& at_node, const Branch& b, int index) {
+      at_node[at(b.a)].push_back(index);
+      at_node[at(b.b)].push_back(index);
+    };
+    const auto meet = [&](const Branch& b) {
+      beside_[at(b.a)].push_back(b.b);
+      beside_[at(b.b)].push_back(b.a);
+    };
+    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const int j = laws.first + static_cast<int>(i);
+        const Branch& b = network_.deflections[at(j)];
+        if (laws.batch->creeps(i)) meet(b); else list(tight_, b, j);
+      }
+    }
+    for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+      const Branch& b = network_.sliders[k].branch;
+      meet(b);
+      if (structure_.stuck[k] && needed_[at(b.a)] && needed_[at(b.b)]) list(stuck_, b, static_cast<int>(k));
+    }
+    for (const Branch& b : network_.rates) meet(b);
+  }
+
+  /// What is known, or has to be an unknown of its own.
+  void begin() {
+    for (NodeId node : network_.node_order) {
+      if (structure_.kind[at(node)] != Kind::known) continue;
+      if (structure_.of_time[at(node)]) reach(node);
+      else integrate_alone(node);
+    }
+    for (const Blocks::Sensor& sensor : network_.blocks.sensors) {
+      const bool of_position = sensor.what == Blocks::Sensor::What::position && sensor.motion < 0;
+      if (of_position && !result_.of[at(sensor.index)].integrated) integrate_alone(sensor.index);
+    }
+  }
+
+  void integrate_alone(NodeId node) {
+    result_.of[at(node)] = {.integrated = true};  // a slider that sticks may have reached it
+    result_.integrated.push_back(node);
+    if (!reached_[at(node)]) reach(node);
+  }
+
+  void integrate(NodeId node, NodeId parent) {
+    result_.of[at(node)] = {.parent = parent, .integrated = true};
+    result_.integrated.push_back(node);
+    reach(node);
+    spread();
+  }
+
+  /// What sticks moves as one: no deflection comes between.
+  void reach(NodeId node) {
+    reached_[at(node)] = 1;
+    order_.push_back(node);
+    for (std::size_t k = order_.size() - 1; k < order_.size(); ++k) {
+      const NodeId from = order_[k];
+      for (int slider : stuck_[at(from)]) {
+        const Branch& b = network_.sliders[at(slider)].branch;
+        const NodeId other = b.a == from ? b.b : b.a;
+        if (reached_[at(other)] || structure_.kind[at(other)] == Kind::known) continue;
+        reached_[at(other)] = 1;
+        result_.of[at(other)] = {.slider = slider, .parent = from, .sign = b.a == other ? 1.0 : -1.0};
+        order_.push_back(other);
+      }
+    }
+  }
+
+  void spread() {
+    for (; spread_ < order_.size(); ++spread_) {
+      const NodeId node = order_[spread_];
+      for (int j : tight_[at(node)]) {
+        const Branch& b = network_.deflections[at(j)];
+        const NodeId other = b.a == node ? b.b : b.a;
+        if (reached_[at(other)]) continue;
+        result_.of[at(other)] = {.branch = j, .parent = node, .sign = b.a == other ? 1.0 : -1.0};
+        reach(other);
+      }
+    }
+  }
+
+  void integrate_neighbours() {
+    for (; looked_ < order_.size(); ++looked_) {
+      const NodeId node = order_[looked_];
+      for (NodeId other : beside_[at(node)]) {
+        if (needed_[at(other)] && !reached_[at(other)]) integrate(other, node);
+      }
+    }
+  }
+
+  void put_in_order() {
+    std::vector<char> wanted(needed_.size(), 0);
+    for (std::size_t n = 0; n < needed_.size(); ++n) {
+      if (!needed_[n]) continue;
+      for (auto node = static_cast<NodeId>(n); !wanted[at(node)]; node = result_.of[at(node)].parent) wanted[at(node)] = 1;
+    }
+    for (NodeId node : order_) {
+      if (wanted[at(node)]) result_.order.push_back(node);
+    }
+  }
+
+  const Network& network_;
+  const Structure& structure_;
+  const std::vector<char>& needed_;
+  std::vector<std::vector<int>> tight_, stuck_;   // at each node: branches whose deflection is their displacement; sliders
+  std::vector<std::vector<NodeId>> beside_;       // across what creeps or slides
+  std::vector<char> reached_;
+  std::vector<NodeId> order_;
+  std::size_t spread_ = 0, looked_ = 0;           // of the order
+  Positions result_;
+};
+
+}  // namespace
+
+Positions find_positions(const Network& network, const Structure& structure, const std::vector<char>& needed) {
+  return PositionFinder(network, structure, needed).find();
+}
+
+}  // namespace rheonet

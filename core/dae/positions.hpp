@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "core/network/network.hpp"
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// How the position of a node is found. Either from that of its parent, through a deflection that is an unknown anyway,
+/// x = x_parent + sign (p + offset), or along a slider that sticks, by what has been between them since it does; or its
+/// distance from the parent is integrated, x = x_parent + y: that distance may be small where both move far. The parent of
+/// what is near nothing is ground.
+struct Position {
+  int branch = -1, slider = -1;
+  NodeId parent = ground;
+  double sign = 1;
+  bool integrated = false;
+};
+
+struct Positions {
+  std::vector<Position> of;            ///< each node
+  std::vector<NodeId> integrated;   ///< in the order in which they were found
+  std::vector<NodeId> order;        ///< those needed for positions, parents first
+};
+
+/// `needed[node]`: its position is asked for.
+Positions find_positions(const Network& network, const Structure& structure, const std::vector<char>& needed);
+
+}  // namespace rheonet

@@ -1,0 +1,93 @@
+#include "core/solve/linear_solver.hpp"
+
+#include <sundials/sundials_nvector.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/network/index.hpp"
+
+namespace rheonet {
+
+LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance, N_Vector like,
+                           SUNContext context)
+    : pattern_(pattern),
+      tolerance_(tolerance),
+      sparse_(sparse),
+      row_scale_(at(pattern.size), 1),
+      column_scale_(at(pattern.size), 1) {
+  const sunindextype n = pattern.size;
+  if (sparse) {
+    matrix_ = SUNSparseMatrix(n, n, pattern.entries(), CSC_MAT, context);
+    inner_ = SUNLinSol_KLU(like, matrix_, context);
+    SUNLinSol_KLUGetCommon(inner_)->scale = 0;
+  } else {
+    values_.resize(at(pattern.entries()));
+    matrix_ = SUNDenseMatrix(n, n, context);
+    inner_ = SUNLinSol_Dense(like, matrix_, context);
+  }
+  outer_ = SUNLinSolNewEmpty(context);
+  outer_->content = this;
+  outer_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
+  outer_->ops->initialize = [](SUNLinearSolver s) { return SUNLinSolInitialize(of(s).inner_); };
+  outer_->ops->setup = [](SUNLinearSolver s, SUNMatrix) { return of(s).setup(); };
+  outer_->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance) {
+    return of(s).solve(x, b, tolerance);
+  };
+}
+
+LinearSolver::~LinearSolver() {
+  SUNLinSolFreeEmpty(outer_);
+  SUNLinSolFree(inner_);
+  SUNMatDestroy(matrix_);
+}
+
+double* LinearSolver::entries() {
+  if (!sparse_) return values_.data();
+  std::copy(pattern_.column_start.begin(), pattern_.column_start.end(), SUNSparseMatrix_IndexPointers(matrix_));
+  std::copy(pattern_.row.begin(), pattern_.row.end(), SUNSparseMatrix_IndexValues(matrix_));
+  return SUNSparseMatrix_Data(matrix_);
+}
+
+void LinearSolver::filled() {
+  double* values = sparse_ ? SUNSparseMatrix_Data(matrix_) : values_.data();
+  column_scale_ = tolerance_;
+  std::fill(row_scale_.begin(), row_scale_.end(), 0.0);
+  const auto for_each_entry = [&](auto visit) {
+    for (int c = 0; c < pattern_.size; ++c) {
+      for (int e = pattern_.column_start[at(c)]; e < pattern_.column_start[at(c) + 1]; ++e) visit(pattern_.row[at(e)], c, values[e]);
+    }
+  };
+  for_each_entry([&](int row, int column, double& value) {
+    value *= column_scale_[at(column)];
+    row_scale_[at(row)] = std::max(row_scale_[at(row)], std::abs(value));
+  });
+  // A row of zeros is left for the solver to find.
+  for (double& s : row_scale_) s = s > 0 && std::isfinite(s) ? 1 / s : 1;
+  for_each_entry([&](int row, int, double& value) { value *= row_scale_[at(row)]; });
+  if (sparse_) return;
+  for_each_entry([&](int row, int column, double& value) { SUNDenseMatrix_Column(matrix_, column)[row] = value; });
+}
+
+int LinearSolver::setup() {
+  const int flag = SUNLinSolSetup(inner_, matrix_);
+  if (!sparse_ || flag != SUNLS_PACKAGE_FAIL_REC) return flag;
+  // KLU keeps the pivots that it chose first. What was one may since have come to 0, friction's slope at its bound for one.
+  if (SUNLinSol_KLUReInit(inner_, matrix_, SUNSparseMatrix_NNZ(matrix_), SUNKLU_REINIT_PARTIAL) != SUNLS_SUCCESS) return flag;
+  return SUNLinSolSetup(inner_, matrix_) == SUNLS_SUCCESS ? SUNLS_SUCCESS : SUNLS_PACKAGE_FAIL_REC;
+}
+
+int LinearSolver::solve(N_Vector x, N_Vector b, double tolerance) const {
+  double* right = N_VGetArrayPointer(b);
+  for (std::size_t i = 0; i < row_scale_.size(); ++i) right[i] *= row_scale_[i];
+  const int flag = SUNLinSolSolve(inner_, matrix_, x, b, tolerance);
+  double* left = N_VGetArrayPointer(x);
+  for (std::size_t i = 0; i < column_scale_.size(); ++i) left[i] *= column_scale_[i];
+  return flag;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nvector.h>
+
+#include <vector>
+
+#include "core/dae/matrix.hpp"
+
+namespace rheonet {
+
+/// The direct solver of linear equations that the integrator calls: KLU, or dense elimination for a few unknowns. Newtons
+/// stand beside metres a second in the matrix: so that pivots can be compared, and so that they are the same in whatever
+/// units, each unknown counts in multiples of its tolerance, and each equation is divided by its largest coefficient.
+class LinearSolver {
+ public:
+  /// `tolerance` (of each unknown, > 0) is read whenever there is a new matrix.
+  LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance, N_Vector like, SUNContext context);
+  ~LinearSolver();
+  LinearSolver(const LinearSolver&) = delete;
+  LinearSolver& operator=(const LinearSolver&) = delete;
+
+  SUNMatrix matrix() const { return matrix_; }
+  SUNLinearSolver solver() const { return outer_; }
+
+  /// Entries of the matrix in the order of the pattern: to be filled in anew, then told.
+  double* entries();
+  void filled();
+
+ private:
+  static LinearSolver& of(SUNLinearSolver outer) { return *static_cast<LinearSolver*>(outer->content); }
+  int setup();
+  int solve(N_Vector x, N_Vector b, double tolerance) const;
+
+  const Pattern& pattern_;
+  const std::vector<double>& tolerance_;
+  SUNMatrix matrix_;
+  SUNLinearSolver inner_, outer_;
+  bool sparse_;
+  std::vector<double> values_;  // of the dense matrix
+  std::vector<double> row_scale_, column_scale_;
+};
+
+}  // namespace rheonet
