@@ -1,3 +1,5 @@
+#include "core/netlist/scene.hpp"
+#include "core/network/alternatives.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet {
@@ -37,6 +39,14 @@ const RegisterComponent registered({
                 .thin = "M.2 .62 L.14 .7 M.3 .62 L.24 .7 M.4 .62 L.34 .7 M.5 .62 L.44 .7 M.6 .62 L.54 .7 M.7 .62 L.64 .7 "
                         "M.8 .62 L.74 .7"},
 });
+
+// A dashpot below some velocity, as programs have it that know no sticking.
+const RegisterAlternative smoothed({.type = "slider",
+                                    .name = "smoothed",
+                                    .becomes = "cfm",
+                                    .values = [](std::span<const double> v, double speed, double length) {
+                                      return std::vector<double>{v[0] / length, v[0], v[0] / speed, 0, not_given};
+                                    }});
 
 }  // namespace
 }  // namespace rheonet

@@ -4,15 +4,22 @@
 #include <cmath>
 #include <utility>
 
+#include "core/result/manner.hpp"
+
 namespace rheonet {
 
 Course run_to_memory(const Scene& scene, RunSettings settings) {
+  const Manner usual{.order = settings.order};
+  return run_to_memory_in(usual, scene, std::move(settings));
+}
+
+Course run_to_memory_in(const Manner& manner, const Scene& scene, RunSettings settings) {
   Course course;
   settings.row = [&course](double time, const std::vector<double>& values) {
     course.times.push_back(time);
     course.rows.push_back(values);
   };
-  course.summary = run(scene, settings);
+  course.summary = run_in(manner, scene, settings);
   return course;
 }
 

@@ -33,9 +33,10 @@ class Pricing {
 
   PriceList go() {
     find_reference();
-    for (const int order : settings_.orders) {
+    for (std::size_t manner = 0; manner < settings_.manners.size(); ++manner) {
+      list_.manners.push_back(settings_.manners[manner].name);
       for (const double tolerance : tolerances_) {
-        list_.prices.push_back(price({tolerance, order}));
+        list_.prices.push_back(price({tolerance, settings_.manners[manner].order, static_cast<int>(manner)}));
         tell_progress();
         if (slow(list_.prices.back())) break;
       }
@@ -46,6 +47,7 @@ class Pricing {
   }
 
  private:
+  const Manner& manner_of(const Method& method) const { return settings_.manners[static_cast<std::size_t>(method.manner)]; }
   double length() const { return scene_.stop - scene_.start; }
   double shift(double tolerance) const { return tolerance * length(); }
 
@@ -92,7 +94,7 @@ class Pricing {
     Price result;
     result.method = method;
     try {
-      Course course = run_to_memory(scene_, settings_of(method, settings_));
+      Course course = run_to_memory_in(manner_of(method), scene_, settings_of(method, settings_));
       result.errors = record_errors(scene_, course, truth_, {.allowed = method.tolerance, .shift = shift(method.tolerance)});
       result.worst = worst_of(result.errors);
       const ErrorMeasure asked{.allowed = scene_.accuracy, .shift = shift(scene_.accuracy)};
@@ -110,23 +112,23 @@ class Pricing {
     return result;
   }
 
-  /// Too slow to go on with its order.
+  /// Too slow to go on with its manner.
   bool slow(const Price& price) {
     const double seconds = price.summary.cpu_seconds;
-    if (price.method.order == settings_.orders.front()) slowest_ = std::max(slowest_, seconds);
+    if (price.method.manner == 0) slowest_ = std::max(slowest_, seconds);
     return seconds > settings_.too_slow * slowest_;
   }
 
   void time_all() {
     for (Price& p : list_.prices) {
       if (!p.failure.empty()) continue;
-      p.cpu_seconds.push_back(run(scene_, settings_of(p.method, settings_)).cpu_seconds);
+      p.cpu_seconds.push_back(run_in(manner_of(p.method), scene_, settings_of(p.method, settings_)).cpu_seconds);
       tell_progress();
     }
   }
 
   void tell_progress() {
-    const double all = static_cast<double>(tolerances_.size() * settings_.orders.size()) * (settings_.runs + 1);
+    const double all = static_cast<double>(tolerances_.size() * settings_.manners.size()) * (settings_.runs + 1);
     if (settings_.progress) settings_.progress(std::min(1.0, ++done_ / all));
   }
 
@@ -134,7 +136,7 @@ class Pricing {
   const PriceListSettings& settings_;
   std::vector<double> tolerances_;
   Yardstick truth_;
-  double slowest_ = 0;  ///< CPU time of a run of the first of the orders [s]
+  double slowest_ = 0;  ///< CPU time of a run in the first of the manners [s]
   double done_ = 0;     ///< runs
   PriceList list_;
 };
@@ -165,7 +167,7 @@ const Price* PriceList::cheapest() const {
 
 const Price* PriceList::own(const Scene& scene) const {
   for (const Price& p : prices) {
-    if (p.method.order != prices.front().method.order || p.method.tolerance != scene.accuracy) continue;
+    if (p.method.manner != 0 || p.method.tolerance != scene.accuracy) continue;
     return p.failure.empty() ? &p : nullptr;
   }
   return nullptr;

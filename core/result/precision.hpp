@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/result/run.hpp"
+#include "core/result/variants.hpp"
 #include "core/result/yardstick.hpp"
 
 namespace rheonet {
@@ -15,6 +16,7 @@ namespace rheonet {
 struct Method {
   double tolerance = 1e-6;  ///< what `accuracy` of a scene is
   int order = 5;            ///< at most
+  int manner = 0;           ///< index into PriceListSettings::manners
 };
 
 /// What a method costs, and what it gives.
@@ -34,9 +36,9 @@ struct Price {
 
 struct PriceListSettings {
   std::vector<double> tolerances;  ///< in any order
-  std::vector<int> orders;         ///< each is gone through; see `too_slow`
+  std::vector<Manner> manners = {{.name = "order up to 5"}};  ///< each is gone through; see `too_slow`
   int runs = 5;                    ///< of each method, whose CPU time is taken
-  /// A method that takes so many times the CPU time of the slowest one of the first of the orders is the last of its order.
+  /// A method that takes so many times the CPU time of the slowest one of the first of the manners is the last of its manner.
   double too_slow = 10;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress = {};  ///< called now and then, with the share of the methods that are done
@@ -47,12 +49,13 @@ struct PriceList {
   Method reference, check;          ///< what errors are measured by, and what that is checked by
   std::vector<RecordError> doubt;   ///< of each record, how far those two are apart; 0 of one with a closed form
   std::vector<RecordError> off;     ///< of each closed form of the scene, how far the reference is from it
-  std::vector<Price> prices;        ///< by order as asked for, then from the loosest tolerance to the tightest
+  std::vector<Price> prices;        ///< by manner as asked for, then from the loosest tolerance to the tightest
+  std::vector<std::string> manners; ///< their names
 
   double largest_doubt() const;
   /// The cheapest price that meets what the scene asks for, by the median of its CPU time; nullptr if none does.
   const Price* cheapest() const;
-  /// That of the scene's own accuracy with the first of the orders; nullptr if it cannot be simulated so.
+  /// That of the scene's own accuracy in the first of the manners; nullptr if it cannot be simulated so.
   const Price* own(const Scene& scene) const;
 };
 

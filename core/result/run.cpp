@@ -16,6 +16,7 @@
 #include "core/result/claims.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
+#include "core/result/manner.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet {
@@ -229,7 +230,10 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
 
 }  // namespace
 
-Summary run(const Scene& scene, const RunSettings& settings) {
+Summary run(const Scene& scene, const RunSettings& settings) { return run_in({.order = settings.order}, scene, settings); }
+
+Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
+  const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);
@@ -241,7 +245,8 @@ Summary run(const Scene& scene, const RunSettings& settings) {
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
                            .accuracy = settings.tolerance.value_or(scene.accuracy),
-                           .order = settings.order,
+                           .order = manner.order,
+                           .locate_events = manner.locate_events,
                            .switch_times = settings.events != nullptr,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress,

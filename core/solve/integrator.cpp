@@ -43,6 +43,8 @@ struct Integrator::Implementation {
   double lost = 0;
   double reached = 0;  ///< by IDA's sum [s]
   std::vector<int> fired;
+  std::vector<double> functions;  // of events, where they are not located
+  bool locate = true;
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
@@ -76,7 +78,8 @@ struct Integrator::Implementation {
       require(SUNNonlinSolSetConvTestFn(newton, converged, this), "SUNNonlinSolSetConvTestFn");
     }
     fired.assign(at(event_functions.count()), 0);
-    if (!fired.empty()) {
+    locate = options.locate_events;
+    if (!fired.empty() && locate) {
       require(IDARootInit(ida, event_functions.count(), roots), "IDARootInit");
       std::vector<int> falling(fired.size(), -1);
       require(IDASetRootDirection(ida, falling.data()), "IDASetRootDirection");
@@ -186,6 +189,14 @@ struct Integrator::Implementation {
     require(IDASetStopTime(ida, stop - lost), "IDASetStopTime");
   }
 
+  /// Whether the last step has gone over an event, and which.
+  bool passed() {
+    functions.resize(fired.size());
+    event_functions.evaluate(time, y.data(), yp.data(), functions.data());
+    std::transform(functions.begin(), functions.end(), fired.begin(), [](double g) { return g <= 0 ? 1 : 0; });
+    return std::find(fired.begin(), fired.end(), 1) != fired.end();
+  }
+
   Failures failures() const {
     Failures f;
     IDAGetNumErrTestFails(ida, &f.error_tests);
@@ -248,6 +259,7 @@ Integrator::Outcome Integrator::step() {
   if (flag == IDA_SUCCESS) s.keep_time();
   if (flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN) s.time = reached + s.lost;
   if (flag == IDA_TSTOP_RETURN) s.time = s.stop;
+  if ((flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN) && !s.locate && s.passed()) return Outcome::event;
   switch (flag) {
     case IDA_SUCCESS:
       return Outcome::step;

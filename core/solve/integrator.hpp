@@ -36,6 +36,9 @@ class Integrator {
   struct Options {
     int order = highest_order;  ///< from 1: the order goes no higher
     int dense = dense_limit;    ///< linear algebra is dense up to so many unknowns
+    /// An event is looked for within each step; else it is taken to be at the end of the step that goes over it, as many
+    /// programs do.
+    bool locate_events = true;
   };
 
   /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step.

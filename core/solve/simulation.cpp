@@ -62,7 +62,7 @@ class Run {
         instant_(network, classified_, drive_),
         accumulation_(network, classified_, settings.stop),
         tolerances_(network, tolerance()),
-        systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order}),
+        systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
         softening_(network, classified_) {
@@ -224,7 +224,7 @@ class Run {
         restart(t, until, shrink);
         continue;
       }
-      if (const auto missed = system_->events.sticks() ? system_->events.missed(system_->integrator) : std::nullopt) {
+      if (const auto missed = settings_.locate_events && system_->events.sticks() ? system_->events.missed(system_->integrator) : std::nullopt) {
         system_->integrator.cut(missed->t, missed->which);
         outcome = Integrator::Outcome::event;
       }

@@ -33,6 +33,7 @@ struct SimulationSettings {
   double stop = 1;  ///< s; the start is at 0
   double accuracy = 1e-6;
   int order = Integrator::highest_order;  ///< of the method, at most: see Integrator::Options
+  bool locate_events = true;  ///< see Integrator::Options
   bool switch_times = true;  ///< when within a step a pair has yielded is wanted, not only that it has
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress;

@@ -27,7 +27,7 @@ double true_error(const Scene& scene, const Method& method) {
 
 TEST_CASE("a price list gives the errors that a closed form tells, and the costs of such runs") {
   const Scene scene = scene_of(swings, 1e-5);
-  const PriceList list = price_list(scene, {.tolerances = {1e-5, 1e-9, 1e-2, 1e-7}, .orders = {5, 3}, .runs = 3, .too_slow = 1e3});
+  const PriceList list = price_list(scene, {.tolerances = {1e-5, 1e-9, 1e-2, 1e-7}, .manners = {{.name = "usual"}, {.name = "low", .order = 3}}, .runs = 3, .too_slow = 1e3});
   REQUIRE(list.prices.size() == 8);
   REQUIRE(list.doubt.size() == 1);
   // Two runs that share no step: each is off by about as much as they differ.
@@ -66,7 +66,7 @@ TEST_CASE("where a scene has a closed form, errors are measured by it") {
   const auto with_form = [](const std::string& form) {
     return scene_of(swings + "[exact]\n\"block.position\" = \"" + form + "\"\n");
   };
-  const PriceListSettings settings{.tolerances = {1e-3}, .orders = {5}, .runs = 1};
+  const PriceListSettings settings{.tolerances = {1e-3}, .runs = 1};
   const Scene scene = with_form("1e-3*cos(10*t)");
   const PriceList list = price_list(scene, settings);
   const double error = true_error(scene, {1e-3, 5});
@@ -85,7 +85,7 @@ TEST_CASE("where a scene has a closed form, errors are measured by it") {
 
 TEST_CASE("an order that becomes too slow is not gone through to its end") {
   const Scene scene = scene_of(swings);
-  const PriceListSettings settings{.tolerances = {1e-2, 1e-4, 1e-6, 1e-8}, .orders = {5, 1}, .runs = 1, .too_slow = 3};
+  const PriceListSettings settings{.tolerances = {1e-2, 1e-4, 1e-6, 1e-8}, .manners = {{.name = "usual"}, {.name = "Euler", .order = 1}}, .runs = 1, .too_slow = 3};
   const PriceList list = price_list(scene, settings);
   CHECK(list.prices.size() >= 5);
   CHECK(list.prices.size() < 8);
@@ -95,7 +95,7 @@ TEST_CASE("an order that becomes too slow is not gone through to its end") {
 TEST_CASE("what the reference cannot tell is not granted") {
   // Near the end of double precision two references differ by more than is asked for.
   const Scene scene = scene_of(swings, 1e-12);
-  const PriceList list = price_list(scene, {.tolerances = {1e-12}, .orders = {5}, .runs = 1});
+  const PriceList list = price_list(scene, {.tolerances = {1e-12}, .runs = 1});
   CHECK(list.largest_doubt() > 1e-12);
   CHECK(list.cheapest() == nullptr);
   CHECK(list.own(scene) != nullptr);
@@ -112,9 +112,9 @@ TEST_CASE("quantiles of the times that were measured") {
 }
 
 TEST_CASE("a scene that cannot be simulated has no prices; an interrupt ends the list") {
-  CHECK_THROWS_AS(price_list(scene_of(overcome), {.tolerances = {1e-3}, .orders = {5}}), SimulationError);
+  CHECK_THROWS_AS(price_list(scene_of(overcome), {.tolerances = {1e-3}}), SimulationError);
   const std::atomic<bool> interrupted = true;
-  CHECK_THROWS_AS(price_list(scene_of(swings), {.tolerances = {1e-3}, .orders = {5}, .interrupt = &interrupted}), SimulationError);
+  CHECK_THROWS_AS(price_list(scene_of(swings), {.tolerances = {1e-3}, .interrupt = &interrupted}), SimulationError);
 }
 
 }  // namespace rheonet::test

@@ -1,6 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
@@ -50,6 +53,27 @@ TEST_CASE("precision --variants limits the order; `run --order` does the same") 
   const std::string usual = folder.shell("rheonet run -q scene.toml", 0).out;
   CHECK(folder.shell("rheonet run -q scene.toml --order 5", 0).out == usual);
   CHECK(folder.shell("rheonet run -q scene.toml --order 2", 0).out != usual);
+}
+
+TEST_CASE("precision --variants: what it costs to smooth sliders and not to look for events, and what that gets wrong") {
+  const Folder folder(pulled_slider + short_run);
+  const Finished result = folder.shell("rheonet precision scene.toml --variants --accuracies 1e-4,1e-6 --runs 1 -o prices.csv", 0);
+  std::map<std::string, double> error;
+  std::istringstream rows(folder.read("prices.csv"));
+  std::string line;
+  std::getline(rows, line);
+  CHECK(contains(line, ",starts,manner,error k1.force"));
+  while (std::getline(rows, line)) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    if (cells[1] == "1e-06") error[cells[cells.size() - 2]] = std::stod(cells[2]);
+  }
+  CHECK(error.at("order up to 5") <= 1e-6);
+  CHECK(error.at("every slider smoothed below 0.01 of its fastest motion") > 1e-3);
+  CHECK(error.at("every slider smoothed below 0.0001 of its fastest motion") < error.at("every slider smoothed below 0.01 of its fastest motion"));
+  CHECK(contains(result.out, "\nevents at the ends of steps\n"));
+  CHECK(contains(result.out, "the cheapest that meets the 1e-06 asked for: "));
 }
 
 TEST_CASE("precision says when a closed form and the scene do not fit") {

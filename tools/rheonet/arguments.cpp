@@ -316,7 +316,7 @@ struct CommandLine {
     add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
              "E,...");
     precision->add_option("--runs", runs, "of each accuracy, whose CPU time is taken; 5 if not given")->type_name("N");
-    precision->add_flag("--variants", arguments.variants, "also with the order of the method limited to 4, 3 and 2");
+    precision->add_flag("--variants", arguments.variants, "also otherwise than usual: the order of the method limited, events not located, sliders smoothed");
     precision->add_option("-o,--output", arguments.overlay, "where the list goes as CSV; `-` is standard output")
         ->type_name("FILE");
     precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");

@@ -54,7 +54,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   PriceList list;
   try {
     list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
-                              .orders = arguments.variants ? std::vector<int>{5, 4, 3, 2} : std::vector<int>{5},
+                              .manners = arguments.variants ? manners(scene) : std::vector<Manner>{{.name = "order up to 5"}},
                               .runs = arguments.runs,
                               .interrupt = &end_on_signals(),
                               .progress = [&progress](double fraction) { progress.update(fraction); }});

@@ -50,11 +50,11 @@ std::string next_digit(const Price& price, const Price* next, double (*cost)(con
   return fmt::format("x {:.2f}", std::pow(cost(*next) / cost(price), 1 / digits));
 }
 
-/// The prices of each order, in the order of the list.
-std::vector<std::vector<const Price*>> by_order(const PriceList& list) {
+/// The prices of each manner, in the order of the list.
+std::vector<std::vector<const Price*>> by_manner(const PriceList& list) {
   std::vector<std::vector<const Price*>> result;
   for (const Price& p : list.prices) {
-    if (result.empty() || result.back().front()->method.order != p.method.order) result.emplace_back();
+    if (result.empty() || result.back().front()->method.manner != p.method.manner) result.emplace_back();
     result.back().push_back(&p);
   }
   return result;
@@ -105,11 +105,14 @@ std::string yardstick_words(const Scene& scene, const PriceList& list) {
   return text;
 }
 
+const std::string& name_of_manner(const PriceList& list, const Price& price) {
+  return list.manners[static_cast<std::size_t>(price.method.manner)];
+}
+
 /// "accuracy = 1e-05, order up to 3".
 std::string name_of(const PriceList& list, const Price& price) {
-  const int usual = list.prices.front().method.order;
   return fmt::format("accuracy = {:g}", price.method.tolerance) +
-         (price.method.order == usual ? "" : fmt::format(" and --order {}", price.method.order));
+         (price.method.manner == 0 ? "" : ", " + name_of_manner(list, price));
 }
 
 std::string recommendation(const Scene& scene, const PriceList& list) {
@@ -136,9 +139,8 @@ std::string describe(const Scene& scene, const std::string& file, const PriceLis
   std::string text = fmt::format("{}: {:g} s to {:g} s, asks for an accuracy of {:g}\n", printable(file), scene.start,
                                  scene.stop, scene.accuracy);
   text += yardstick_words(scene, list);
-  for (const auto& prices : by_order(list)) {
-    const int order = prices.front()->method.order;
-    if (order != list.prices.front().method.order) text += fmt::format("\norder up to {}\n", order);
+  for (const auto& prices : by_manner(list)) {
+    if (prices.front()->method.manner != 0) text += fmt::format("\n{}\n", name_of_manner(list, *prices.front()));
     text += table_of(scene, list, prices);
   }
   return text + '\n' + recommendation(scene, list);
@@ -147,7 +149,7 @@ std::string describe(const Scene& scene, const std::string& file, const PriceLis
 std::string table(const Scene& scene, const PriceList& list) {
   std::string text =
       "order,accuracy,error,record,time,cpu_median,cpu_lower_quartile,cpu_upper_quartile,steps,rejected,residuals,"
-      "jacobians,starts";
+      "jacobians,starts,manner";
   for (const Record& record : scene.records) text += ",error " + record.path;
   text += '\n';
   const auto put = [&text](const auto&... cells) { (fmt::format_to(std::back_inserter(text), ",{}", cells), ...); };
@@ -157,7 +159,7 @@ std::string table(const Scene& scene, const PriceList& list) {
     text += fmt::format("{}", p.method.order);
     put(p.method.tolerance, p.error(), p.errors.empty() ? "" : scene.records[p.worst].path,
         p.errors.empty() ? 0 : p.errors[p.worst].time, median(p), p.cpu_quantile(0.25), p.cpu_quantile(0.75), s.steps,
-        s.rejected_steps, s.residual_evaluations, s.jacobian_evaluations, s.restarts);
+        s.rejected_steps, s.residual_evaluations, s.jacobian_evaluations, s.restarts, name_of_manner(list, p));
     for (const RecordError& error : p.errors) put(error.relative());
     text += '\n';
   }
@@ -172,8 +174,8 @@ std::vector<plot::Measured> curves(const PriceList& list) {
                                                                      {{"steps", plot::measure("steps", "1")}, steps}};
   std::vector<plot::Measured> result;
   for (const auto& [column, cost] : costs) {
-    for (const auto& prices : by_order(list)) {
-      plot::Measured curve{fmt::format("order up to {}", prices.front()->method.order), error, column, {}};
+    for (const auto& prices : by_manner(list)) {
+      plot::Measured curve{name_of_manner(list, *prices.front()), error, column, {}};
       for (const Price* p : prices) {
         if (p->failure.empty()) curve.trace.add({std::max({p->error(), least_known(list, *p), rounding}), cost(*p)});
       }

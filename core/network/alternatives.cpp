@@ -1,0 +1,21 @@
+#include "core/network/alternatives.hpp"
+
+#include <utility>
+
+namespace rheonet {
+
+namespace {
+
+// A function's static: components register while other files' static objects may not exist yet.
+std::vector<Alternative>& registry() {
+  static std::vector<Alternative> instance;
+  return instance;
+}
+
+}  // namespace
+
+RegisterAlternative::RegisterAlternative(Alternative alternative) { registry().push_back(std::move(alternative)); }
+
+const std::vector<Alternative>& alternatives() { return registry(); }
+
+}  // namespace rheonet

@@ -1,0 +1,93 @@
+#include "core/result/variants.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/network/alternatives.hpp"
+#include "core/network/component.hpp"
+#include "core/network/index.hpp"
+#include "core/network/resolved.hpp"
+#include "core/result/run.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Of an element's fastest motion: what is usually taken, and what is thought to be exact.
+constexpr double shares[] = {1e-2, 1e-4};
+// A glance tells how fast elements move.
+constexpr double glance = 1e-3;
+// Of the way that an element goes at its fastest in the run.
+constexpr double share_of_way = 1e-4;
+
+const std::string& type_of(const SceneElement& element) { return components()[at(element.declaration)]->declaration.type; }
+
+int declaration_of(const std::string& type) {
+  const auto& all = components();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Component* c) { return c->declaration.type == type; });
+  return static_cast<int>(found - all.begin());
+}
+
+/// The fastest motion of each element that has alternatives [m/s]; and whether anything switches.
+struct Glance {
+  std::map<int, double> fastest;
+  bool switches = false;
+};
+
+Glance look(const Scene& scene) {
+  Scene some = scene;
+  some.records.clear();
+  some.exact.clear();
+  some.claims.clear();
+  Glance result;
+  std::vector<int> elements;
+  for (int e = 0; at(e) < scene.elements.size(); ++e) {
+    const auto is_its = [&](const Alternative& a) { return a.type == type_of(scene.elements[at(e)]); };
+    if (std::none_of(alternatives().begin(), alternatives().end(), is_its)) continue;
+    elements.push_back(e);
+    some.records.push_back({scene.elements[at(e)].name + ".velocity", Record::Subject::element, e, Record::Channel::velocity});
+  }
+  const auto see = [&](double, const std::vector<double>& values) {
+    for (std::size_t k = 0; k < elements.size(); ++k) result.fastest[elements[k]] = std::max(result.fastest[elements[k]], std::abs(values[k]));
+  };
+  result.switches = run(some, {.state = see, .tolerance = glance}).restarts > 1;
+  return result;
+}
+
+/// The scene with this alternative in place of every element that may have it and moves.
+Scene with(const Scene& scene, const Alternative& alternative, double share, const std::map<int, double>& fastest) {
+  Scene result = scene;
+  for (const auto& [e, speed] : fastest) {
+    SceneElement& element = result.elements[at(e)];
+    if (type_of(element) != alternative.type || speed == 0) continue;
+    const double small = share * speed;
+    element.values = alternative.values(resolved_values(scene, element), small, small * share_of_way * (scene.stop - scene.start));
+    element.declaration = declaration_of(alternative.becomes);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Manner> manners(const Scene& scene) {
+  const Glance glance_at = look(scene);
+  std::vector<Manner> result;
+  for (const int order : {5, 4, 3, 2}) result.push_back({.name = fmt::format("order up to {}", order), .order = order});
+  if (glance_at.switches) result.push_back({.name = "events at the ends of steps", .locate_events = false});
+  for (const Alternative& alternative : alternatives()) {
+    const auto moves = [&](const auto& element) {
+      return element.second > 0 && type_of(scene.elements[at(element.first)]) == alternative.type;
+    };
+    if (std::none_of(glance_at.fastest.begin(), glance_at.fastest.end(), moves)) continue;
+    for (const double share : shares) {
+      result.push_back({.name = fmt::format("every {} {} below {:g} of its fastest motion", alternative.type, alternative.name, share),
+                        .scene = {with(scene, alternative, share, glance_at.fastest)}});
+    }
+  }
+  return result;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "core/result/manner.hpp"
+
+namespace rheonet {
+
+/// The usual manner, and all that cost or save something and make sense for the scene: lower orders; events that are not
+/// located, where there are any; and what components declare that stands in for them (see core/network/alternatives.hpp), with
+/// velocities and displacements that are small shares of those in the run. The first is the usual one. Throws
+/// SimulationError where the scene cannot be simulated.
+std::vector<Manner> manners(const Scene& scene);
+
+}  // namespace rheonet
