@@ -32,7 +32,9 @@ struct Integrator::Implementation {
   std::vector<double> y, yp, work;
   N_Vector ny = nullptr, np = nullptr, nw = nullptr;
   std::unique_ptr<LinearSolver> linear;
-  SUNNonlinearSolver newton = nullptr;  // where IDA's own would not do
+  SUNNonlinearSolver newton = nullptr;
+  SUNNonlinSolConvTestFn ida_test = nullptr;  // IDA's own of Newton's convergence
+  void* ida_test_data = nullptr;
   std::vector<double> last_change;      // of Newton's iteration, where it is our own test that ends it
   double first_change = 0;              // of Newton's iteration that is under way
   void* ida = nullptr;
@@ -71,12 +73,14 @@ struct Integrator::Implementation {
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
     require(IDASetId(ida, nw), "IDASetId");
     require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
-    if (dae.rough()) {
-      last_change.assign(at(dae.size()), 0);
-      newton = SUNNonlinSol_Newton(ny, context);
-      require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
-      require(SUNNonlinSolSetConvTestFn(newton, converged, this), "SUNNonlinSolSetConvTestFn");
-    }
+    newton = SUNNonlinSol_Newton(ny, context);
+    require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
+    const auto* content = static_cast<SUNNonlinearSolverContent_Newton>(newton->content);
+    ida_test = content->CTest;
+    ida_test_data = content->ctest_data;
+    if (dae.rough()) last_change.assign(at(dae.size()), 0);
+    require(SUNNonlinSolSetConvTestFn(newton, dae.rough() ? converged : converged_but_for_rounding, this),
+            "SUNNonlinSolSetConvTestFn");
     fired.assign(at(event_functions.count()), 0);
     locate = options.locate_events;
     if (!fired.empty() && locate) {
@@ -89,7 +93,7 @@ struct Integrator::Implementation {
 
   ~Implementation() {
     IDAFree(&ida);
-    if (newton) SUNNonlinSolFree(newton);
+    SUNNonlinSolFree(newton);
     linear.reset();
     N_VDestroy(nw);
     N_VDestroy(np);
@@ -148,6 +152,15 @@ struct Integrator::Implementation {
     const double rate = std::pow(size / self.first_change, 1.0 / iteration);
     if (rate > slowest_rate) return size <= certain * tolerance ? SUN_NLS_CONTINUE : SUN_NLS_CONV_RECVR;
     return rate / (1 - rate) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+  }
+
+  /// IDA takes an iteration that has come to the rounding of the unknowns, and gets no further, for one that fails.
+  static int converged_but_for_rounding(SUNNonlinearSolver solver, N_Vector y, N_Vector change, realtype tolerance,
+                                        N_Vector weight, void* user) {
+    auto& self = *static_cast<Implementation*>(user);
+    const int flag = self.ida_test(solver, y, change, tolerance, weight, self.ida_test_data);
+    if (flag != SUN_NLS_CONV_RECVR) return flag;
+    return N_VWrmsNorm(change, weight) <= self.rounding(weight) ? SUN_NLS_SUCCESS : flag;
   }
 
   bool turns_back(N_Vector change, N_Vector weight) const {
