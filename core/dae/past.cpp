@@ -197,30 +197,53 @@ void Past::find_next_break() {
   }
 }
 
+/// Points around t, half of them on each side where there are so many. Next to each other they are no nearer than a part of
+/// the interval that t is in: between points that are far apart a polynomial through near ones is their noise.
+Past::Stencil Past::stencil(const std::vector<Point>& points, double t, double now, bool beyond) {
+  constexpr double near = 8;  // to a part of the interval
+  const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
+  const auto middle = static_cast<std::size_t>(after - points.begin());
+  const std::size_t wanted = beyond ? step_points - 1 : step_points;
+  double gap = 0;
+  if (beyond) {
+    gap = (now - points.back().t) / near;
+  } else if (middle > 0 && middle < points.size()) {
+    gap = (points[middle].t - points[middle - 1].t) / near;
+  }
+  Stencil left, right;
+  const auto take = [&](Stencil& side, std::size_t i) {
+    if (side.count == 0 || std::abs(points[i].t - points[side.index[side.count - 1]].t) >= gap) side.index[side.count++] = i;
+  };
+  for (std::size_t i = middle; i-- > 0 && left.count < wanted;) take(left, i);
+  for (std::size_t i = middle; i < points.size() && right.count < wanted; ++i) take(right, i);
+  const std::size_t after_t = std::min(right.count, wanted - std::min(left.count, wanted / 2));
+  left.count = std::min(left.count, wanted - after_t);
+  std::reverse(left.index.begin(), left.index.begin() + static_cast<std::ptrdiff_t>(left.count));
+  for (std::size_t k = 0; k < after_t; ++k) left.index[left.count++] = right.index[k];
+  return left;
+}
+
 /// The polynomial through the points around t; beyond the last one the present is the next.
 Past::Felt Past::interpolate(const Run& run, double t, double now, bool last) {
   const std::vector<Point>& points = run.points;
   if (points.empty()) return {0, 1};  // it has just begun
-  const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
   const bool beyond = last && t > points.back().t + time_grain(t) && now > t;
-  const std::size_t count = std::min(beyond ? step_points - 1 : step_points, points.size());
-  const auto middle = static_cast<std::size_t>(after - points.begin());
-  const std::size_t first = std::min(middle > count / 2 ? middle - count / 2 : 0, points.size() - count);
+  const Stencil chosen = stencil(points, t, now, beyond);
+  const std::size_t count = chosen.count;
   Dual times[step_points];
-  for (std::size_t k = 0; k < count; ++k) times[k] = points[first + k].t;
+  for (std::size_t k = 0; k < count; ++k) times[k] = points[chosen.index[k]].t;
   const std::size_t all = beyond ? count + 1 : count;
   if (beyond) times[count] = Dual(now, 1);  // it goes on as t does
   const auto through = [&](double Point::*what, double last) {
     Dual values[step_points];
-    for (std::size_t k = 0; what && k < count; ++k) values[k] = points[first + k].*what;
+    for (std::size_t k = 0; what && k < count; ++k) values[k] = points[chosen.index[k]].*what;
     if (beyond) values[count] = last;
     return rheonet::interpolate(times, values, all, Dual(t, 1));
   };
   Felt felt{through(&Point::v, 0), beyond ? through(nullptr, 1) : Dual(0)};
   // The slope of a polynomial is less exact than rates that are known.
-  const auto rate_known = [](const Point& p) { return !std::isnan(p.rate); };
-  if (!beyond && std::all_of(points.begin() + static_cast<std::ptrdiff_t>(first),
-                             points.begin() + static_cast<std::ptrdiff_t>(first + count), rate_known)) {
+  const auto rate_known = [&](std::size_t i) { return !std::isnan(points[i].rate); };
+  if (!beyond && std::all_of(chosen.index.begin(), chosen.index.begin() + static_cast<std::ptrdiff_t>(count), rate_known)) {
     felt.known.derivative = through(&Point::rate, 0).value;
   }
   return felt;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <limits>
 #include <vector>
 
 #include "core/network/dual.hpp"
+#include "core/dae/polynomial.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
@@ -88,6 +90,8 @@ class Past {
   Track* track(NodeId node);
   Felt velocity(NodeId node, double t, double aside, double now) const;  ///< of the stretch that t + aside lies in
   static Felt look(const std::deque<Run>& runs, double t, double aside, double now, double before);
+  struct Stencil { std::array<std::size_t, step_points> index{}; std::size_t count = 0; };
+  static Stencil stencil(const std::vector<Point>& points, double t, double now, bool beyond);
   static Felt interpolate(const Run& run, double t, double now, bool last);
   /// Returns whether the value jumps where a run begins.
   bool append(Curve& curve, double t, Known known) const;
