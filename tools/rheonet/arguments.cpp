@@ -267,6 +267,11 @@ struct CommandLine {
     add_overrides(plot);
     add_accuracy(plot);
     add_draw();
+    CLI::App* report = add_command("report", "write one HTML file that shows scenes and their results", footer_of_report);
+    add_report_options(*report, arguments.scenes, arguments.output, arguments.title, arguments.certify, arguments.report);
+    add_overrides(report);
+    add_accuracy(report);
+    add_serve_options(*add_command("serve", "play with netlists in a browser", footer_of_serve), arguments.serve);
     CLI::App* components = add_command("components", "describe the element types");
     components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
     components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
@@ -418,6 +423,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
                                                    {"sweep", Command::sweep},
                                                    {"plot", Command::plot},
                                                    {"draw", Command::draw},
+                                                   {"report", Command::report},
+                                                   {"serve", Command::serve},
                                                    {"components", Command::components},
                                                    {"schema", Command::schema}};
   arguments.command = commands.at(app.get_subcommands().front()->get_name());
