@@ -42,12 +42,8 @@ std::string symbol(const Mark& mark, const Scene& scene) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(mark.element)];
   const Component& component = *components()[static_cast<std::size_t>(element.declaration)];
   const Symbol& drawn = symbol_of(scene, mark.element);
-  std::string ends;
-  for (const Mark::End& end : mark.ends)
-    ends += fmt::format(" data-{}=\"{}\"", 2 * end.at.x < mark.box.left + mark.box.right ? "left" : "right",
-                        escaped(scene.nodes[static_cast<std::size_t>(end.node)].name));
-  return fmt::format("<g class=\"{}\" data-element=\"{}\"{}><title>{} ({})</title>", component.declaration.type,
-                     escaped(element.name), ends, escaped(element.name), component.declaration.type) +
+  return fmt::format("<g class=\"{}\" data-element=\"{}\"><title>{} ({})</title>", component.declaration.type,
+                     escaped(element.name), escaped(element.name), component.declaration.type) +
          part(drawn.outline, mark, " fill=\"#ffffff\"") + part(drawn.thin, mark, " stroke-width=\"0.7\"") +
          part(drawn.lines, mark, "") +
          part(drawn.solid, mark, fmt::format(" fill=\"{}\" stroke=\"none\"", ink).c_str()) + "</g>\n";

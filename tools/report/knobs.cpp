@@ -41,7 +41,7 @@ bool takes_part_in_wiring(const std::string& key) {
 
 class Finder {
  public:
-  explicit Finder(const Scene& scene) : scene_(scene) {}
+  explicit Finder(const ReadResult& read) : scene_(*read.scene), demo_(read.presentation.demo) {}
 
   void find(const TomlValue& document) {
     for (const TomlEntry& table : document.entries) {
@@ -119,7 +119,27 @@ class Finder {
     knob.spot = value.spot;
     if (declared) knob.description = declared->description;
     set_range(knob, declared);
+    if (group == "parameters") take_demo(knob);
     found.push_back(std::move(knob));
+  }
+
+  /// The range that the demo gives, in the unit of the value.
+  void take_demo(Knob& knob) const {
+    const auto size_of = [](const std::string& unit) {
+      const auto parsed = parse_unit(unit);
+      const auto* known = std::get_if<Unit>(&parsed);
+      return unit.empty() || !known ? 1 : known->factor;
+    };
+    for (std::size_t k = 0; k < demo_.sliders.size(); ++k) {
+      const Demo::Slider& slider = demo_.sliders[k];
+      if (slider.parameter != knob.name) continue;
+      const double factor = size_of(slider.unit) / size_of(knob.unit);
+      knob.low = slider.least * factor;
+      knob.high = slider.most * factor;
+      knob.step = slider.step * factor;
+      knob.scale = slider.logarithmic ? Knob::Scale::logarithmic : Knob::Scale::linear;
+      knob.asked = static_cast<int>(k) + 1;
+    }
   }
 
   /// What is positive by nature may span decades; what may have either sign is turned through 0.
@@ -165,15 +185,16 @@ class Finder {
   }
 
   const Scene& scene_;
+  const Demo& demo_;
 };
 
 }  // namespace
 
-std::vector<Knob> knobs_of(const Scene& scene, const Sources& sources) {
-  Mistakes mistakes(sources);
-  const std::optional<TomlValue> document = parse_toml(0, sources, mistakes);
+std::vector<Knob> knobs_of(const ReadResult& read) {
+  Mistakes mistakes(read.sources);
+  const std::optional<TomlValue> document = parse_toml(0, read.sources, mistakes);
   if (!document) return {};
-  Finder finder(scene);
+  Finder finder(read);
   finder.find(*document);
   constexpr std::size_t most = 200;
   if (finder.found.size() > most) finder.found.resize(most);

@@ -83,9 +83,9 @@ json equations(const Scene& scene) {
   return list;
 }
 
-json sliders(const Scene& scene, const Sources& sources) {
+json sliders(const ReadResult& read) {
   json list = json::array();
-  for (const Knob& knob : knobs_of(scene, sources)) {
+  for (const Knob& knob : knobs_of(read)) {
     const char* scale = knob.scale == Knob::Scale::logarithmic ? "log" : knob.scale == Knob::Scale::whole ? "whole" : "linear";
     list.push_back({{"group", knob.group},
                     {"name", knob.name},
@@ -95,19 +95,42 @@ json sliders(const Scene& scene, const Sources& sources) {
                     {"scale", scale},
                     {"low", knob.low},
                     {"high", knob.high},
+                    {"step", knob.step},
+                    {"asked", knob.asked},
                     {"line", knob.spot.line},
                     {"column", knob.spot.column}});
   }
   return list;
 }
 
-/// "" if it cannot be drawn: the reason then takes its place.
-std::string schematic(const Scene& scene, std::string& why_not) {
+/// null of a scene that is none.
+json demo(const Demo& demo) {
+  if (demo.question.empty()) return nullptr;
+  return {{"question", demo.question}, {"change", demo.change}, {"see", demo.see}, {"why", demo.why}};
+}
+
+/// What the scene wants drawn: pairs of columns.
+json plot(const PlotTable& table) {
+  json curves = json::array();
+  for (const PlotTable::Curve& curve : table.curves) curves.push_back({curve.x, curve.y});
+  return {{"curves", curves}};
+}
+
+/// The drawing, the nodes at the left and the right end of each symbol in it, or why there is none.
+json schematic(const Scene& scene) {
   try {
-    return draw::svg(draw::schematic(scene, {.title = ""}), scene);
+    const draw::Picture picture = draw::schematic(scene, {.title = ""});
+    json ends = json::object();
+    for (const draw::Mark& mark : picture.marks) {
+      json& of_element = ends[scene.elements[static_cast<std::size_t>(mark.element)].name];
+      for (const draw::Mark::End& end : mark.ends) {
+        const bool left = 2 * end.at.x < mark.box.left + mark.box.right;
+        of_element[left ? "left" : "right"] = scene.nodes[static_cast<std::size_t>(end.node)].name;
+      }
+    }
+    return {{"svg", draw::svg(picture, scene)}, {"ends", ends}, {"why_not", ""}};
   } catch (const plot::Mistake& mistake) {
-    why_not = mistake.what();
-    return "";
+    return {{"svg", ""}, {"ends", json::object()}, {"why_not", mistake.what()}};
   }
 }
 
@@ -140,8 +163,7 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
     const std::string cut = source.text.size() > most ? "\n... and more\n" : "";
     sources.push_back({{"file", source.path.string()}, {"role", name_of(source.role)}, {"text", source.text.substr(0, most) + cut}});
   }
-  std::string why_not;
-  const std::string drawing = schematic(scene, why_not);
+  const json drawing = schematic(scene);
   return to_line({{"kind", "scene"},
                   {"file", file},
                   {"title", scene.title},
@@ -155,9 +177,12 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
                   {"element_count", scene.elements.size()},
                   {"node_count", scene.nodes.size() - 1},
                   {"equations", equations(scene)},
-                  {"sliders", sliders(scene, read.sources)},
-                  {"schematic", drawing},
-                  {"no_schematic", why_not},
+                  {"sliders", sliders(read)},
+                  {"demo", demo(read.presentation.demo)},
+                  {"plot", plot(read.presentation.plot)},
+                  {"schematic", drawing.at("svg")},
+                  {"ends", drawing.at("ends")},
+                  {"no_schematic", drawing.at("why_not")},
                   {"explanation", explanation},
                   {"sources", sources}});
 }

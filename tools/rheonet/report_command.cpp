@@ -140,7 +140,9 @@ ExitStatus write_report(const Arguments& arguments) {
   if (!is_html(arguments.output)) return wrong_input;
   std::vector<ReadResult> reads;
   for (const std::string& file : arguments.scenes) {
-    reads.push_back(read_and_report(file, options_of(arguments)));
+    ReadOptions options = options_of(arguments);
+    options.plotted = true;
+    reads.push_back(read_and_report(file, options));
     if (!reads.back().scene || is_source(arguments.output, "--output", reads.back().sources)) return wrong_input;
   }
   Reporter reporter(arguments);

@@ -44,27 +44,36 @@ std::string read_regular(const fs::path& path, bool& ok) {
   return text;
 }
 
-/// Title and first comment, as far as a glance tells: a netlist is only read when it is opened.
+/// What stands between the first and the last quote of a line.
+std::string in_quotes(const std::string& line) {
+  const std::size_t from = line.find('"'), to = line.rfind('"');
+  return from != std::string::npos && to > from ? line.substr(from + 1, to - from - 1) : "";
+}
+
+/// Title, and the question of a demo or else the first comment, as far as a glance tells: a netlist is only read when it is
+/// opened.
 Folder::Entry glance(const std::string& file, const std::string& text) {
   Folder::Entry entry{file, "", ""};
   std::istringstream lines(text);
-  bool comment = true;
+  bool comment = true, in_table = false, in_demo = false;
+  std::string question;
   for (std::string line; std::getline(lines, line);) {
     if (comment && line.starts_with("#") && !line.starts_with("#:")) {
       const std::string words = line.substr(std::min<std::size_t>(line.size(), 2));
-      if (words.empty() && !entry.about.empty()) comment = false;
-      else entry.about += (entry.about.empty() ? "" : " ") + words;
-    } else {
-      comment = false;
+      if (words.empty() && !entry.about.empty())
+        comment = false;
+      else
+        entry.about += (entry.about.empty() ? "" : " ") + words;
+      continue;
     }
-    if (line.starts_with("title")) {
-      const std::size_t from = line.find('"'), to = line.rfind('"');
-      if (from != std::string::npos && to > from) entry.title = line.substr(from + 1, to - from - 1);
-    }
-    if (line.starts_with("[")) break;
+    comment = false;
+    if (line.starts_with("[")) in_table = true, in_demo = line.starts_with("[demo]");
+    if (!in_table && line.starts_with("title")) entry.title = in_quotes(line);
+    if (in_demo && line.starts_with("question")) question = in_quotes(line);
   }
+  if (!question.empty()) entry.about = question;
   constexpr std::size_t most_words = 400;
-  if (entry.about.size() > most_words) entry.about.resize(entry.about.find_last_of(' ', most_words)), entry.about += " ...";
+  if (entry.about.size() > most_words) entry.about = entry.about.substr(0, entry.about.find_last_of(' ', most_words)) + " ...";
   return entry;
 }
 

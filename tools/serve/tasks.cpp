@@ -48,6 +48,7 @@ Sent sent(const json& item) {
 ReadResult read(const Sent& item) {
   ReadOptions options;
   options.model_folders = tool::library_folders();
+  options.plotted = true;
   ReadResult result = tool::read_text(item.text, item.file, item.folder, options);
   if (result.scene && result.scene->elements.size() > most_elements) {
     result.diagnostics.push_back({.severity = Severity::error,

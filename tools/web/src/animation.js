@@ -28,7 +28,7 @@ export class Animation {
   // What is to move: the drawing and its run.
   attach(svg, data) {
     this.data = data;
-    this.parts = svg ? [...svg.querySelectorAll('[data-element]')].map((node) => this.part(node)) : [];
+    this.parts = svg ? [...svg.querySelectorAll('[data-element]')].map((node) => this.part(node, data.scene.ends)) : [];
     this.rods = svg ? [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node })) : [];
     const { scene } = data;
     const relative = scene.elements.filter(({ b }) => b).map(({ name }) => data.column(`${name}.displacement`)).filter(Boolean);
@@ -38,9 +38,9 @@ export class Animation {
     if (this.playing || this.place > 0) this.draw();
   }
 
-  part(node) {
-    const { left, right, element: name } = node.dataset;
-    node.removeAttribute('transform');
+  part(node, ends) {
+    const name = node.dataset.element;
+    const { left, right } = ends[name] ?? {};
     const box = node.getBBox();
     const slider = node.classList.contains('slider');
     return { node, left, right, name, slider, x: box.x, width: box.width };

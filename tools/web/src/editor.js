@@ -41,7 +41,7 @@ export class Editor {
       extensions: [
         lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), history(), bracketMatching(),
         StreamLanguage.define(toml), syntaxHighlighting(colours), look, lintGutter(), EditorView.lineWrapping,
-        EditorView.contentAttributes.of({ 'aria-label': 'Netlist' }),
+        EditorView.contentAttributes.of({ 'aria-label': 'Netlist', tabindex: '0' }),
         keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap]),
         EditorView.updateListener.of((update) => {
           if (!update.docChanged) return;

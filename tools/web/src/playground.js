@@ -12,7 +12,7 @@ import { menu } from './menu.js';
 import { PlotPanel } from './plot-panel.js';
 import { Runner } from './runner.js';
 import { SceneData } from './scene-data.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, notesOf, statisticsOf } from './sections.js';
+import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, lessonOf, notesOf, statisticsOf } from './sections.js';
 import { differencesOf } from './differences.js';
 import { Sliders } from './sliders.js';
 
@@ -78,10 +78,12 @@ class Playground {
     host.append(bar, element('main', { class: 'desk' },
       box('editor', 'Netlist', this.choice, part('editor'), part('mistakes')),
       element('div', { class: 'stage' },
+        (this.lesson = box('lesson', 'Question')),
         box('schematic', 'Schematic', part('drawing'), part('animation')),
         box('plots', 'Plots', this.status, part('plots')),
         box('more', 'More', part('sections'))),
       box('sliders', 'Sliders', part('sliders'))));
+    this.lesson.hidden = true;
     this.help = this.buildHelp();
     document.body.append(this.help);
   }
@@ -103,8 +105,10 @@ class Playground {
     } catch (error) {
       this.say(error.message, true);
     }
-    if (await this.openLink()) return;
+    const opened = await this.openLink();
+    if (opened) return;
     this.load(0, empty, 'scene.toml');
+    if (this.notice) return;
     if (this.folder.scenes.length) this.gallery.open();
   }
 
@@ -168,6 +172,11 @@ class Playground {
     requestAnimationFrame(() => {
       const took = performance.now() - asked;
       this.status.dataset.latency = took.toFixed(1);
+      if (this.notice) {
+        this.say(this.notice, true);
+        this.notice = null;
+        return;
+      }
       this.say(`${data.done.statistics.steps} steps, ${data.done.statistics.cpu_time} of CPU time; drawn ${Math.round(took)} ms after the change`);
     });
   }
@@ -183,11 +192,21 @@ class Playground {
     const { scene } = data;
     this.title.textContent = scene.title || this.current.file;
     document.title = `${scene.title || this.current.file} – rheonet`;
+    this.showLesson(scene);
     if (scene.schematic !== this.drawn) {
       this.drawn = scene.schematic;
       this.parts.drawing.replaceChildren(schematicOf(scene));
     }
     this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+  }
+
+  showLesson(scene) {
+    const words = JSON.stringify(scene.demo ?? null);
+    if (words === this.words) return;
+    this.words = words;
+    this.lesson.hidden = !scene.demo;
+    this.lesson.querySelector('.lesson')?.remove();
+    if (scene.demo) this.lesson.append(lessonOf(scene, true));
   }
 
   showPlots() {
@@ -376,7 +395,8 @@ class Playground {
       }
       return true;
     } catch (error) {
-      this.say(`The link cannot be read: ${error.message}`, true);
+      this.notice = `The link cannot be read: ${error.message}`;
+      this.say(this.notice, true);
       return false;
     }
   }
@@ -406,7 +426,10 @@ class Playground {
     if (event.key === ' ') {
       event.preventDefault();
       this.animation.toggle();
-    } else if (event.key === 'g') this.gallery.open();
+    } else if (event.key === 'g') {
+      event.preventDefault();
+      this.gallery.open();
+    }
   }
 }
 

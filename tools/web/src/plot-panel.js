@@ -3,6 +3,7 @@ import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, freshId } from './dom.js';
 
 const kinds = [
+  { id: 'own', label: 'As the scene says' },
   { id: 'time', label: 'Over time' },
   { id: 'loop', label: 'Force against displacement', x: 'displacement', y: 'force' },
   { id: 'flow', label: 'Force against velocity', x: 'velocity', y: 'force' },
@@ -14,7 +15,7 @@ export class PlotPanel {
   constructor(host, { onchange = () => {} } = {}) {
     this.host = host;
     this.onchange = onchange;
-    this.kind = 'time';
+    this.kind = null; // nobody has chosen
     this.owner = null;
     this.chosen = null;
     this.charts = [];
@@ -30,17 +31,20 @@ export class PlotPanel {
     host.append(element('div', { class: 'plot-head' }, this.tabs, this.tools), this.body);
     const name = freshId('kind');
     for (const kind of kinds) {
-      const input = element('input', { type: 'radio', name, value: kind.id, checked: kind.id === this.kind });
+      const input = element('input', { type: 'radio', name, value: kind.id, checked: kind.id === 'time' });
       input.addEventListener('change', () => this.choose({ kind: kind.id }));
-      this.tabs.append(element('label', {}, input, element('span', {}, kind.label)));
+      this.tabs.append(element('label', { 'data-kind': kind.id }, input, element('span', {}, kind.label)));
     }
   }
 
   // runs: [{ label, data }]; curves carry the labels where there are several.
   show(runs) {
     this.runs = runs.filter((run) => run.data.scene);
+    this.tabs.querySelector('[data-kind="own"]').hidden = !this.ownCurves().length;
+    for (const input of this.tabs.querySelectorAll('input')) input.checked = input.value === this.shownKind;
     const shape = JSON.stringify([
-      this.kind,
+      this.shownKind,
+      this.ownCurves(),
       this.owner,
       this.chosen && [...this.chosen],
       this.runs.map((run) => [run.label, run.data.records.map((record) => [record.path, record.unit])]),
@@ -52,7 +56,6 @@ export class PlotPanel {
 
   choose(choice) {
     Object.assign(this, choice);
-    for (const input of this.tabs.querySelectorAll('input')) input.checked = input.value === this.kind;
     this.show(this.runs);
     this.onchange();
   }
@@ -62,10 +65,21 @@ export class PlotPanel {
     return { kind: this.kind, owner: this.owner, chosen: this.chosen && [...this.chosen] };
   }
   set state({ kind, owner, chosen }) {
-    this.kind = kinds.some((known) => known.id === kind) ? kind : 'time';
+    this.kind = kinds.some((known) => known.id === kind) ? kind : null;
     this.owner = owner ?? null;
     this.chosen = chosen ? new Set(chosen) : null;
-    for (const input of this.tabs.querySelectorAll('input')) input.checked = input.value === this.kind;
+  }
+
+  // What the scene wants drawn against something else than time.
+  ownCurves() {
+    const curves = this.runs[0]?.data.scene.plot?.curves ?? [];
+    return curves.filter(([x]) => x !== 'time');
+  }
+
+  get shownKind() {
+    const own = this.ownCurves().length > 0;
+    if (this.kind && (this.kind !== 'own' || own)) return this.kind;
+    return own ? 'own' : 'time';
   }
 
   build() {
@@ -74,13 +88,19 @@ export class PlotPanel {
     this.body.replaceChildren();
     this.tools.replaceChildren();
     if (!this.runs.length) return;
-    const kind = kinds.find((known) => known.id === this.kind);
+    const kind = kinds.find((known) => known.id === this.shownKind);
     if (kind.id === 'time') this.buildTime();
+    else if (kind.id === 'own') this.buildOwn();
     else this.buildLoop(kind);
   }
 
   update() {
-    const kind = kinds.find((known) => known.id === this.kind);
+    const kind = kinds.find((known) => known.id === this.shownKind);
+    if (kind.id === 'own') {
+      const panels = this.ownPanels();
+      this.charts.forEach((chart, k) => chart.update(panels[k].curves));
+      return;
+    }
     if (kind.id !== 'time') {
       const curves = this.loopCurves(kind);
       if (this.charts[0]) this.charts[0].update(curves);
@@ -90,9 +110,38 @@ export class PlotPanel {
     this.charts.forEach((chart, k) => chart.update(panels[k].curves, this.eventTimes()));
   }
 
-  // The records that are shown, by default the first of each quantity that the scene itself records.
+  // A panel for each pair of quantities that the scene draws against each other.
+  ownPanels() {
+    const panels = new Map();
+    this.runs.forEach(({ label, data }, run) => {
+      this.ownCurves().forEach(([x, y], style) => {
+        const sides = [x, y].map((path) => data.records[data.index.get(path)]);
+        if (!sides[0] || !sides[1]) return;
+        const [across, up] = sides.map(({ quantity, unit }) => ({ quantity, unit }));
+        const key = JSON.stringify([across, up]);
+        if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
+        const panel = panels.get(key);
+        const name = this.ownCurves().every(([other]) => other === x) ? y : `${y} against ${x}`;
+        panel.curves.push({ name: this.runs.length > 1 ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y),
+          style: style + run * this.ownCurves().length, data });
+      });
+    });
+    return [...panels.values()];
+  }
+
+  buildOwn() {
+    for (const panel of this.ownPanels()) {
+      const host = element('div');
+      this.body.append(host);
+      this.charts.push(new LoopChart(host, panel));
+    }
+  }
+
+  // The records that are shown, by default those that the scene draws, or the first of each quantity that the scene itself records.
   shownPaths() {
     if (this.chosen) return this.chosen;
+    const drawn = this.runs.flatMap(({ data }) => data.scene.plot?.curves ?? []).filter(([x]) => x === 'time').map(([, y]) => y);
+    if (drawn.length) return new Set(drawn);
     const counts = new Map();
     const paths = new Set();
     for (const { data } of this.runs)
@@ -213,7 +262,8 @@ export class PlotPanel {
 
   // What is drawn, as pairs of columns: x and y.
   curvePairs() {
-    const kind = kinds.find((known) => known.id === this.kind);
+    const kind = kinds.find((known) => known.id === this.shownKind);
+    if (kind.id === 'own') return this.ownCurves();
     if (kind.id !== 'time') return this.loopOwner ? [[`${this.loopOwner}.${kind.x}`, `${this.loopOwner}.${kind.y}`]] : [];
     return [...this.shownPaths()].map((path) => ['time', path]);
   }

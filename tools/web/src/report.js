@@ -4,7 +4,7 @@ import './report.css';
 import { element, schematicOf } from './dom.js';
 import { PlotPanel } from './plot-panel.js';
 import { SceneData } from './scene-data.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, notesOf, sourcesOf, statisticsOf } from './sections.js';
+import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, lessonOf, notesOf, sourcesOf, statisticsOf } from './sections.js';
 import { number } from './units.js';
 import { differencesOf } from './differences.js';
 
@@ -37,6 +37,7 @@ function sceneOf(data, k) {
     several ? element('h2', {}, element('span', { class: 'letter' }, letters[k]), ` ${scene.title || scene.file}`) : null,
     element('p', { class: 'subtitle' }, element('code', {}, scene.file), ` – ${summary(data)}`),
     notesOf(data),
+    section('The question', lessonOf(scene, false)),
     section('Schematic', schematicOf(scene)),
     several ? null : section('Plots', plots([{ label: '', data }])),
     section('Claims', claimsOf(data)),

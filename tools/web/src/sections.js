@@ -5,6 +5,17 @@ import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, table } from './dom.js';
 import { grouped, number, withUnit } from './units.js';
 
+// What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
+export function lessonOf({ demo }, folded) {
+  if (!demo) return null;
+  const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, text)) : element('p', {}, element('b', {}, `${name} `), text));
+  return element('div', { class: 'lesson' },
+    element('p', { class: 'question' }, demo.question),
+    element('p', {}, element('b', {}, 'Change '), demo.change),
+    answer('See', demo.see),
+    answer('Why', demo.why));
+}
+
 export function equationsOf(scene) {
   const list = element('div', { class: 'equations' });
   for (const { type, tex, law, summary, notes, source, symbols } of scene.equations) {

@@ -39,6 +39,7 @@ class Slider {
     const part = place / steps;
     if (scale === 'log') return rounded(low * (high / low) ** part);
     const value = low + (high - low) * part;
+    if (this.knob.step) return rounded(low + Math.round((value - low) / this.knob.step) * this.knob.step);
     if (scale === 'whole') return Math.round(value);
     // Next to 0 is 0.
     return Math.abs(value) < (high - low) / (2 * steps) ? 0 : rounded(value);
@@ -100,14 +101,22 @@ export class Sliders {
       slider.from = this.editor.offset(knob.line, knob.column);
       return slider;
     });
-    const groups = new Map();
-    const order = (group) => (group === 'parameters' ? 0 : group === 'simulate' ? 2 : 1);
-    [...this.all].sort((a, b) => order(a.knob.group) - order(b.knob.group)).forEach((slider) => {
-      if (!groups.has(slider.knob.group)) groups.set(slider.knob.group, []);
-      groups.get(slider.knob.group).push(slider.row);
-    });
-    this.host.replaceChildren(...[...groups].map(([group, rows]) =>
-      element('fieldset', {}, element('legend', {}, group === 'simulate' ? 'run' : group), rows)));
+    const grouped = (sliders) => {
+      const groups = new Map();
+      const order = (group) => (group === 'parameters' ? 0 : group === 'simulate' ? 2 : 1);
+      [...sliders].sort((a, b) => order(a.knob.group) - order(b.knob.group)).forEach((slider) => {
+        if (!groups.has(slider.knob.group)) groups.set(slider.knob.group, []);
+        groups.get(slider.knob.group).push(slider.row);
+      });
+      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, group === 'simulate' ? 'run' : group), rows));
+    };
+    // A demo says which are worth moving; the others are folded away.
+    const asked = this.all.filter(({ knob }) => knob.asked).sort((a, b) => a.knob.asked - b.knob.asked);
+    const others = this.all.filter(({ knob }) => !knob.asked);
+    if (asked.length) {
+      this.host.replaceChildren(element('fieldset', {}, element('legend', {}, 'to move'), asked.map(({ row }) => row)),
+        element('details', {}, element('summary', {}, `All other numbers (${others.length})`), grouped(others)));
+    } else this.host.replaceChildren(...grouped(others));
     if (!this.all.length) this.host.append(element('p', { class: 'note' }, 'The netlist has no numbers to turn.'));
   }
 
