@@ -157,6 +157,7 @@ test('two variants are compared', async () => {
   near(await valueAt(page, 0.999, 'A k1.force'), 7);
   near(await valueAt(page, 0.999, 'B k1.force'), 9);
   await page.locator('summary', { hasText: 'Differences' }).click();
+  await page.waitForSelector('details[data-name="Differences"] table');
   // The two are 2 N*m apart as soon as both slip.
   assert.match(await page.locator('details[data-name="Differences"]').textContent(), /A – Bk1\.force2 N·m/);
   await page.locator('.variants label', { hasText: 'Edit A' }).click();
