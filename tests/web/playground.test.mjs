@@ -79,8 +79,8 @@ test('the gallery shows the netlists of the folder, and opens one', async () => 
   await page.locator('.gallery input').fill('stick');
   assert.equal(await page.locator('.card:visible').count(), 1);
   await page.locator('.card:visible').click();
+  await page.waitForFunction(() => document.querySelector('h1').textContent === 'Stick and slip');
   await done(page);
-  assert.equal(await page.textContent('h1'), 'Stick and slip');
   for (const name of ['pull', 'k1', 'm1', 's1']) assert.equal(await page.locator(`.drawing [data-element="${name}"]`).count(), 1);
   await close();
 });

@@ -19,7 +19,7 @@ export function lessonOf({ demo }, folded) {
 export function equationsOf(scene) {
   const list = element('div', { class: 'equations' });
   for (const { type, tex, law, summary, notes, source, symbols } of scene.equations) {
-    const equation = element('div', { class: 'equation' });
+    const equation = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': `Law of ${type}` });
     if (tex) katex.render(tex, equation, { displayMode: true, throwOnError: false, output: 'htmlAndMathml' });
     else equation.append(element('code', {}, law));
     list.append(
