@@ -130,6 +130,31 @@ test('a report is accessible in light and dark, and prints on white', async () =
   }
 });
 
+test('of very many rows a report keeps the peaks', async () => {
+  const many = folderWith({
+    'many.toml': `[elements]
+kick = { type = "force", at = "a", force = { pulse = "3 N", width = "40 us", time = "0.73 s" } }
+c1 = { type = "dashpot", between = ["a", "ground"], damping = "2 N*s/m" }
+[simulate]
+stop = "2 s"
+output = { every = "10 us" }
+record = ["a.velocity", "kick.force"]
+`,
+  });
+  await rheonet(['report', 'many.toml', '-o', 'many.html'], { cwd: many });
+  const html = readFileSync(join(many, 'many.html'), 'utf8');
+  const [scene] = JSON.parse(/<script type="application\/json" id="data">(.*?)<\/script>/s.exec(html)[1]).scenes;
+  const { time, values } = scene.find(({ kind }) => kind === 'rows');
+  assert.ok(time.length > 500 && time.length < 20_000, String(time.length));
+  assert.equal(time[0], 0);
+  assert.equal(time.at(-1), 2);
+  assert.ok(time.every((t, k) => k === 0 || t > time[k - 1]));
+  assert.equal(Math.max(...values[0]), 1.5);
+  const at = time[values[0].indexOf(1.5)];
+  assert.ok(at >= 0.73 - 1e-9 && at <= 0.73004 + 1e-9, String(at));
+  remove(many);
+});
+
 test('a report says what failed', async () => {
   const wrongs = folderWith({
     'claim.toml': `${bingham}\n[expect]\n"k1.force" = { final = "8 N*m", within = "0.1 N*m" }\n`,

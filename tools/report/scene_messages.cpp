@@ -7,6 +7,7 @@
 #include "tools/draw/caption.hpp"
 #include "tools/draw/schematic.hpp"
 #include "tools/plot/mistake.hpp"
+#include "tools/plot/units.hpp"
 #include "tools/report/knobs.hpp"
 #include "tools/report/messages.hpp"
 #include "tools/rheonet/network_text.hpp"
@@ -28,7 +29,18 @@ const char* name_of(Record::Subject subject) {
                                        : "assembly";
 }
 
-json records(const Scene& scene) {
+/// The first of the wished units in which a record can be shown; null if there is none.
+json shown_in(const std::vector<std::string>& wished, const std::string& unit) {
+  const plot::Measure measure = plot::measure("", unit);
+  for (const std::string& wish : wished) {
+    const plot::Measure other = plot::measure("", wish);
+    if (other.size && plot::compatible(measure, other)) return {{"name", plot::in_print(wish)}, {"factor", other.size->factor}};
+  }
+  return nullptr;
+}
+
+json records(const ReadResult& read) {
+  const Scene& scene = *read.scene;
   json list = json::array();
   for (const Record& record : scene.records) {
     const auto quantity = quantity_of(scene, record);
@@ -40,6 +52,8 @@ json records(const Scene& scene) {
                     {"subject", name_of(record.subject)},
                     {"quantity", !quantity ? "signal" : length ? "position" : rheonet::name_of(*quantity, scene.domain)},
                     {"unit", unit_text(scene, record)}});
+    if (const json shown = shown_in(read.presentation.plot.units, unit_text(scene, record)); !shown.is_null())
+      list.back()["shown"] = shown;
   }
   return list;
 }
@@ -171,7 +185,7 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
                   {"start", scene.start},
                   {"stop", scene.stop},
                   {"accuracy", scene.accuracy},
-                  {"records", records(scene)},
+                  {"records", records(read)},
                   {"own_records", own_records},
                   {"elements", elements(scene)},
                   {"element_count", scene.elements.size()},

@@ -4,20 +4,6 @@
 
 namespace rheonet::tool {
 
-const char* const footer_of_report =
-    "For instance:\n"
-    "  rheonet report scene.toml -o report.html\n"
-    "  rheonet report stiff.toml soft.toml -o both.html --certify\n\n"
-    "The report is one file, which opens in any browser without a network, and prints.\n\n"
-    "Exit status: 0 done; 1 a scene could not be simulated to its end, or a claim of its [expect] fails, or it could not\n"
-    "be certified (the report says so), or the report not be written; 2 a scene or the command line is wrong.";
-
-const char* const footer_of_serve =
-    "For instance:\n"
-    "  rheonet serve\n"
-    "  rheonet serve my-netlists --port 8080\n\n"
-    "Exit status: 0 ended by Ctrl-C; 1 the address cannot be used, or the web pages are missing; 2 the command line is wrong.";
-
 void add_report_options(CLI::App& command, std::vector<std::string>& scenes, std::string& output, std::string& title,
                         bool& certify, ReportArguments& report) {
   constexpr int most_scenes = 26;

@@ -31,7 +31,4 @@ void add_report_options(CLI::App& command, std::vector<std::string>& scenes, std
 
 void add_serve_options(CLI::App& command, ServeArguments& serve);
 
-extern const char* const footer_of_report;
-extern const char* const footer_of_serve;
-
 }  // namespace rheonet::tool

@@ -1,7 +1,7 @@
 // node build.mjs OUTPUT: bundles what the browser gets into OUTPUT, whose node_modules holds the packages.
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 
 const source = dirname(fileURLToPath(import.meta.url));
@@ -25,6 +25,23 @@ const fonts = {
   },
 };
 
+// The pages hold code of others, whose licences want to be named with it.
+function licences(inputs) {
+  const names = new Set();
+  for (const input of Object.keys(inputs)) {
+    const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
+    if (found) names.add(found[1]);
+  }
+  const said = [...names].sort().map((name) => {
+    const folder = join(output, 'node_modules', name);
+    const { version, license } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+    const text = existsSync(join(folder, 'LICENSE')) ? readFileSync(join(folder, 'LICENSE'), 'utf8') : '';
+    const holder = /^.*copyright.*$/im.exec(text)?.[0].trim() ?? '';
+    return `${name} ${version} (${license}) ${holder}`.trim();
+  });
+  return `/* With parts of:\n${said.map((line) => `   ${line}`).join('\n')}\n   The licences are those of these packages. */\n`;
+}
+
 async function bundle(entry) {
   const result = await esbuild.build({
     entryPoints: [join(source, 'src', entry)],
@@ -37,10 +54,11 @@ async function bundle(entry) {
     nodePaths: [join(output, 'node_modules')],
     outdir: output,
     write: false,
+    metafile: true,
     plugins: [fonts],
   });
   const text = (ending) => result.outputFiles.find((file) => file.path.endsWith(ending)).text;
-  return { script: text('.js'), style: text('.css') };
+  return { script: licences(result.metafile.inputs) + text('.js'), style: text('.css') };
 }
 
 const page = (name) => readFileSync(join(source, 'src', name), 'utf8');

@@ -2,7 +2,10 @@
 import { element } from './dom.js';
 import { largestOf, number } from './units.js';
 
-const reach = 24; // px that the largest relative motion takes
+const reach = 24; // px that the largest relative motion of a usual element takes
+const most = 2 * reach; // px that nothing goes beyond, however far it moves
+
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor((values.length - 1) / 2)];
 
 export class Animation {
   constructor(host, { onframe }) {
@@ -30,10 +33,12 @@ export class Animation {
     this.data = data;
     this.parts = svg ? [...svg.querySelectorAll('[data-element]')].map((node) => this.part(node, data.scene.ends)) : [];
     this.rods = svg ? [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node })) : [];
+    this.labels = svg ? [...svg.querySelectorAll('text')].map((node) => this.label(node)) : [];
     const { scene } = data;
-    const relative = scene.elements.filter(({ b }) => b).map(({ name }) => data.column(`${name}.displacement`)).filter(Boolean);
-    const largest = largestOf(relative.length ? relative : data.records.filter(({ channel }) => channel === 'position').map(({ path }) => data.column(path)));
-    this.scale = largest > 0 ? reach / largest : 0;
+    const stretched = scene.elements.filter(({ b }) => b).map(({ name }) => data.column(`${name}.displacement`)).filter(Boolean);
+    const moved = stretched.length ? stretched : data.records.filter(({ channel }) => channel === 'position').map(({ path }) => data.column(path));
+    const sizes = moved.map((column) => largestOf([column])).filter((size) => size > 0);
+    this.scale = sizes.length ? reach / median(sizes) : 0;
     this.legend.hidden = !this.parts.some(({ slider }) => slider);
     if (this.playing || this.place > 0) this.draw();
   }
@@ -43,13 +48,30 @@ export class Animation {
     const { left, right } = ends[name] ?? {};
     const box = node.getBBox();
     const slider = node.classList.contains('slider');
-    return { node, left, right, name, slider, x: box.x, width: box.width };
+    return { node, left, right, name, slider, x: box.x, width: box.width, y: box.y, height: box.height };
+  }
+
+  // What a text goes along with: the node that it names, or the symbol that it stands in, above or below.
+  label(node) {
+    if (node.getAttribute('font-style') === 'italic') return { node, of: { left: node.textContent } };
+    const box = node.getBBox();
+    const x = box.x + box.width / 2;
+    const y = box.y + box.height / 2;
+    let of = {};
+    let nearest = 45; // px
+    for (const part of this.parts) {
+      if (x < part.x || x > part.x + part.width) continue;
+      const away = Math.max(part.y - y, y - part.y - part.height, 0);
+      if (away < nearest) [nearest, of] = [away, part];
+    }
+    return { node, of };
   }
 
   shift(node, i) {
     if (!node || node === 'ground') return 0;
     const column = this.data.column(`${node}.position`);
-    return column && column.length ? column[Math.min(i, column.length - 1)] * this.scale : 0;
+    const far = column && column.length ? column[Math.min(i, column.length - 1)] * this.scale : 0;
+    return most * Math.tanh(far / most);
   }
 
   draw() {
@@ -59,6 +81,10 @@ export class Animation {
     const i = data.at(time);
     for (const { node, name } of this.rods) node.style.transform = `translateX(${this.shift(name, i).toFixed(2)}px)`;
     for (const part of this.parts) this.drawPart(part, i);
+    for (const { node, of: { left, right } } of this.labels) {
+      const middle = (this.shift(left ?? right, i) + this.shift(right ?? left, i)) / 2;
+      node.style.transform = `translateX(${middle.toFixed(2)}px)`;
+    }
     this.scrub.value = String(Math.round(this.place * 1000));
     this.clock.textContent = `${number(time, 4)} s`;
     this.onframe(time);

@@ -87,7 +87,7 @@ TimeGroup.count = 0;
 
 export class TimeChart extends Chart {
   // curves: [{ name, time, values }], all of one unit.
-  constructor(host, group, { quantity, unit, curves, events = [], height = 230, first = 0 }) {
+  constructor(host, group, { quantity, unit, as, curves, events = [], height = 230, labelled = true, first = 0 }) {
     super(host, height);
     this.group = group;
     group.members.add(this);
@@ -99,7 +99,8 @@ export class TimeChart extends Chart {
     host.setAttribute('aria-label', `${quantity} over time: ${names}. Keys: plus and minus zoom, arrows move, 0 shows all.`);
     this.quantity = quantity;
     this.unit = unit;
-    this.shown = shownIn(unit, largestOf(curves.map((curve) => curve.values)));
+    this.as = as; // the unit that somebody wants
+    this.shown = as ?? shownIn(unit, largestOf(curves.map((curve) => curve.values)));
     this.curves = curves;
     const series = curves.map((curve, k) => ({
       label: curve.name,
@@ -116,7 +117,7 @@ export class TimeChart extends Chart {
         height,
         series: [{ label: 'time', value: (_, t) => (t === null ? '–' : `${number(t, 6)} s`) }, ...series],
         scales: { x: { time: false } },
-        axes: [axis('time [s]', { space: 60 }), axis(labelOf(quantity, this.shown), { size: 64 })],
+        axes: [axis(labelled ? 'time [s]' : undefined, { space: 60, size: labelled ? 50 : 28 }), axis(labelOf(quantity, this.shown), { size: 64 })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true },
         hooks: {
@@ -141,7 +142,7 @@ export class TimeChart extends Chart {
     const whole = this.full();
     this.curves = curves;
     this.events = events;
-    this.shown = shownIn(this.unit, largestOf(curves.map((curve) => curve.values)));
+    this.shown = this.as ?? shownIn(this.unit, largestOf(curves.map((curve) => curve.values)));
     this.plot.axes[1].label = labelOf(this.quantity, this.shown);
     this.plot.setData(this.data(), whole);
     if (!whole) this.plot.redraw();
@@ -200,7 +201,7 @@ export class TimeChart extends Chart {
 }
 
 export class LoopChart extends Chart {
-  // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit }, or { log: true } of both.
+  // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit, as }, or { log: true } of both.
   constructor(host, { x, y, curves, height = 380, marks = false }) {
     super(host, height);
     this.marks = marks;
@@ -264,7 +265,7 @@ export class LoopChart extends Chart {
   findUnits() {
     this.units = this.sides.map((side, k) => {
       const values = this.curves.map((curve) => (k === 0 ? curve.x : curve.y));
-      return side.log ? { name: side.unit, factor: 1 } : shownIn(side.unit, largestOf(values));
+      return side.log ? { name: side.unit, factor: 1 } : side.as ?? shownIn(side.unit, largestOf(values));
     });
   }
 

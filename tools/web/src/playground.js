@@ -6,15 +6,17 @@ import { folder, open, save } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { download, exporters } from './export.js';
+import { Folds } from './folds.js';
 import { Gallery } from './gallery.js';
+import { helpDialog } from './help.js';
 import { decode, encode } from './link.js';
 import { menu } from './menu.js';
 import { PlotPanel } from './plot-panel.js';
 import { Runner } from './runner.js';
 import { SceneData } from './scene-data.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, lessonOf, notesOf, statisticsOf } from './sections.js';
-import { differencesOf } from './differences.js';
+import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
+import { rememberTheme, switchTheme } from './theme.js';
 
 const empty = `title = "A spring and a mass"
 
@@ -43,6 +45,7 @@ class Playground {
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
+    this.folds = new Folds(this.parts.sections);
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
     document.addEventListener('keydown', (event) => this.key(event));
     addEventListener('hashchange', () => this.openLink());
@@ -65,7 +68,7 @@ class Playground {
     this.title = element('h1', {}, 'rheonet');
     this.compareButton = button('Compare', () => this.compare(), { 'aria-pressed': 'false' });
     this.status = element('p', { class: 'status', role: 'status' });
-    this.themeButton = button('◐', () => this.switchTheme(), { 'aria-label': 'Light or dark', title: 'Light or dark' });
+    this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
     const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': 'Actions' },
       button('Gallery', () => this.gallery.open()),
       menu('Save', () => this.saves()),
@@ -84,18 +87,8 @@ class Playground {
         box('more', 'More', part('sections'))),
       box('sliders', 'Sliders', part('sliders'))));
     this.lesson.hidden = true;
-    this.help = this.buildHelp();
+    this.help = helpDialog();
     document.body.append(this.help);
-  }
-
-  buildHelp() {
-    const keys = [['Ctrl S', 'save the netlist'], ['Space', 'animate, or pause (outside the editor)'], ['← →', 'turn the slider that has the focus; move in a plot'],
-      ['+ − 0', 'zoom in a plot, and show all'], ['Ctrl Z', 'undo, in the editor'], ['Esc, Tab', 'leave the editor'], ['G', 'the gallery (outside the editor)']];
-    const dialog = element('dialog', { class: 'help', 'aria-labelledby': 'help-title' },
-      element('div', { class: 'dialog-head' }, element('h2', { id: 'help-title' }, 'Help'), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')),
-      element('p', {}, 'Choose a netlist in the gallery. Turn a slider, or change the text: schematic and plots follow. Compare keeps the netlist as A and lets you change B. A link carries the whole scene.'),
-      element('dl', {}, keys.map(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])));
-    return dialog;
   }
 
   async begin() {
@@ -227,36 +220,7 @@ class Playground {
   }
 
   showSections() {
-    const { data } = this.current;
-    if (!data.scene) return;
-    const opened = new Set([...this.parts.sections.querySelectorAll('details[open]')].map((details) => details.dataset.name));
-    this.charts?.forEach((chart) => chart.destroy());
-    this.charts = [];
-    const fold = (name, make) => {
-      const details = element('details', { 'data-name': name, open: opened.has(name) }, element('summary', {}, name));
-      const fill = () => {
-        if (!details.open || details.dataset.full) return;
-        details.dataset.full = 'yes';
-        const content = [make()].flat().filter(Boolean);
-        details.append(...(content.length ? content : [element('p', { class: 'note' }, 'None.')]));
-      };
-      details.addEventListener('toggle', fill);
-      queueMicrotask(fill);
-      return details;
-    };
-    const runs = this.variants.map(({ label, data: each }) => ({ label, data: each })).filter((run) => run.data.scene);
-    this.parts.sections.replaceChildren(...[
-      runs.length > 1 ? fold('Differences', () => differencesOf(runs)) : null,
-      fold('What is simulated, and why', () => element('pre', { tabindex: '0' }, data.scene.explanation)),
-      fold('Equations', () => equationsOf(data.scene)),
-      fold('Elements', () => elementsOf(data.scene)),
-      data.energy?.time.length ? fold('Energy account', () => energyOf(data, this.charts)) : null,
-      fold('Events', () => eventsOf(data)),
-      data.done?.claims.length ? fold('Claims', () => claimsOf(data)) : null,
-      data.done ? fold('Statistics', () => statisticsOf(data)) : null,
-      data.done?.notes.length || data.mistakes.length ? fold('Notes', () => notesOf(data)) : null,
-      fold('Accuracy', () => accuracyOf(data, this.charts) ?? element('p', { class: 'note' }, `The scene asks for ${data.scene.accuracy}. \`rheonet report --certify --precision\` measures what is reached, and what it costs.`)),
-    ].filter(Boolean));
+    if (this.current.data.scene) this.folds.show(this.current.data, this.variants.map(({ label, data }) => ({ label, data })));
   }
 
   // Two variants.
@@ -403,16 +367,6 @@ class Playground {
 
   // The rest.
 
-  switchTheme() {
-    const dark = getComputedStyle(document.documentElement).colorScheme === 'dark' || (document.documentElement.dataset.theme ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light')) === 'dark';
-    document.documentElement.dataset.theme = dark ? 'light' : 'dark';
-    try {
-      localStorage.setItem('theme', document.documentElement.dataset.theme);
-    } catch {
-      // It is remembered where that is allowed.
-    }
-  }
-
   key(event) {
     if ((event.ctrlKey || event.metaKey) && event.key === 's') {
       event.preventDefault();
@@ -433,11 +387,6 @@ class Playground {
   }
 }
 
-try {
-  const theme = localStorage.getItem('theme');
-  if (theme) document.documentElement.dataset.theme = theme;
-} catch {
-  // The system's theme then.
-}
+rememberTheme();
 const playground = new Playground(document.getElementById('playground'));
 playground.begin();

@@ -117,7 +117,7 @@ export class PlotPanel {
       this.ownCurves().forEach(([x, y], style) => {
         const sides = [x, y].map((path) => data.records[data.index.get(path)]);
         if (!sides[0] || !sides[1]) return;
-        const [across, up] = sides.map(({ quantity, unit }) => ({ quantity, unit }));
+        const [across, up] = sides.map(({ quantity, unit, shown }) => ({ quantity, unit, as: shown }));
         const key = JSON.stringify([across, up]);
         if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
         const panel = panels.get(key);
@@ -161,7 +161,7 @@ export class PlotPanel {
       data.records.forEach((record, k) => {
         if (!paths.has(record.path)) return;
         const key = `${record.quantity}|${record.unit}`;
-        if (!panels.has(key)) panels.set(key, { quantity: record.quantity, unit: record.unit, names: [], curves: [] });
+        if (!panels.has(key)) panels.set(key, { quantity: record.quantity, unit: record.unit, as: record.shown, names: [], curves: [] });
         const panel = panels.get(key);
         if (!panel.names.includes(record.path)) panel.names.push(record.path);
         panel.curves.push({
@@ -183,11 +183,12 @@ export class PlotPanel {
   buildTime() {
     this.group = new TimeGroup();
     const panels = this.panels();
-    for (const { quantity, unit, curves } of panels) {
+    panels.forEach(({ quantity, unit, as, curves }, k) => {
       const host = element('div');
       this.body.append(host);
-      this.charts.push(new TimeChart(host, this.group, { quantity, unit, curves, events: this.eventTimes() }));
-    }
+      this.charts.push(new TimeChart(host, this.group, { quantity, unit, as, curves, events: this.eventTimes(),
+        height: panels.length > 1 ? 200 : 260, labelled: k === panels.length - 1 }));
+    });
     if (!panels.length) this.body.append(element('p', { class: 'note' }, 'Choose what is to be shown.'));
     this.tools.append(this.chooser());
   }
@@ -254,7 +255,7 @@ export class PlotPanel {
       }
       return null;
     };
-    const side = (channel) => ({ quantity: channel === 'displacement' ? 'displacement' : record(channel).quantity, unit: record(channel).unit });
+    const side = (channel) => ({ quantity: channel === 'displacement' ? 'displacement' : record(channel).quantity, unit: record(channel).unit, as: record(channel).shown });
     const host = element('div');
     this.body.append(host);
     this.charts.push(new LoopChart(host, { x: side(kind.x), y: side(kind.y), curves: this.loopCurves(kind) }));
