@@ -107,7 +107,6 @@ class Reporter {
     try {
       PriceListSettings settings;
       for (int k = 2; k <= 10; ++k) settings.tolerances.push_back(std::pow(10.0, -k));
-      settings.orders = {5};
       settings.runs = 3;
       settings.interrupt = &interrupted_;
       return price_message(*read.scene, file, price_list(*read.scene, settings));
