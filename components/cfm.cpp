@@ -180,6 +180,7 @@ const RegisterComponent registered({
             .check = start_that_can_be,
             .summary = "combined friction model: solid friction that relaxes",
             .law = "df/dt = E (w - f/B),  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
+            .equation = R"(\frac{\mathrm{d}f}{\mathrm{d}t} = E\left(w - \frac{f}{B}\right),\qquad E = \sigma\left|1 - s\,\frac{f}{F_c}\right|^{i}\operatorname{sgn}\!\left(1 - s\,\frac{f}{F_c}\right),\qquad s = \operatorname{sgn} w)",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 14-17",
             .notes = "In steady motion f = B w below Fc/B, Fc s above. Stores f^2/(2 sigma), dissipates "
                      "f^2/B + f (w - f/B)(1 - u^i) with u = 1 - s f/Fc.",

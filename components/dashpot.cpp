@@ -67,6 +67,7 @@ const RegisterComponent registered({
                 },
             .summary = "dashpot, linear or with a power law",
             .law = "f = B abs(w)^n sgn(w)",
+            .equation = R"(f = B\,|w|^{n}\operatorname{sgn} w)",
             .source = "I. Newton 1687, W. Ostwald 1925, A. de Waele 1923; P. L. Dahl 1982, Eqs. 2, 3",
             .notes = "Dissipates f w, stores nothing. The unit of B goes with n: N*(s/m)^n.",
         },

@@ -222,6 +222,7 @@ const RegisterComponent registered({
             .check = start_within_bound,
             .summary = "Davidenkov's hysteresis: elastic to plastic along power curves, the same loops at any speed",
             .law = "f = f_r + 2 s g(abs(d - d_r)/2) after a reversal,  g(x) = sigma (x - x^n/(n X^(n-1)))",
+            .equation = R"(f = f_r + 2 s\,g\!\left(\frac{|d - d_r|}{2}\right)\ \text{after a reversal},\qquad g(x) = \sigma\left(x - \frac{x^{n}}{n X^{n-1}}\right))",
             .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; "
                       "energies: W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
             .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and Fc from there. After "

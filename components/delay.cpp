@@ -16,6 +16,7 @@ const RegisterComponent registered({
                 },
             .summary = "transport delay",
             .law = "y(t) = u(t - T), y0 before",
+            .equation = R"(y(t) = u(t - T),\quad y_0\ \text{before})",
             .source = "definition",
             .notes = "What a function of time alone puts in comes out to the last digit. Of other inputs the integrator remembers each step, for as long as the delay. Steps may be longer than a delay, unless a prescribed motion follows from it or what goes in has no mass that keeps it from jumping. A jump, a corner, an event comes out at its time exactly.",
         },

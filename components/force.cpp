@@ -15,6 +15,7 @@ const RegisterComponent registered({
                                            "nodes: + at the first, - at the second"}},
             .summary = "applies a force",
             .law = "F(t) given, or the output of a block",
+            .equation = R"(F(t)\ \text{given, or the output of a block})",
             .source = "definition",
             .notes = "Its force is the one applied, F(t).",
         },

@@ -12,6 +12,7 @@ const RegisterComponent registered({
             .parameters = {block_gain("what is put out for each unit of the input")},
             .summary = "multiplies a signal",
             .law = "y = K u",
+            .equation = R"(y = K\,u)",
             .source = "definition",
             .notes = "With a gain that has a unit the output has another one than the input: a torque for each rad/s, say. With one that has none nothing is known of the unit of the output.",
         },

@@ -16,6 +16,7 @@ const RegisterComponent registered({
                 },
             .summary = "generates a signal",
             .law = "y(t) given",
+            .equation = R"(y(t)\ \text{given})",
             .source = "definition",
             .notes = "Any shape of signal, as for a force or a motion.",
         },

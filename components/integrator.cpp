@@ -13,6 +13,7 @@ const RegisterComponent registered({
             .parameters = {block_gain("rate of the output for each unit of the input", 1.0), block_initial()},
             .summary = "integrates a signal over time",
             .law = "y' = K u, y = y0 at the start",
+            .equation = R"(\dot y = K\,u,\qquad y(t_0) = y_0)",
             .source = "definition",
             .notes = "A state: what it puts out never jumps. It has no limit of its own.",
         },

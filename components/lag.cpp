@@ -17,6 +17,7 @@ const RegisterComponent registered({
                 },
             .summary = "first-order lag",
             .law = "T y' + y = K u, y = y0 at the start",
+            .equation = R"(T\,\dot y + y = K\,u,\qquad y(t_0) = y_0)",
             .source = "definition",
             .notes = "A state: what it puts out never jumps. It makes a loop solvable that would else have no time to go round.",
         },

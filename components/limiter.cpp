@@ -23,6 +23,7 @@ const RegisterComponent registered({
             .check = upside_down,
             .summary = "keeps a signal within limits",
             .law = "y = u where L <= u <= U, else the nearer of L and U",
+            .equation = R"(y = \min\bigl(\max(u, L),\, U\bigr))",
             .source = "definition",
             .notes = "Where it begins and ceases to limit is an event, `limit` or `release`. With `upper` = inf it limits on one side.",
         },

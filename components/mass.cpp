@@ -15,6 +15,7 @@ const RegisterComponent registered({
                             .symbol = "m", .description = "inertia of the node; several at one node add up; 0 means none"}},
             .summary = "inertia of a node",
             .law = "f = m dv/dt",
+            .equation = R"(f = m\,\frac{\mathrm{d}v}{\mathrm{d}t})",
             .source = "I. Newton, Principia, 1687",
             .notes = "Its force is what accelerates it. Stores m v^2/2.",
         },

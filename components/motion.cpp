@@ -20,6 +20,7 @@ const RegisterComponent registered({
             .one_of = {"position", "velocity"},
             .summary = "prescribes the motion of a node",
             .law = "x(t) or v(t) given, or the output of a block",
+            .equation = R"(x(t)\ \text{or}\ v(t)\ \text{given, or the output of a block})",
             .source = "definition",
             .notes = "Its force is what it applies to the node; the power that it supplies is that force times the velocity. "
                      "A block that gives it must be one whose rate is known: see the netlist format.",

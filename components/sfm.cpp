@@ -79,6 +79,7 @@ const RegisterComponent registered({
             .check = start_within_bound,
             .summary = "solid friction model: dry friction with presliding displacement",
             .law = "df/dt = E w,  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
+            .equation = R"(\frac{\mathrm{d}f}{\mathrm{d}t} = E\,w,\qquad E = \sigma\left|1 - s\,\frac{f}{F_c}\right|^{i}\operatorname{sgn}\!\left(1 - s\,\frac{f}{F_c}\right),\qquad s = \operatorname{sgn} w)",
             .source = "P. R. Dahl, A solid friction model, 1968; P. L. Dahl 1982, Eqs. 8-11, 18",
             .notes = "Rate-independent; abs(f) <= Fc. Stores f^2/(2 sigma), dissipates f w (1 - u^i) with u = 1 - s f/Fc.",
         },

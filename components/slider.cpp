@@ -26,6 +26,7 @@ const RegisterComponent registered({
             .check = breakaway_above_coulomb,
             .summary = "ideal Coulomb slider: sticks without creep, or slips at a constant force",
             .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w)",
+            .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
             .notes = "Stores nothing, dissipates f w. Between nodes whose forces leave its own open, the forces of least "
                      "norm.",

@@ -48,6 +48,7 @@ const RegisterComponent registered({
                 },
             .summary = "linear spring",
             .law = "f = k (d - d0)",
+            .equation = R"(f = k\,(d - d_0))",
             .source = "R. Hooke, De potentia restitutiva, 1678; P. L. Dahl 1982, Eq. 21",
             .notes = "Stores k (d - d0)^2/2, dissipates nothing.",
         },

@@ -13,6 +13,7 @@ const RegisterComponent registered({
             .inputs = {.least = 2, .most = most_inputs},
             .summary = "adds signals",
             .law = "y = u1 + u2 + ...",
+            .equation = R"(y = u_1 + u_2 + \dots)",
             .source = "definition",
             .notes = "An input with - before its name is subtracted.",
         },

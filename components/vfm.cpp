@@ -65,6 +65,7 @@ const RegisterComponent registered({
             .check = delay_of_a_limit,
             .summary = "viscous friction model: a lag in front of Newton's law",
             .law = "(B/sigma) df/dt + f = B w(t - TD)",
+            .equation = R"(\frac{B}{\sigma}\,\frac{\mathrm{d}f}{\mathrm{d}t} + f = B\,w(t - T_D))",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24, 62 (J. C. Maxwell 1867 by its form)",
             .notes = "Stores f^2/(2 sigma), dissipates f^2/B. Before the run nothing has moved. With a delay it takes up f w at once and "
                      "may give some of it back: it is not passive, and can drive an oscillation. Where an end "

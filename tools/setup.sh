@@ -16,6 +16,8 @@ install_packages() {
   local log=build/packages.log package
   local missing=()
   while read -r package; do
+    # A Node.js from elsewhere brings its own npm, with which Debian's cannot be installed.
+    if [ "$package" = npm ] && command -v npm >/dev/null; then continue; fi
     [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
   done < <(grep -v '^#' tools/packages)
   if [ ${#missing[@]} -eq 0 ]; then
@@ -28,7 +30,7 @@ install_packages() {
     exit 1
   fi
   say "Debian packages: installing ${missing[*]}"
-  echo "   and what they need: some minutes and about 1.3 GB on a bare machine (log: $log)"
+  echo "   and what they need: some minutes and about 2 GB on a bare machine (log: $log)"
   mkdir -p build
   # The lists of packages are fetched only if apt does not know the packages, or its lists name files that are gone.
   if ! { apt-get install --simulate --no-install-recommends "${missing[@]}" && apt_install "${missing[@]}"; } \

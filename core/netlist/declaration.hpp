@@ -84,6 +84,7 @@ struct Declaration {
   std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< of the values of an element
   std::string summary = {};  ///< one line
   std::string law = {};      ///< as a textbook prints it
+  std::string equation = {};  ///< the law as TeX sets it
   std::string source = {};   ///< citation
   std::string notes = {};    ///< sign, range of validity, what is stored and what is dissipated
 

@@ -91,12 +91,15 @@ void refuse(const Path& path, const SceneIndex::Found& found, Context& context, 
       meant.empty() ? "it has " + list_names(known, "and") : "did you mean `" + path.object + "." + meant + "`?");
 }
 
-void record_everything(Scene& scene) {
+}  // namespace
+
+std::vector<Record> every_record(const Scene& scene) {
+  std::vector<Record> records;
   const auto add = [&](const std::string& name, Subject subject, std::size_t index,
                        std::initializer_list<Channel> wanted) {
     for (const Channel channel : wanted)
       for (const auto& [word, known] : channels)
-        if (known == channel) scene.records.push_back({name + '.' + word, subject, static_cast<int>(index), channel});
+        if (known == channel) records.push_back({name + '.' + word, subject, static_cast<int>(index), channel});
   };
   for (std::size_t i = 1; i < scene.nodes.size(); ++i)
     add(scene.nodes[i].name, Subject::node, i, {Channel::position, Channel::velocity});
@@ -114,7 +117,10 @@ void record_everything(Scene& scene) {
   }
   for (std::size_t i = 0; i < scene.assemblies.size(); ++i)
     add(scene.assemblies[i].name, Subject::assembly, i, {Channel::force, Channel::displacement, Channel::velocity});
+  return records;
 }
+
+namespace {
 
 bool is_doubtful(const std::string& path, const std::set<std::string>& doubtful) {
   return doubtful.contains(path.substr(0, path.find('.')));
@@ -194,7 +200,7 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
 
 void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
   if (!record) {
-    record_everything(scene);
+    scene.records = every_record(scene);
     return;
   }
   Mistakes& mistakes = context.mistakes;

@@ -14,6 +14,9 @@ namespace rheonet {
 /// What a channel of a node, element or assembly measures. (Outputs of blocks have units of their own: `unit_of`.)
 Quantity quantity_of(Record::Channel channel);
 
+/// All there is to record of a scene, in the order of its file.
+std::vector<Record> every_record(const Scene& scene);
+
 /// Finds the quantities that `simulate.record` names (`k1.force`), or all there are if it is not given. What begins
 /// with a name in `doubtful` (something is wrong with it) is not reported as unknown.
 void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene);

@@ -37,6 +37,8 @@ class Recorder final : public Observer {
         state_(settings.state),
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
+        event_(settings.event),
+        account_(settings.energy),
         tells_(settings.events != nullptr),
         energy_(scene_.accuracy * 0.01),
         switched_(scene_.elements.size(), 0) {
@@ -54,6 +56,7 @@ class Recorder final : public Observer {
     energy_.attach(dae, consistency);
     channels_.attach(dae, consistency);
     energy_.begin(t, y, yp, heat);
+    tell_energy(t);
     if (claims_.any()) {
       claimed_.attach(dae, consistency);
       claims_.begin(t, claimed_.read(t, y, yp));
@@ -76,6 +79,7 @@ class Recorder final : public Observer {
 
   void step(const Integrator& integrator) override {
     energy_.step(integrator);
+    tell_energy(integrator.time());
     const double until = integrator.time() - slack();
     for (; next_ <= scene_.output_intervals && row_time(next_) < until; ++next_) {
       // An output time may lie by its rounding before the step.
@@ -101,6 +105,7 @@ class Recorder final : public Observer {
     const std::size_t element = static_cast<std::size_t>(event.element);
     ++switched_[element];
     if (tells_) events_.text_row(scene_time(event_time(event.t)), {scene_.elements[element].name, event.what, std::to_string(event.direction)});
+    if (event_) event_(scene_time(event_time(event.t)), scene_.elements[element].name, event.what, event.direction);
     if (!scene_.output_events || pending_event_) return;
     write(event_time(event.t), before_);
     pending_event_ = true;
@@ -158,6 +163,10 @@ class Recorder final : public Observer {
     if (state_) state_(scene_time(event_time(t)), values);
   }
 
+  void tell_energy(double t) const {
+    if (account_) account_(scene_time(t), {energy_.supplied(), energy_.stored(), energy_.dissipated()});
+  }
+
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
 
   void write(double t, const std::vector<double>& values) {
@@ -178,6 +187,8 @@ class Recorder final : public Observer {
   Claims claims_;
   std::function<void(double, const std::vector<double>&)> row_, state_;
   CsvWriter csv_, events_;
+  std::function<void(double, const std::string&, const char*, int)> event_;
+  std::function<void(double, const EnergySoFar&)> account_;
   bool tells_;  ///< of events
   EnergyAccount energy_;
   std::vector<long> switched_;  ///< how often, of each element
@@ -247,7 +258,7 @@ Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& sett
                            .accuracy = settings.tolerance.value_or(scene.accuracy),
                            .order = manner.order,
                            .locate_events = manner.locate_events,
-                           .switch_times = settings.events != nullptr,
+                           .switch_times = settings.events != nullptr || settings.event,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress,
                            .profile = settings.profile ? &profile : nullptr},

@@ -13,6 +13,11 @@
 
 namespace rheonet {
 
+/// The energy account up to a time of a run [J]; what it misses is supplied - stored - dissipated.
+struct EnergySoFar {
+  double supplied = 0, stored = 0, dissipated = 0;
+};
+
 struct RunSettings {
   std::FILE* csv = nullptr;     ///< receives the rows as they come; nullptr: nowhere
   std::FILE* events = nullptr;  ///< receives what switches, as it does: time, element, event, direction
@@ -20,6 +25,10 @@ struct RunSettings {
   /// Is called with the records at the start, at the end of each step, and after each instant at which they may jump:
   /// two calls at one time are the two sides of it.
   std::function<void(double time, const std::vector<double>& values)> state = {};
+  /// Is called with each event, as it is written to `events`.
+  std::function<void(double time, const std::string& element, const char* what, int direction)> event = {};
+  /// Is called with the energy account at the start, at the end of each step, and after each event.
+  std::function<void(double time, const EnergySoFar& energy)> energy = {};
   const std::atomic<bool>* interrupt = nullptr;  ///< becomes true when the user wants to stop: the run throws SimulationError
   std::function<void(double fraction)> progress =
       {};  ///< called now and then with the fraction of the run that is done

@@ -42,6 +42,7 @@ TEST_CASE("contract: declarations are complete") {
     CHECK(!d.summary.empty());
     CHECK(d.summary.find('\n') == std::string::npos);
     CHECK(!d.law.empty());
+    CHECK(!d.equation.empty());
     CHECK(!d.source.empty());
     CHECK(!d.notes.empty());
     CHECK(!component->drawing.empty());

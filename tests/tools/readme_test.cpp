@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <regex>
@@ -50,6 +51,11 @@ TEST_CASE("every example of README.md does what it says") {
       std::istringstream lines(block.text);
       for (std::string line; std::getline(lines, line);) {
         // These two build and test everything, this test included.
+        if (line.starts_with("rheonet serve")) {  // which goes on until it is told to end
+          script += "timeout -s INT --preserve-status 3 " + line.substr(0, std::min(line.find(" --open"), line.find(" #"))) + " --port 0 >served\n";
+          script += "grep -q http://127.0.0.1: served\n";
+          continue;
+        }
         if (!line.starts_with("tools/")) {
           script += line + "\n";
           continue;
@@ -79,7 +85,7 @@ TEST_CASE("every example of README.md does what it says") {
     CAPTURE(i);
     CHECK(std::abs(found[i] - expected[i]) < 5e-6);
   }
-  for (const std::string file : {"stiff.csv", "fine.csv", "rheonet.schema.json", "both.svg", "loop.png", "first.svg", "creep.png", "servo.svg", "home/.local/bin/rheonet"}) {
+  for (const std::string file : {"stiff.csv", "fine.csv", "rheonet.schema.json", "both.svg", "loop.png", "first.svg", "first.html", "both.html", "creep.png", "servo.svg", "home/.local/bin/rheonet"}) {
     CHECK(folder.has(file));
   }
 }
@@ -95,7 +101,7 @@ TEST_CASE("README.md begins with the two commands, and CI runs the second") {
 TEST_CASE("every link of the project's pages leads somewhere") {
   const std::regex link(R"(\]\(([^)#:]+)(#[^)]*)?\))");
   int links = 0;
-  for (const std::string page : {"README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
+  for (const std::string page : {"README.md", "tools/web/README.md", "core/netlist/README.md", "components/README.md", "netlists/README.md",
                                  "netlists/library/README.md", "netlists/teaching/README.md", "netlists/teaching/demos.md",
                                  "netlists/thesis/README.md", "netlists/thesis/composed-or-combined.md", "netlists/hard/README.md"}) {
     CAPTURE(page);

@@ -11,6 +11,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "tools/rheonet/footers.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
@@ -20,71 +21,6 @@ struct WrongCommandLine {
   std::string message;
   std::string hint;
 };
-
-constexpr const char* of_rheonet =
-    "For instance:\n"
-    "  rheonet run scene.toml -o result.csv\n"
-    "  rheonet components spring\n"
-    "`rheonet run --help` says more of `run`, and so on.";
-constexpr const char* of_run =
-    "For instance:\n"
-    "  rheonet run scene.toml -o result.csv\n"
-    "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
-    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
-    "2 the scene or the command line is wrong.";
-constexpr const char* of_check =
-    "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
-    "line is wrong.";
-
-constexpr const char* of_compare =
-    "For instance:\n"
-    "  rheonet compare combined.toml wired.toml --pair friction.force=chain.force --within 1e-6\n"
-    "  rheonet compare combined.toml wired.toml --vary parameters.B=\"1 N*s/m:100 N*s/m:9:log\"\n\n"
-    "Without --pair the records that all scenes have under one name are compared. The rows are those of the first\n"
-    "scene, up to the end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with it\n"
-    "-o writes the table instead of the rows.\n\n"
-    "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
-    "the comparison was interrupted (the values of RANGE up to there are kept), or the output not be written;\n"
-    "2 a scene or the command line is wrong.";
-
-constexpr const char* of_precision =
-    "For instance:\n"
-    "  rheonet precision scene.toml\n"
-    "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n\n"
-    "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
-    "written; 2 the scene or the command line is wrong.";
-
-constexpr const char* of_sweep =
-    "For instance:\n"
-    "  rheonet sweep scene.toml --vary c1.damping=\"1 N*s/m:100 N*s/m:50:log\" --measure 'max(k1.force)' -o sweep.csv\n"
-    "  rheonet sweep scene.toml --vary k1.stiffness=100:1000 --vary c1.damping=1:100:log --latin 500 -o sweep.csv\n"
-    "  rheonet sweep scene.toml --list cases.csv -o rows.csv\n\n"
-    "RANGE is from:to:count, from:to:count:log or value,value,...; several --vary make a grid. With --random and --latin\n"
-    "it is from:to, from:to:log or value,value,..., from which values are drawn. FILE of --list is a CSV file whose first\n"
-    "row has paths, with units as in `k1.stiffness [N/m]`, and each other row the values of a run.\n\n"
-    "Measures: max, min, mean, rms, final and `time of max`, `time of min` of a record, as in max(k1.force) or\n"
-    "max(k1.force, from 1 s, to 2 s); value(k1.force, 0.2 s); time of crossing(k1.force, 2 N); energy dissipated, energy\n"
-    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`.\n\n"
-    "Exit status: 0 every run is done; 1 one or more could not be read or simulated (the column `error` says why), or\n"
-    "the sweep was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
-
-constexpr const char* of_plot =
-    "For instance:\n"
-    "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
-    "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
-    "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
-    "A FILE that ends in .toml is a scene, which is simulated; any other is a CSV file whose first row names its\n"
-    "columns: rows of `run`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over the\n"
-    "first. Different quantities have a panel each, over one horizontal axis.\n\n"
-    "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
-    "line is wrong.";
-
-constexpr const char* of_draw =
-    "For instance:\n"
-    "  rheonet draw scene.toml -o network.svg\n"
-    "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
-    "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
 
 bool is_override(const std::string& word) {
   const std::size_t equals = word.find('=');
@@ -254,7 +190,7 @@ struct CommandLine {
   CommandLine() {
     app.set_help_flag("-h,--help", "print this help");
     app.set_version_flag("--version", "rheonet " RHEONET_VERSION, "print the version");
-    app.footer(of_rheonet);
+    app.footer(footer_of_rheonet);
     // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
     app.allow_extras()->require_subcommand(0, 1);
     add_run();
@@ -262,11 +198,16 @@ struct CommandLine {
     add_compare();
     add_precision();
     add_sweep();
-    CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", of_plot);
+    CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", footer_of_plot);
     add_plot(plot, arguments);
     add_overrides(plot);
     add_accuracy(plot);
     add_draw();
+    CLI::App* report = add_command("report", "write one HTML file that shows scenes and their results", footer_of_report);
+    add_report_options(*report, arguments.scenes, arguments.output, arguments.title, arguments.certify, arguments.report);
+    add_overrides(report);
+    add_accuracy(report);
+    add_serve_options(*add_command("serve", "play with netlists in a browser", footer_of_serve), arguments.serve);
     CLI::App* components = add_command("components", "describe the element types");
     components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
     components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
@@ -293,7 +234,7 @@ struct CommandLine {
   }
 
   void add_run() {
-    CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", of_run);
+    CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", footer_of_run);
     add_scene(run);
     run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
         ->type_name("FILE");
@@ -310,7 +251,7 @@ struct CommandLine {
   }
   void add_precision() {
     CLI::App* precision =
-        add_command("precision", "simulate a scene at many accuracies and say what each costs and gives", of_precision);
+        add_command("precision", "simulate a scene at many accuracies and say what each costs and gives", footer_of_precision);
     add_scene(precision);
     add_accuracy(precision);
     add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
@@ -322,7 +263,7 @@ struct CommandLine {
     precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");
   }
   void add_sweep() {
-    CLI::App* sweep = add_command("sweep", "simulate a scene for many values, on all processors, into one CSV file", of_sweep);
+    CLI::App* sweep = add_command("sweep", "simulate a scene for many values, on all processors, into one CSV file", footer_of_sweep);
     add_scene(sweep);
     Arguments::Sweep& s = arguments.sweep;
     add_list(sweep, "--vary", s.vary, "a value that takes many; may be repeated", "PATH=RANGE", false);
@@ -339,12 +280,12 @@ struct CommandLine {
     sweep->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
   void add_check() {
-    CLI::App* check = add_command("check", "read and check a scene without simulating it", of_check);
+    CLI::App* check = add_command("check", "read and check a scene without simulating it", footer_of_check);
     add_scene(check);
     check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
   }
   void add_draw() {
-    CLI::App* draw = add_command("draw", "draw the network of a scene as an engineer does", of_draw);
+    CLI::App* draw = add_command("draw", "draw the network of a scene as an engineer does", footer_of_draw);
     add_scene(draw);
     draw->add_option("-o,--output", arguments.output, "the figure: an .svg or a .png; `-` is an SVG on standard output")
         ->required()
@@ -354,7 +295,7 @@ struct CommandLine {
     draw->add_flag("--no-values", arguments.no_values, "names alone");
   }
   void add_compare() {
-    CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", of_compare);
+    CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", footer_of_compare);
     compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
         ->required()
         ->expected(2, 26)
@@ -418,6 +359,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
                                                    {"sweep", Command::sweep},
                                                    {"plot", Command::plot},
                                                    {"draw", Command::draw},
+                                                   {"report", Command::report},
+                                                   {"serve", Command::serve},
                                                    {"components", Command::components},
                                                    {"schema", Command::schema}};
   arguments.command = commands.at(app.get_subcommands().front()->get_name());

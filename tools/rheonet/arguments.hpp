@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "tools/rheonet/page_arguments.hpp"
+
 namespace rheonet::tool {
 
 /// What a process ends with; part of the contract with scripts that call the program.
@@ -13,7 +15,7 @@ enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input =
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, precision, sweep, plot, draw, components, schema };
+  enum class Command { run, check, compare, precision, sweep, plot, draw, report, serve, components, schema };
 
   Command command = Command::run;
   std::string scene;
@@ -27,7 +29,7 @@ struct Arguments {
   std::string figure;                  ///< where `run` draws its records; "": nowhere
   std::vector<std::string> overrides;  ///< PATH=VALUE
   std::optional<double> accuracy;
-  bool certify = false;                ///< of `run`
+  bool certify = false;                ///< of `run` and `report`
   bool profile = false;                ///< of `run`
   int order = 5;                       ///< of the integration method in `run`, at most
   std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
@@ -62,7 +64,9 @@ struct Arguments {
     bool resume = false;
   };
   Sweep sweep;
-  std::string title;    ///< of `draw`; "": that of the scene
+  ReportArguments report;
+  ServeArguments serve;
+  std::string title;    ///< of `draw` and `report`; "": that of the scene
   bool no_values = false;  ///< of `draw`
   bool all = false;        ///< of `draw`
   std::string domain;  ///< of CSV files: "translation", "rotation"; "": not said

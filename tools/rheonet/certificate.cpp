@@ -57,31 +57,32 @@ std::string reason(const Certificate& certificate) {
   return "each run is more accurate than the one before, but double precision leaves no room for a tighter one";
 }
 
-void report_failure(const Scene& scene, const Certificate& certificate) {
-  if (certificate.rounds.empty()) {
-    say("error: not certified: {}\n  the rows are those of a run to {:g}, whose error is not known\n",
-        wrapped(reason(certificate), 2), scene.accuracy);
-    return;
-  }
+/// In sentences, without the table of records.
+std::string failure(const Scene& scene, const Certificate& certificate) {
+  if (certificate.rounds.empty())
+    return fmt::format("not certified: {}\n  the rows are those of a run to {:g}, whose error is not known\n",
+                       wrapped(reason(certificate), 2), scene.accuracy);
   const Round& kept = certificate.result();
-  say("error: not certified: `{}` is off by an estimated {} of its largest magnitude, at {:g} s; the scene asks for {:g}\n",
-      name_of(scene, kept), relative(kept.error.relative()), kept.error.time, scene.accuracy);
-  say("  before {:g} s all records are within that; the rows are those of a run to {:g}\n", certificate.until,
-      kept.tolerance);
-  say("  {}\n{}", wrapped(reason(certificate), 2), table_of_rounds(scene, certificate));
-  say("  {}\n", cost(certificate));
+  return fmt::format("not certified: `{}` is off by an estimated {} of its largest magnitude, at {:g} s; the scene asks for {:g}\n",
+                     name_of(scene, kept), relative(kept.error.relative()), kept.error.time, scene.accuracy) +
+         fmt::format("  before {:g} s all records are within that; the rows are those of a run to {:g}\n", certificate.until,
+                     kept.tolerance) +
+         fmt::format("  {}\n{}  {}\n", wrapped(reason(certificate), 2), table_of_rounds(scene, certificate), cost(certificate));
 }
 
 }  // namespace
 
+std::string describe(const Scene& scene, const Certificate& certificate) {
+  if (!certificate.holds) return failure(scene, certificate);
+  const Round& kept = certificate.result();
+  return fmt::format("certified: every record is within {:g} of its largest magnitude\n", scene.accuracy) +
+         fmt::format("  a run to {:g}, measured by a run to {:g}; {}\n", kept.tolerance, tighter(kept), cost(certificate));
+}
+
 bool report_certificate(const Scene& scene, const Certificate& certificate, bool quiet) {
-  if (!certificate.holds) report_failure(scene, certificate);
+  if (!certificate.holds) say("error: {}", failure(scene, certificate));
   if (quiet || certificate.rounds.empty()) return certificate.holds;
-  if (certificate.holds) {
-    const Round& kept = certificate.result();
-    say("certified: every record is within {:g} of its largest magnitude\n", scene.accuracy);
-    say("  a run to {:g}, measured by a run to {:g}; {}\n", kept.tolerance, tighter(kept), cost(certificate));
-  }
+  if (certificate.holds) say("{}", describe(scene, certificate));
   say("{}", table_of_records(scene, certificate.errors));
   return certificate.holds;
 }

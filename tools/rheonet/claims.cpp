@@ -73,25 +73,31 @@ std::string claimed_of(const Claim& claim, const Finding& finding, const std::st
 
 }  // namespace
 
+ClaimInWords in_words(const Scene& scene, const Claim& claim, const Finding& finding) {
+  const std::string unit = unit_of(claim, scene);
+  const std::string never = claim.per < 0 ? "never comes" : "is no number";
+  return {name_of(claim, scene), claimed_of(claim, finding, unit),
+          std::isnan(finding.found) ? never : with_unit(finding.found, unit), finding.holds};
+}
+
 bool report_claims(const Scene& scene, const Summary& summary, const Sources& sources, bool quiet) {
   bool all_hold = true;
   for (std::size_t i = 0; i < scene.claims.size(); ++i) {
     const Claim& claim = scene.claims[i];
     const Finding& finding = summary.findings[i];
     const std::string unit = unit_of(claim, scene);
-    const std::string name = name_of(claim, scene), claimed = claimed_of(claim, finding, unit);
-    if (finding.holds) {
-      if (!quiet) say("  holds: {} is {}, claimed {}\n", name, with_unit(finding.found, unit), claimed);
+    const auto [name, claimed, found, holds] = in_words(scene, claim, finding);
+    if (holds) {
+      if (!quiet) say("  holds: {} is {}, claimed {}\n", name, found, claimed);
       continue;
     }
     all_hold = false;
     std::string message = fmt::format("the claim fails: {} ", name);
     if (std::isnan(finding.found)) {
-      message += fmt::format("{}, claimed {}", claim.per < 0 ? "never comes" : "is no number", claimed);
+      message += fmt::format("{}, claimed {}", found, claimed);
     } else {
       const double off = std::max(claim.least - finding.found, finding.found - claim.most);
-      message += fmt::format("is {}, claimed {}: it is off by {}", with_unit(finding.found, unit), claimed,
-                             readable(off, unit, 3));
+      message += fmt::format("is {}, claimed {}: it is off by {}", found, claimed, readable(off, unit, 3));
     }
     say("{}\n", format({.severity = Severity::error, .spot = claim.spot, .message = message, .hint = {}}, sources));
   }

@@ -25,6 +25,12 @@ ExitStatus plot_results(const Arguments& arguments);
 /// `rheonet draw`: draws the network of a scene.
 ExitStatus draw_network(const Arguments& arguments);
 
+/// `rheonet report`: writes one HTML file that shows scenes and their results.
+ExitStatus write_report(const Arguments& arguments);
+
+/// `rheonet serve`: the playground.
+ExitStatus serve_playground(const Arguments& arguments);
+
 /// `rheonet components`: prints the reference.
 ExitStatus print_components(const Arguments& arguments);
 

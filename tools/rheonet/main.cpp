@@ -33,6 +33,10 @@ ExitStatus carry_out(const Arguments& arguments) {
       return plot_results(arguments);
     case Command::draw:
       return draw_network(arguments);
+    case Command::report:
+      return write_report(arguments);
+    case Command::serve:
+      return serve_playground(arguments);
     case Command::components:
       return print_components(arguments);
     case Command::schema:

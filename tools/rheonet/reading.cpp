@@ -15,11 +15,24 @@ ReadOptions options_of(const Arguments& arguments) {
   return {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()};
 }
 
+namespace {
+
+void add_loose_nodes(ReadResult& result) {
+  if (!result.scene) return;
+  const std::vector<Diagnostic> loose = loose_nodes(*result.scene);
+  result.diagnostics.insert(result.diagnostics.end(), loose.begin(), loose.end());
+}
+
+}  // namespace
+
+ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options) {
+  ReadResult result = read_scene_text(text, name, folder, declarations(), options);
+  add_loose_nodes(result);
+  return result;
+}
+
 void report_all(ReadResult& result) {
-  if (result.scene) {
-    const std::vector<Diagnostic> loose = loose_nodes(*result.scene);
-    result.diagnostics.insert(result.diagnostics.end(), loose.begin(), loose.end());
-  }
+  add_loose_nodes(result);
   int errors = 0;
   for (const Diagnostic& diagnostic : result.diagnostics) {
     std::string text = format(diagnostic, result.sources);

@@ -16,6 +16,9 @@ ReadResult read_and_report(const std::string& scene, const ReadOptions& options)
 /// Prints every mistake and warning of what has been read, and of nodes that something may be wrong with.
 void report_all(ReadResult& result);
 
+/// The same from text, with nothing printed: see read_scene_text.
+ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options);
+
 /// Whether a file is one of those that a scene was read from, which must not be overwritten by its results. Says so if
 /// it is; `option` is what names it: "--output".
 bool is_source(const std::string& path, const char* option, const Sources& sources);

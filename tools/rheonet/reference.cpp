@@ -147,6 +147,7 @@ std::string as_text(const Component& component) {
   const bool block = d.ports == Declaration::Ports::block;
   line(block ? "inputs" : "ports", block ? inputs(d.inputs) : ports(d.ports));
   line("law", d.law);
+  line("TeX", d.equation);
 
   const std::vector<std::string> titles = {"parameter", "symbol", "quantity", "unit", "value", "default"};
   std::vector<std::vector<std::string>> table = {titles};
@@ -183,6 +184,7 @@ std::string as_markdown(const std::vector<const Component*>& components) {
                         d.rotational_type.empty() ? "" : fmt::format(" (in rotation also `{}`)", d.rotational_type),
                         d.summary);
     const bool block = d.ports == Declaration::Ports::block;
+    if (!d.equation.empty()) text += fmt::format("$${}$$\n\n", d.equation);
     text += fmt::format("    {}\n\n* {}: `{}`\n", d.law, block ? "Inputs" : "Ports", block ? inputs(d.inputs) : ports(d.ports));
     for (const Limit& limit : component->limits) {
       text +=

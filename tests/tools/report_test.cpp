@@ -1,0 +1,21 @@
+#include <doctest/doctest.h>
+
+#include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
+
+using namespace rheonet::test;
+
+// What a report shows is tested in a browser: tests/web.
+
+TEST_CASE("without the web pages all but report and serve works, and these say how to get them") {
+  const Folder folder(oscillator);
+  const std::string program = RHEONET_WITHOUT_PAGES;
+  CHECK(folder.shell(program + " run scene.toml -q").out == folder.shell("rheonet run scene.toml -q", 0).out);
+  const std::string how = "rheonet was built without Node.js and npm, or with -DRHEONET_WEB=OFF\n"
+                          "  install both (Debian: nodejs, npm) and build it again\n";
+  const Finished report = folder.shell(program + " report scene.toml -o report.html", 1);
+  CHECK(report.err == "error: `report` cannot be made: its web pages are missing: " + how);
+  CHECK(!folder.has("report.html"));
+  const Finished serve = folder.shell(program + " serve .", 1);
+  CHECK(serve.err == "error: `serve` cannot begin: its web pages are missing: " + how);
+}

@@ -1,0 +1,272 @@
+// Whatever is sent to it, the server stays up, answers others, and gives and takes nothing outside its folder.
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync, existsSync, symlinkSync, writeFileSync } from 'node:fs';
+import http from 'node:http';
+import net from 'node:net';
+import { join } from 'node:path';
+import { after, afterEach, before, test } from 'node:test';
+import { bingham, folderWith, remove, rheonet, serve } from './support.mjs';
+
+// A mass that a square wave drives against friction, nearly for ever.
+const endless = `[elements]
+push = { type = "force", at = "block", force = { square = "3 N", frequency = "50 Hz" } }
+m1 = { type = "mass", at = "block", mass = "1 kg" }
+s1 = { type = "slider", between = ["block", "ground"], coulomb = "1 N" }
+[simulate]
+stop = "1e7 s"
+output = { every = "1e4 s" }
+`;
+
+let outer, folder, server;
+before(async () => {
+  outer = folderWith({ 'secret.toml': `# secret words\n${bingham}`, 'inside/bingham.toml': bingham, 'inside/deep/other.toml': bingham });
+  folder = join(outer, 'inside');
+  symlinkSync(join(outer, 'secret.toml'), join(folder, 'link.toml'));
+  symlinkSync(outer, join(folder, 'out'));
+  server = await serve(folder, '--time-limit', '2', '--memory-limit', '300');
+});
+after(async () => {
+  assert.equal(await server.stop(), 0);
+  remove(outer);
+});
+// After each of them it answers as before.
+afterEach(async () => {
+  const { status, body } = await post({ task: 'show', text: bingham, file: 'bingham.toml' });
+  assert.equal(status, 200);
+  assert.match(body, /"kind":"done"/);
+});
+
+// A request with a path as it is, which no client tidies up.
+function ask(path, { method = 'GET', headers = {}, body } = {}) {
+  return new Promise((resolve, reject) => {
+    const request = http.request({ host: '127.0.0.1', port: server.port, path, method, headers, agent: false }, (response) => {
+      const pieces = [];
+      response.on('data', (piece) => pieces.push(piece));
+      response.on('end', () => resolve({ status: response.statusCode, headers: response.headers, body: Buffer.concat(pieces).toString() }));
+      response.on('error', reject);
+    });
+    request.on('error', reject);
+    if (body !== undefined) request.write(body);
+    request.end();
+  });
+}
+const json = { 'Content-Type': 'application/json' };
+const post = (value, path = '/api/task', headers = json) => ask(path, { method: 'POST', headers, body: typeof value === 'string' ? value : JSON.stringify(value) });
+const messages = (body) => body.trim().split('\n').map((line) => JSON.parse(line));
+
+// Bytes as they are; what comes back until the other side ends.
+function raw(bytes, patience = 15_000) {
+  return new Promise((resolve) => {
+    let text = '';
+    const socket = net.connect(server.port, '127.0.0.1', () => socket.write(bytes));
+    socket.on('data', (piece) => (text += piece));
+    socket.on('close', () => resolve(text));
+    socket.on('error', () => resolve(text));
+    socket.setTimeout(patience, () => socket.destroy());
+  });
+}
+
+test('nothing outside the folder is read', async () => {
+  assert.equal((await ask('/api/scene?file=bingham.toml')).body, bingham);
+  assert.equal((await ask('/api/scene?file=deep/other.toml')).status, 200);
+  for (const name of ['../secret.toml', '..%2fsecret.toml', '%2e%2e/secret.toml', 'deep/../../secret.toml', join(outer, 'secret.toml'), 'link.toml', 'out/secret.toml',
+    '../inside/../secret.toml', 'bingham.toml%00', '..\\secret.toml', '/etc/passwd', '', '.', 'deep', 'x'.repeat(3000), `deep/${'../'.repeat(500)}etc/passwd`]) {
+    const { status, body } = await ask(`/api/scene?file=${name}`);
+    assert.ok(status === 404 || status === 414 || status === 400, `${name}: ${status}`);
+    assert.ok(!body.includes('secret words'));
+  }
+  for (const path of ['/../secret.toml', '/%2e%2e/secret.toml', '/etc/passwd', '//etc/passwd', '/api/../../secret.toml']) {
+    const { status, body } = await ask(path);
+    assert.ok(status >= 400, `${path}: ${status}`);
+    assert.ok(!body.includes('secret words'));
+  }
+  const files = JSON.parse((await ask('/api/folder')).body).scenes.map(({ file }) => file);
+  assert.deepEqual(files, ['bingham.toml', 'deep/other.toml']);
+});
+
+test('a netlist that is sent includes nothing from outside', async () => {
+  for (const name of ['../secret.toml', 'link.toml', 'out/secret.toml', join(outer, 'secret.toml')]) {
+    const { body } = await post({ task: 'show', text: `include = [${JSON.stringify(name)}]\n${bingham}`, file: 'bingham.toml' });
+    const [mistakes] = messages(body);
+    assert.equal(mistakes.items[0].severity, 'error', name);
+    assert.match(mistakes.items[0].message, /outside|there is no file|link/);
+    assert.ok(!body.includes('secret words'));
+  }
+  // Nor by the name that it gives itself.
+  const { body } = await post({ task: 'show', text: `include = ["secret.toml"]\n${bingham}`, file: '../x.toml' });
+  assert.match(body, /there is no file/);
+});
+
+test('nothing outside the folder is written', async () => {
+  const before = readFileSync(join(outer, 'secret.toml'), 'utf8');
+  for (const name of ['../new.toml', '/tmp/new.toml', 'link.toml', 'out/new.toml', 'deep/../../new.toml', 'new.sh', '.hidden.toml', 'no/such/folder.toml', '', 'deep'])
+    assert.equal((await post({ file: name, text: 'x' }, '/api/save')).status, 409, name);
+  assert.equal(readFileSync(join(outer, 'secret.toml'), 'utf8'), before);
+  assert.ok(!existsSync(join(outer, 'new.toml')) && !existsSync('/tmp/new.toml'));
+  assert.equal((await post({ file: 'deep/new.toml', text: endless }, '/api/save')).status, 200);
+  assert.equal(readFileSync(join(folder, 'deep/new.toml'), 'utf8'), endless);
+  assert.deepEqual(readdirSync(join(folder, 'deep')).sort(), ['new.toml', 'other.toml']);
+});
+
+test('other pages cannot use it', async () => {
+  const to = `127.0.0.1:${server.port}`;
+  const status = async (headers, options = {}) => (await ask('/api/folder', { ...options, headers })).status;
+  assert.equal(await status({ Host: to }), 200);
+  assert.equal(await status({ Host: `localhost:${server.port}` }), 200);
+  for (const host of ['evil.example', `evil.example:${server.port}`, 'localhost.evil.example', '127.0.0.1.evil.example', '10.0.0.1', '[', '::1:80'])
+    assert.equal(await status({ Host: host }), 403, host);
+  assert.match(await raw('GET /api/folder HTTP/1.1\r\n\r\n'), /^HTTP\/1\.1 403/);
+  assert.equal(await status({ Host: to, Origin: `http://${to}` }), 200);
+  for (const origin of ['http://evil.example', 'null', `https://${to}`, 'http://127.0.0.1:1']) assert.equal(await status({ Host: to, Origin: origin }), 403, origin);
+  assert.equal(await status({ Host: to, 'Sec-Fetch-Site': 'cross-site' }), 403);
+  // What a form of another page can send is no JSON.
+  assert.equal((await post({ task: 'show', text: bingham, file: 'a.toml' }, '/api/task', { 'Content-Type': 'text/plain' })).status, 403);
+  const page = await ask('/');
+  assert.match(page.headers['content-security-policy'], /default-src 'none'.*frame-ancestors 'none'/);
+});
+
+test('bodies that are too large or no JSON are refused', async () => {
+  const large = JSON.stringify({ task: 'show', file: 'a.toml', text: '#'.repeat(1 << 20) });
+  const { status } = await post(large).catch(() => ({ status: 413 }));
+  assert.equal(status, 413);
+  // In pieces whose sum nobody says beforehand.
+  const piece = `8000\r\n${'x'.repeat(0x8000)}\r\n`;
+  const answer = await raw(`POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n${piece.repeat(200)}`);
+  assert.ok(answer === '' || /^HTTP\/1\.1 4/.test(answer), answer.slice(0, 100));
+  for (const body of ['', '{', '[]', '1', 'null', '"x"', '{}', '{"task":"show"}', '{"task":"show","text":1}', '{"task":["show"],"text":""}', '{"task":"show","text":"\\ud800"}',
+    '{"task":"figure","scenes":[],"curves":[]}', '{"task":"report","scenes":[{}]}', '{"task":"figure","scenes":[{"text":""}],"curves":[[1,2]]}', '[' .repeat(100_000), '{"a":'.repeat(50_000), '\xff\xfe', '\0'])
+    assert.equal((await post(body)).status, 400, body.slice(0, 60));
+  for (const head of ['GET', 'GET / HTTP/9.9\r\n\r\n', '\0\0\0\0\r\n\r\n', `GET /${'x'.repeat(20_000)} HTTP/1.1\r\n\r\n`, `GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n${'A: b\r\n'.repeat(1000)}X: ${'y'.repeat(10_000)}\r\n\r\n`,
+    'POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: -5\r\n\r\n', 'POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: 99999999999999999999\r\n\r\nx'])
+    assert.ok(!/ 200 /.test((await raw(head, 1000)).slice(0, 20)), head.slice(0, 40));
+  const zipped = await ask('/api/task', { method: 'POST', headers: { ...json, 'Content-Encoding': 'gzip' }, body: 'x' });
+  assert.equal(zipped.status, 403);
+});
+
+test('netlists that are no good are answered with what is wrong', async () => {
+  for (const text of ['', '\0', '= = =', '['.repeat(100_000), 'a = '.concat('['.repeat(10_000)), 'a.'.repeat(20_000), bingham.replace('"spring"', '"sprong"'), '\u{10ffff}', `title = ${'"'.repeat(9)}`]) {
+    const [mistakes] = messages((await post({ task: 'show', text, file: 'a.toml' })).body);
+    assert.equal(mistakes.kind, 'mistakes');
+    assert.ok(mistakes.items.some(({ severity }) => severity === 'error'), text.slice(0, 30));
+  }
+});
+
+test('a scene that never ends is ended, and says so', async () => {
+  const last = messages((await post({ task: 'show', text: endless, file: 'a.toml' })).body).at(-1);
+  assert.equal(last.kind, 'failed');
+  assert.match(last.message, /longer than the 2 s/);
+  const csv = messages((await post({ task: 'csv', text: endless, file: 'a.toml' })).body).at(-1);
+  assert.match(csv.message, /longer than the 2 s/);
+});
+
+test('a scene that takes too much memory ends alone', async () => {
+  const huge = (count) => `[elements]
+chain = { type = "spring", between = ["a", "ground"], stiffness = 1, repeat = { count = ${count}, as = "i", arrange = "series" } }
+drive = { type = "motion", at = "a", velocity = 1 }
+[simulate]
+stop = 1
+`;
+  for (const count of [200_000, 5_000_000, 2_000_000_000]) {
+    const told = messages((await post({ task: 'show', text: huge(count), file: 'a.toml' })).body);
+    const failed = told.find(({ kind }) => kind === 'failed');
+    const mistake = told.find(({ kind }) => kind === 'mistakes')?.items.find(({ severity }) => severity === 'error');
+    assert.match(failed?.message ?? mistake?.message ?? '', /MB of memory|longer than|elements|count|at most|must/, String(count));
+  }
+  const rows = bingham.replace('every = "1 ms"', 'points = 100000000');
+  const told = messages((await post({ task: 'csv', text: rows, file: 'a.toml' })).body);
+  assert.ok(told.at(-1).kind === 'failed' || told.at(-1).items?.length > 0, JSON.stringify(told.at(-1)).slice(0, 100));
+});
+
+test('a newer request of a session ends the older', async () => {
+  const older = post({ task: 'show', text: endless, file: 'a.toml', session: 'one' });
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  const newer = messages((await post({ task: 'show', text: bingham, file: 'b.toml', session: 'one' })).body);
+  assert.equal(newer.at(-1).kind, 'done');
+  const ended = messages((await older).body);
+  assert.ok(!ended.some(({ kind, message }) => kind === 'done' || /longer than/.test(message)), 'the older one went on');
+  // One of another session does not.
+  const [first, second] = await Promise.all(['two', 'three'].map((session) => post({ task: 'show', text: bingham, file: 'a.toml', session })));
+  assert.match(first.body, /"kind":"done"/);
+  assert.match(second.body, /"kind":"done"/);
+});
+
+test('two hundred at once are all answered, as one alone is', async () => {
+  const request = { task: 'csv', text: bingham, file: 'bingham.toml' };
+  const alone = messages((await post(request)).body).at(-1).text;
+  const { stdout } = await rheonet(['run', '-q', 'bingham.toml'], { cwd: folder });
+  assert.equal(alone, stdout);
+  const all = await Promise.all(Array.from({ length: 200 }, () => post(request)));
+  for (const { status, body } of all) {
+    assert.equal(status, 200);
+    assert.equal(messages(body).at(-1).text, alone);
+  }
+});
+
+test('slow clients, and those that go away, keep nobody waiting', async () => {
+  const head = 'POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n';
+  const sockets = Array.from({ length: 120 }, (_, k) => {
+    const socket = net.connect(server.port, '127.0.0.1');
+    socket.on('error', () => {});
+    const bytes = k % 2 ? head : 'GET / HTTP/1.1\r\n';
+    let sent = 0;
+    socket.timer = setInterval(() => socket.write(bytes[Math.min(sent++, bytes.length - 1)]), 100);
+    socket.ended = new Promise((resolve) => socket.on('close', resolve));
+    return socket;
+  });
+  // They ask for a run that never ends, and leave; or stay, and read nothing.
+  const body = JSON.stringify({ task: 'show', text: endless, file: 'a.toml' });
+  const ask = `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n${body}`;
+  for (let k = 0; k < 10; ++k) {
+    const socket = net.connect(server.port, '127.0.0.1', () => socket.write(ask, () => socket.destroy()));
+    socket.on('error', () => {});
+  }
+  const deaf = net.connect(server.port, '127.0.0.1', () => deaf.write(ask.replace(endless, bingham)));
+  deaf.pause();
+  deaf.on('error', () => {});
+  const { body: answer } = await post({ task: 'show', text: bingham, file: 'bingham.toml' });
+  assert.match(answer, /"kind":"done"/);
+  // A request that does not come to its end is given up.
+  await Promise.race(sockets.map((socket) => socket.ended));
+  sockets.forEach((socket) => {
+    clearInterval(socket.timer);
+    socket.destroy();
+  });
+  deaf.destroy();
+});
+
+test('it leaves no process behind', async () => {
+  const children = (parent) => readdirSync('/proc').filter((name) => /^\d+$/.test(name) && (() => {
+    try {
+      return readFileSync(`/proc/${name}/stat`, 'utf8').replace(/^.*\) /, '').split(' ')[1] === String(parent);
+    } catch {
+      return false;
+    }
+  })());
+  const other = await serve(folder);
+  const workers = children(other.process.pid);
+  assert.ok(workers.length >= 2);
+  other.process.removeAllListeners('exit');
+  const gone = new Promise((resolve) => other.process.on('exit', resolve));
+  other.process.kill('SIGKILL');
+  await gone;
+  const alive = () => workers.filter((name) => {
+    try {
+      return !/\) Z /.test(readFileSync(`/proc/${name}/stat`, 'utf8'));
+    } catch {
+      return false;
+    }
+  });
+  for (let k = 0; k < 100 && alive().length; ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+  assert.deepEqual(alive(), []);
+});
+
+test('what cannot be served is said', async () => {
+  const { code, stderr } = await rheonet(['serve', join(outer, 'none')]).catch((error) => error);
+  assert.equal(code, 2);
+  assert.match(stderr, /cannot serve/);
+  writeFileSync(join(outer, 'file'), '');
+  assert.equal((await rheonet(['serve', join(outer, 'file')]).catch((error) => error)).code, 2);
+  const taken = await rheonet(['serve', folder, '--port', String(server.port)]).catch((error) => error);
+  assert.equal(taken.code, 1);
+  assert.match(taken.stderr, /the port is in use/);
+});

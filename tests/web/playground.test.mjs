@@ -1,0 +1,379 @@
+// The playground, as somebody uses it.
+import assert from 'node:assert/strict';
+import { existsSync, readdirSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { accessible, bingham, browser, folderWith, remove, rheonet, serve, watched } from './support.mjs';
+
+// A block on a belt that is pulled through a spring: it sticks, and slips.
+const stickSlip = `# A block that is pulled through a spring.
+title = "Stick and slip"
+
+[elements]
+pull = { type = "motion", at = "hand", velocity = "10 mm/s" }
+k1 = { type = "spring", between = ["hand", "block"], stiffness = "100 N/m" }
+m1 = { type = "mass", at = "block", mass = "1 kg" }
+s1 = { type = "slider", between = ["block", "ground"], coulomb = "1 N", breakaway = "2 N" }
+
+[simulate]
+stop = "8 s"
+output = { points = 801 }
+record = ["block.position", "k1.force"]
+`;
+
+let folder, server, chromium;
+before(async () => {
+  folder = folderWith({ 'bingham.toml': bingham, 'more/stick-slip.toml': stickSlip });
+  server = await serve(folder);
+  chromium = await browser();
+});
+after(async () => {
+  await chromium?.close();
+  assert.equal(await server.stop(), 0);
+  remove(folder);
+});
+
+async function open(hash = '#file=bingham.toml', options = {}, ready = done) {
+  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, ...options });
+  const { page, wrong } = await watched(context, server.origin);
+  await page.goto(`${server.origin}/${hash}`);
+  if (hash) await ready(page);
+  const close = async () => {
+    assert.deepEqual(wrong, []);
+    await context.close();
+  };
+  return { page, context, close };
+}
+
+const done = (page) => page.waitForFunction(() => /drawn \d+ ms/.test(document.querySelector('.status').textContent));
+// Does something, and waits until the curves that follow from it are drawn.
+async function redrawn(page, act) {
+  const text = page.locator('.status');
+  await text.evaluate((status) => (status.dataset.latency = ''));
+  await act();
+  await page.waitForFunction(() => document.querySelector('.status').dataset.latency);
+}
+
+// What the legend says of a record at a part of the time axis.
+async function valueAt(page, part, record) {
+  const chart = page.locator('.plots .chart', { has: page.locator('.u-series', { hasText: record }) }).first();
+  const over = chart.locator('.u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + part * box.width, box.y + box.height / 3);
+  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  return Number.parseFloat(await chart.locator('.u-series', { hasText: record }).first().locator('.u-value').textContent());
+}
+
+// That it is `expected`, as soon as the curves are those of the last change.
+async function shows(page, part, record, expected, tolerance = 1e-3) {
+  let value;
+  for (let k = 0; k < 40; ++k) {
+    value = await valueAt(page, part, record);
+    if (Math.abs(value - expected) <= tolerance * Math.abs(expected)) return;
+    await page.waitForTimeout(100);
+  }
+  assert.fail(`${record} is ${value}, expected ${expected}`);
+}
+
+const slider = (page, name) => page.locator(`[data-slider="${name}"] input[type="range"]`);
+const number = (page, name) => page.locator(`[data-slider="${name}"] input[type="text"]`);
+const netlist = (page) => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map((line) => line.textContent).join('\n'));
+
+test('the gallery shows the netlists of the folder, and opens one', async () => {
+  const { page, close } = await open('');
+  await page.waitForSelector('dialog.gallery[open] .card svg');
+  assert.deepEqual(await page.locator('.card-title').allTextContents(), ['Bingham element', 'Stick and slip']);
+  assert.match(await page.locator('.card').nth(1).textContent(), /A block that is pulled through a spring/);
+  await accessible(page, 'gallery');
+  await page.locator('.gallery input').fill('stick');
+  assert.equal(await page.locator('.card:visible').count(), 1);
+  await page.locator('.card:visible').click();
+  await page.waitForFunction(() => document.querySelector('h1').textContent === 'Stick and slip');
+  await done(page);
+  for (const name of ['pull', 'k1', 'm1', 's1']) assert.equal(await page.locator(`.drawing [data-element="${name}"]`).count(), 1);
+  await close();
+});
+
+test('a mistake is marked where it is, and what was there stays', async () => {
+  const { page, close } = await open();
+  await page.locator('.cm-line', { hasText: 'k1    =' }).click();
+  await page.keyboard.press('Home');
+  await page.keyboard.press('Control+Shift+ArrowRight');
+  await page.keyboard.press('Control+End');
+  await page.keyboard.type('\nstray = 1');
+  await page.waitForSelector('.mistake.error');
+  assert.match(await page.locator('.mistake.error').textContent(), /^\d+:1 .*`stray`/);
+  assert.equal(await page.locator('.cm-lintRange-error').textContent(), 'stray');
+  assert.equal(await page.locator('.plots.stale').count(), 1);
+  assert.ok(await page.locator('.plots .chart canvas').count());
+  await redrawn(page, () => page.keyboard.press('Control+z'));
+  assert.equal(await page.locator('.mistake, .cm-lintRange-error, .plots.stale').count(), 0);
+  await close();
+});
+
+test('curves follow a slider while it is dragged, and so do the netlist and the schematic', async () => {
+  const { page, close } = await open();
+  // In the end the torque is Tc + B w.
+  await shows(page, 0.999, 'k1.force', 7);
+  const knob = slider(page, 'parameters.B');
+  const box = await knob.boundingBox();
+  const seen = new Set();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  for (let part = 0.55; part < 0.8; part += 0.05) {
+    await redrawn(page, () => page.mouse.move(box.x + part * box.width, box.y + box.height / 2));
+    seen.add(await number(page, 'parameters.B').inputValue());
+  }
+  await page.mouse.up();
+  assert.ok(seen.size >= 4, [...seen].join(' '));
+  const damping = Number(await number(page, 'parameters.B').inputValue());
+  assert.ok(damping > 1 && damping < 15, String(damping));
+  assert.match(await netlist(page), new RegExp(`B  = "${damping} N\\*m\\*s/rad"`));
+  assert.match(await page.locator('.drawing').textContent(), new RegExp(`${damping} N·m·s/rad`));
+  await redrawn(page, async () => {
+    await number(page, 'parameters.Tc').fill('3.5');
+    await number(page, 'parameters.Tc').press('Enter');
+  });
+  // With T = B/k the rest of the start is exp(-t/T).
+  const time = 0.2 * 0.999;
+  const expected = 3.5 + damping * 10 * (1 - Math.exp((-(time - 3.5 / 1000) * 100) / damping));
+  await shows(page, 0.999, 'k1.force', expected, 5e-3);
+  await close();
+});
+
+test('the newest position of a slider wins', async () => {
+  const { page, close } = await open();
+  const knob = slider(page, 'parameters.Tc');
+  await knob.focus();
+  for (let k = 0; k < 40; ++k) await knob.press('ArrowRight', { noWaitAfter: true });
+  await page.waitForTimeout(300);
+  await done(page);
+  const bound = Number(await number(page, 'parameters.Tc').inputValue());
+  assert.ok(bound > 2);
+  await shows(page, 0.999, 'k1.force', bound + 5);
+  await close();
+});
+
+test('two variants are compared', async () => {
+  const { page, close } = await open();
+  await page.locator('button', { hasText: 'Compare' }).click();
+  await page.waitForSelector('.variants:visible');
+  await redrawn(page, async () => {
+    await number(page, 'parameters.Tc').fill('4');
+    await number(page, 'parameters.Tc').press('Enter');
+  });
+  await shows(page, 0.999, 'A k1.force', 7);
+  await shows(page, 0.999, 'B k1.force', 9);
+  await page.locator('summary', { hasText: 'Differences' }).click();
+  await page.waitForSelector('details[data-name="Differences"] table');
+  // The two are 2 N*m apart as soon as both slip.
+  assert.match(await page.locator('details[data-name="Differences"]').textContent(), /A – Bk1\.force2 N·m/);
+  await page.locator('.variants label', { hasText: 'Edit A' }).click();
+  assert.match(await netlist(page), /Tc = "2 N\*m"/);
+  await page.locator('.variants label', { hasText: 'Edit B' }).click();
+  assert.match(await netlist(page), /Tc = "4 N\*m"/);
+  await accessible(page, 'comparison');
+  await page.locator('button', { hasText: 'End comparison' }).click();
+  assert.equal(await page.locator('.u-series', { hasText: 'A k1.force' }).count(), 0);
+  await shows(page, 0.999, 'k1.force', 9);
+  await close();
+});
+
+test('the schematic moves as the network does', async () => {
+  const { page, close } = await open('#file=more/stick-slip.toml');
+  const transform = (name) => page.locator(`.drawing [data-element="${name}"]`).evaluate((node) => node.style.transform);
+  const at = (part) => page.locator('.animation input').evaluate((input, value) => {
+    input.value = String(value);
+    input.dispatchEvent(new Event('input', { bubbles: true }));
+  }, Math.round(1000 * part));
+  const shift = async (name) => Number(/translateX\((-?[\d.]+)px\)/.exec(await transform(name))[1]);
+  const stretch = async (name) => Number(/scaleX\(([\d.]+)\)/.exec(await transform(name))[1]);
+  // It sticks until the spring pulls with 2 N, at 2 s, and slips at once after.
+  await at(0.2);
+  assert.equal(await page.locator('.drawing .slider.sticks').count(), 1);
+  assert.equal(await shift('m1'), 0);
+  const pulled = await stretch('k1');
+  await at(0.24);
+  assert.notEqual(await stretch('k1'), pulled);
+  await at(0.26);
+  assert.equal(await page.locator('.drawing .slider.slips').count(), 1);
+  assert.notEqual(await shift('m1'), 0);
+  assert.equal(await page.locator('.clock').textContent(), '2.08 s');
+  // Played, it moves by itself, and the point on the loop moves with it.
+  await page.locator('.plot-head label', { hasText: 'Force against displacement' }).click();
+  await page.locator('.plot-tools select').selectOption('k1');
+  await page.locator('button.play').click();
+  const places = new Set();
+  for (let k = 0; k < 30 && places.size < 4; ++k) {
+    places.add(await page.locator('.loop .dot').evaluate((dot) => dot.style.transform));
+    await page.waitForTimeout(100);
+  }
+  assert.ok(places.size >= 4);
+  await page.locator('button.play').click();
+  const [clock] = [await page.locator('.clock').textContent()];
+  await page.waitForTimeout(200);
+  assert.equal(await page.locator('.clock').textContent(), clock);
+  await close();
+});
+
+async function exported(page, label) {
+  await page.locator('button', { hasText: 'Export' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('[role="menuitem"]', { hasText: label }).click()]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()), path: await download.path() };
+}
+
+test('what is seen can be taken along', async () => {
+  const { page, context, close } = await open();
+  const { stdout } = await rheonet(['run', '-q', 'bingham.toml'], { cwd: folder });
+  const csv = await exported(page, 'Rows (CSV)');
+  assert.equal(csv.name, 'bingham.csv');
+  assert.equal(csv.bytes.toString(), stdout);
+  const plots = (await exported(page, 'Plots (SVG)')).bytes.toString();
+  assert.match(plots, /<svg[^]*angular velocity[^]*torque[^]*<\/svg>/);
+  const drawing = (await exported(page, 'Schematic (SVG)')).bytes.toString();
+  assert.match(drawing, /^<\?xml[^]*data-element="k1"[^]*100 N·m\/rad/);
+  for (const label of ['Plots (PNG)', 'Schematic (PNG)']) {
+    const { bytes } = await exported(page, label);
+    assert.ok(bytes.subarray(1, 4).toString() === 'PNG' && bytes.length > 3000, label);
+  }
+  const report = await exported(page, 'Report (HTML)');
+  const offline = await context.browser().newContext({ offline: true });
+  const { page: opened, wrong } = await watched(offline, 'file');
+  await opened.goto(pathToFileURL(report.path).href.replace(/$/, ''));
+  const shown = await opened.content();
+  assert.ok(shown.includes('Bingham element'));
+  assert.deepEqual(wrong, []);
+  await offline.close();
+  await page.locator('button', { hasText: 'Save' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.locator('[role="menuitem"]', { hasText: 'Download' }).click()]);
+  assert.equal(readFileSync(await download.path(), 'utf8'), bingham);
+  await close();
+});
+
+test('a netlist is saved in the folder', async () => {
+  const { page, close } = await open();
+  await redrawn(page, async () => {
+    await number(page, 'k1.stiffness').fill('150');
+    await number(page, 'k1.stiffness').press('Enter');
+  });
+  page.on('dialog', (dialog) => dialog.accept('more/stiffer.toml'));
+  await page.keyboard.press('Control+s');
+  await page.waitForFunction(() => /Saved as/.test(document.querySelector('.status').textContent));
+  assert.equal(readFileSync(join(folder, 'more/stiffer.toml'), 'utf8'), bingham.replace('"100 N*m/rad"', '"150 N*m/rad"'));
+  await close();
+});
+
+test('a link carries the scene', async () => {
+  const { page, close } = await open();
+  await redrawn(page, async () => {
+    await number(page, 'parameters.Tc').fill('6');
+    await number(page, 'parameters.Tc').press('Enter');
+  });
+  await page.locator('.plot-head label', { hasText: 'Force against velocity' }).click();
+  await page.locator('button', { hasText: 'Link' }).click();
+  await page.waitForFunction(() => location.hash.startsWith('#scene='));
+  const link = await page.evaluate(() => location.hash);
+  const text = await netlist(page);
+  await close();
+  const other = await open(link);
+  assert.equal(await netlist(other.page), text);
+  assert.match(text, /Tc = "6 N\*m"/);
+  assert.equal(await other.page.locator('.plot-head input:checked').inputValue(), 'flow');
+  await other.close();
+  // One that is broken is told of, and leaves a scene to begin with.
+  const broken = await open('#scene=AAAA', {}, () => true);
+  await broken.page.waitForFunction(() => document.querySelector('.status').dataset.latency);
+  assert.match(await broken.page.textContent('.status'), /The link cannot be read/);
+  assert.equal(await broken.page.locator('.drawing svg').count(), 1);
+  await broken.close();
+});
+
+test('everything works by keyboard', async () => {
+  const { page, close } = await open();
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('g');
+  await page.waitForSelector('dialog.gallery[open]');
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => !document.querySelector('dialog[open]'));
+  // All that can be used is reached by Tab, the editor is left by it.
+  const reached = new Set();
+  await page.evaluate(() => document.activeElement.blur());
+  for (let k = 0; k < 70; ++k) {
+    await page.keyboard.press('Tab');
+    reached.add(await page.evaluate(() => {
+      const at = document.activeElement;
+      return at.closest('.cm-editor') ? 'editor' : at.getAttribute('aria-label') || at.textContent.trim().slice(0, 20) || at.tagName;
+    }));
+  }
+  for (const name of ['Gallery', 'Save ▾', 'Export ▾', 'Link', 'Compare', 'editor', 'B', 'k1 stiffness', '▶ Animate', 'Time'])
+    assert.ok(reached.has(name), `${name} of ${[...reached].join(', ')}`);
+  await slider(page, 'parameters.Tc').focus();
+  await redrawn(page, () => page.keyboard.press('End'));
+  await shows(page, 0.999, 'k1.force', Number(await number(page, 'parameters.Tc').inputValue()) + 5);
+  await page.locator('button', { hasText: 'Export' }).focus();
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('ArrowDown');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Plots (SVG)');
+  await page.keyboard.press('Escape');
+  assert.match(await page.evaluate(() => document.activeElement.textContent), /^Export/);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('Space');
+  assert.equal(await page.locator('button.play').getAttribute('aria-pressed'), 'true');
+  await page.keyboard.press('Space');
+  assert.equal(await page.locator('button.play').getAttribute('aria-pressed'), 'false');
+  await close();
+});
+
+test('it fits a phone, and light and dark; nobody is shut out', async () => {
+  for (const [width, height, colorScheme] of [[1500, 950, 'light'], [1000, 800, 'dark'], [390, 844, 'dark'], [320, 640, 'light']]) {
+    const { page, close } = await open(undefined, { viewport: { width, height }, colorScheme });
+    const what = `${width} px, ${colorScheme}`;
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${what}: wider than the screen`);
+    const [red] = (await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).match(/\d+/g).map(Number);
+    assert.ok(colorScheme === 'dark' ? red < 60 : red > 200, what);
+    // Each time its parts are made anew some while after a run; what is open stays open.
+    await page.waitForSelector('.sections summary');
+    for (const name of await page.locator('.sections summary').allTextContents()) await page.locator('.sections summary', { hasText: name }).first().click();
+    await accessible(page, what);
+    await close();
+  }
+});
+
+test('every demo asks its question, and moves what it says', async () => {
+  const netlists = join(dirname(fileURLToPath(import.meta.url)), '../../netlists');
+  const demos = readdirSync(join(netlists, 'teaching')).filter((name) => name.endsWith('.toml') && readFileSync(join(netlists, 'teaching', name), 'utf8').includes('\n[demo]'));
+  assert.ok(demos.length >= 10, demos.join(', '));
+  const other = await serve(netlists);
+  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 } });
+  const { page, wrong } = await watched(context, other.origin);
+  for (const name of demos) {
+    await page.goto(`${other.origin}/#file=teaching/${name}`);
+    await page.reload();
+    await done(page);
+    const text = readFileSync(join(netlists, 'teaching', name), 'utf8');
+    const question = /question\s*=\s*"(.*)"/.exec(text)[1];
+    assert.equal(await page.textContent('.question'), question, name);
+    assert.equal(await page.locator('.mistake').count(), 0, name);
+    assert.ok(await page.locator('.drawing [data-element]').count(), name);
+    assert.ok(await page.locator('.plots .chart canvas').count(), name);
+    const asked = /sliders\s*=\s*\{(.*)\}/.exec(text)?.[1].match(/\w+(?=\s*=\s*\[)/g) ?? [];
+    assert.deepEqual(await page.locator('fieldset', { hasText: 'to move' }).first().locator('.slider-name').allTextContents(), asked, name);
+  }
+  assert.deepEqual(wrong, []);
+  await context.close();
+  await other.stop();
+});
+
+test('a run that fails says why, at its place', async () => {
+  const { page, close } = await open();
+  await page.locator('.cm-content').focus();
+  await page.keyboard.press('Control+a');
+  await page.keyboard.insertText('[elements]\nm1 = { type = "mass", at = "a", mass = 1 }\nx = { type = "motion", at = "a", position = 1 }\ny = { type = "motion", at = "a", position = 2 }\n[simulate]\nstop = 1\n');
+  await page.waitForFunction(() => document.querySelector('.status').classList.contains('bad'));
+  assert.match(await page.textContent('.status'), /`x`.*`y`|`y`.*`x`/);
+  assert.ok(existsSync(folder));
+  await close();
+});

@@ -1,0 +1,174 @@
+// A report opens from a file, with the network off.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { accessible, bingham, browser, folderWith, remove, rheonet, watched } from './support.mjs';
+
+let folder, chromium;
+const soft = bingham.replace('title = "Bingham element"', 'title = "Soft </script><b>one</b> & \\"quoted\\""').replace('"100 N*m/rad"', '"20 N*m/rad"');
+
+before(async () => {
+  folder = folderWith({ 'stiff.toml': bingham, 'soft.toml': soft });
+  chromium = await browser();
+});
+after(async () => {
+  await chromium?.close();
+  remove(folder);
+});
+
+async function open(file, options = {}) {
+  const context = await chromium.newContext({ viewport: { width: 1300, height: 900 }, ...options });
+  await context.setOffline(true);
+  const { page, wrong } = await watched(context, 'file');
+  await page.goto(`file://${join(folder, file)}`);
+  await page.waitForSelector('.report article');
+  return { context, page, wrong };
+}
+
+// What the legend says of a record where the pointer is: at a part of the width of a chart.
+async function valueAt(page, chart, part, record) {
+  const over = page.locator('.panel .u-over').nth(chart);
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+  const row = page.locator('.u-series', { hasText: record }).first();
+  return row.locator('.u-value').textContent();
+}
+
+test('a report of one scene shows all there is, offline', async () => {
+  await rheonet(['report', 'stiff.toml', '-o', 'one.html', '--certify', '--precision'], { cwd: folder });
+  const { context, page, wrong } = await open('one.html');
+  assert.equal(await page.title(), 'Bingham element');
+  const headings = await page.locator('h3').allTextContents();
+  for (const heading of ['Schematic', 'Plots', 'What is simulated, and why', 'Elements', 'Equations', 'Energy account', 'Events', 'Accuracy and its price', 'Statistics', 'Netlist'])
+    assert.ok(headings.includes(heading), heading);
+  for (const name of ['drive', 'k1', 'c1', 's1']) assert.equal(await page.locator(`.schematic [data-element="${name}"]`).count(), 1, name);
+  // KaTeX has set the laws of the four types, and says them to who cannot see.
+  assert.equal(await page.locator('.equation .katex-html').count(), 4);
+  assert.ok((await page.locator('.equation math').count()) === 4);
+  assert.match(await page.locator('.source-text pre').first().textContent(), /stiffness = "100 N\*m\/rad"/);
+  assert.match(await page.locator('.verdict').textContent(), /^certified: every record is within 1e-06/);
+  // In the end the torque is Tc + B w = 2 + 0.5 * 10; nothing is left of exp(-t k/B).
+  assert.equal(await valueAt(page, 0, 0.999, 'k1.force'), '7 N·m');
+  // The account of the energy ends with what the statistics say.
+  assert.match(await page.locator('.scene').textContent(), /energy supplied/);
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
+test('plots zoom, and show what is chosen', async () => {
+  await rheonet(['report', 'stiff.toml', '-o', 'plots.html'], { cwd: folder });
+  const { context, page, wrong } = await open('plots.html');
+  assert.equal(await page.locator('.panel .chart').count(), 2);
+  const first = page.locator('.panel .chart').first();
+  const time = () => page.locator('.panel .u-series .u-value').first().textContent();
+  await valueAt(page, 0, 0.5, 'k1.force');
+  const whole = Number.parseFloat(await time());
+  assert.ok(Math.abs(whole - 0.1) < 0.01, String(whole));
+  // Twice in: the middle stays, and a quarter from it is nearer than before.
+  await first.focus();
+  await page.keyboard.press('+');
+  await page.keyboard.press('+');
+  await valueAt(page, 1, 1 - 1e-3, 'mid.velocity');
+  const zoomed = Number.parseFloat(await time());
+  assert.ok(Math.abs(zoomed - 0.125) < 0.005, String(zoomed));
+  await first.focus();
+  await page.keyboard.press('0');
+  await page.locator('.chooser summary').click();
+  await page.locator('.chooser label[data-path="s1.force"] input').check();
+  assert.match(await page.locator('.panel').textContent(), /s1\.force/);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('.chooser-body').isVisible(), false);
+  // The slider gives its 2 N*m once it slips.
+  assert.equal(await valueAt(page, 0, 0.999, 's1.force'), '2 N·m');
+  await page.locator('.tabs label', { hasText: 'Force against displacement' }).click();
+  await page.locator('.plot-tools select').selectOption('k1');
+  const over = page.locator('.loop .u-over');
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 0.8 * box.height);
+  let read = '';
+  for (let x = 0.05; x < 1 && !read; x += 0.05) {
+    await page.mouse.move(box.x + x * box.width, box.y + (1 - x) * box.height);
+    read = await page.locator('.readout').textContent();
+  }
+  // A spring: force over displacement is its stiffness.
+  const [, displacement, unit, force] = /k1: ([\d.e-]+) (m?)rad, ([\d.e-]+) N·m/.exec(read);
+  assert.ok(Math.abs(Number(force) / (Number(displacement) * (unit ? 1e-3 : 1)) - 100) < 0.1, read);
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
+test('several scenes stand side by side, and whatever they are called does no harm', async () => {
+  await rheonet(['report', 'stiff.toml', 'soft.toml', '-o', 'two.html', '--title', 'Stiff & soft'], { cwd: folder });
+  const { context, page, wrong } = await open('two.html');
+  assert.equal(await page.textContent('h1'), 'Stiff & soft');
+  assert.equal(await page.locator('article.scene').count(), 2);
+  assert.match(await page.locator('article.scene').nth(1).locator('h2').textContent(), /Soft <\/script><b>one<\/b> & "quoted"/);
+  const [a, b] = [await page.locator('article.scene').nth(0).boundingBox(), await page.locator('article.scene').nth(1).boundingBox()];
+  assert.ok(a.y === b.y && a.x + a.width < b.x);
+  assert.equal(await valueAt(page, 0, 0.999, 'A k1.force'), '7 N·m');
+  assert.match(await page.locator('.comparison').textContent(), /largest difference/);
+  await accessible(page, 'a report of two scenes');
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
+test('a report is accessible in light and dark, and prints on white', async () => {
+  await rheonet(['report', 'stiff.toml', '-o', 'print.html'], { cwd: folder });
+  for (const colorScheme of ['light', 'dark']) {
+    const { context, page, wrong } = await open('print.html', { colorScheme });
+    await accessible(page, colorScheme);
+    if (colorScheme === 'dark') {
+      await page.emulateMedia({ media: 'print' });
+      assert.equal(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)');
+      const pdf = await page.pdf();
+      assert.ok(pdf.subarray(0, 5).toString() === '%PDF-' && pdf.length > 20_000);
+    }
+    assert.deepEqual(wrong, []);
+    await context.close();
+  }
+});
+
+test('of very many rows a report keeps the peaks', async () => {
+  const many = folderWith({
+    'many.toml': `[elements]
+kick = { type = "force", at = "a", force = { pulse = "3 N", width = "40 us", time = "0.73 s" } }
+c1 = { type = "dashpot", between = ["a", "ground"], damping = "2 N*s/m" }
+[simulate]
+stop = "2 s"
+output = { every = "10 us" }
+record = ["a.velocity", "kick.force"]
+`,
+  });
+  await rheonet(['report', 'many.toml', '-o', 'many.html'], { cwd: many });
+  const html = readFileSync(join(many, 'many.html'), 'utf8');
+  const [scene] = JSON.parse(/<script type="application\/json" id="data">(.*?)<\/script>/s.exec(html)[1]).scenes;
+  const { time, values } = scene.find(({ kind }) => kind === 'rows');
+  assert.ok(time.length > 500 && time.length < 20_000, String(time.length));
+  assert.equal(time[0], 0);
+  assert.equal(time.at(-1), 2);
+  assert.ok(time.every((t, k) => k === 0 || t > time[k - 1]));
+  assert.equal(Math.max(...values[0]), 1.5);
+  const at = time[values[0].indexOf(1.5)];
+  assert.ok(at >= 0.73 - 1e-9 && at <= 0.73004 + 1e-9, String(at));
+  remove(many);
+});
+
+test('a report says what failed', async () => {
+  const wrongs = folderWith({
+    'claim.toml': `${bingham}\n[expect]\n"k1.force" = { final = "8 N*m", within = "0.1 N*m" }\n`,
+    'bad.toml': bingham.replace('"spring"', '"sprong"'),
+  });
+  const claim = await rheonet(['report', 'claim.toml', '-o', 'claim.html'], { cwd: wrongs }).catch((error) => error);
+  assert.equal(claim.code, 1);
+  assert.match(claim.stderr, /a claim of its \[expect\] fails/);
+  assert.match(readFileSync(join(wrongs, 'claim.html'), 'utf8'), /"holds":false/);
+  const bad = await rheonet(['report', 'bad.toml', '-o', 'bad.html'], { cwd: wrongs }).catch((error) => error);
+  assert.equal(bad.code, 2);
+  assert.match(bad.stderr, /did you mean `spring`/);
+  const name = await rheonet(['report', 'claim.toml', '-o', 'claim.pdf'], { cwd: wrongs }).catch((error) => error);
+  assert.equal(name.code, 2);
+  assert.match(name.stderr, /is no \.html/);
+  remove(wrongs);
+});

@@ -1,0 +1,96 @@
+// What the tests of the web pages share. The environment says where things are: RHEONET (the program), CHROMIUM,
+// NODE_PACKAGES (the folder with node_modules).
+import assert from 'node:assert/strict';
+import { execFile, spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync, mkdirSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { dirname, join } from 'node:path';
+import { promisify } from 'node:util';
+
+export const program = process.env.RHEONET;
+const require = createRequire(join(process.env.NODE_PACKAGES, 'package.json'));
+const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
+
+// Runs a command; rejects with `code` and `stderr` if it ends with another status than 0.
+export const rheonet = (words, options) => promisify(execFile)(program, words, options);
+
+// A folder of its own with these files in it.
+export function folderWith(files) {
+  const folder = mkdtempSync(join(tmpdir(), 'rheonet-web-'));
+  for (const [name, text] of Object.entries(files)) {
+    mkdirSync(dirname(join(folder, name)), { recursive: true });
+    writeFileSync(join(folder, name), text);
+  }
+  return folder;
+}
+
+// A server of a folder: { origin, port, process, stop }.
+export async function serve(folder, ...options) {
+  const process = spawn(program, ['serve', folder, '--port', '0', ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const origin = await new Promise((resolve, reject) => {
+    let text = '';
+    process.stdout.on('data', (piece) => {
+      text += piece;
+      const found = /http:\/\/[^/]+/.exec(text);
+      if (found && text.includes('\n')) resolve(found[0]);
+    });
+    process.on('exit', (status) => reject(new Error(`the server ends with ${status}: ${text}`)));
+  });
+  const stop = () =>
+    new Promise((resolve) => {
+      process.removeAllListeners('exit');
+      process.on('exit', (status) => resolve(status));
+      process.kill('SIGTERM');
+    });
+  return { origin, port: Number(new URL(origin).port), process, stop };
+}
+
+export async function browser() {
+  const { chromium } = require('playwright-core');
+  return chromium.launch({ executablePath: process.env.CHROMIUM, args: ['--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage'] });
+}
+
+// A page that is watched: what it says on its console as an error, and whatever it asks of any but its own origin.
+export async function watched(context, origin) {
+  const page = await context.newPage();
+  const wrong = [];
+  page.on('console', (message) => ['error', 'warning'].includes(message.type()) && wrong.push(message.text()));
+  page.on('pageerror', (error) => wrong.push(String(error.stack)));
+  page.on('request', (request) => {
+    const { protocol, origin: to } = new URL(request.url());
+    if (!['data:', 'blob:'].includes(protocol) && to !== origin && !(origin === 'file' && protocol === 'file:')) wrong.push(`asks ${request.url()}`);
+  });
+  return { page, wrong };
+}
+
+// Accessibility: no violation that is serious or critical.
+export async function accessible(page, what) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run());
+  const grave = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+  const words = grave.map(({ id, help, nodes }) => `${id}: ${help}\n${nodes.slice(0, 3).map(({ html, failureSummary }) => `  ${html.slice(0, 200)}\n  ${failureSummary}`).join('\n')}`);
+  assert.deepEqual(words, [], what);
+}
+
+export const remove = (folder) => rmSync(folder, { recursive: true, force: true });
+
+// A Bingham element on a drum that turns at a constant velocity: the torque comes to Tc + B w.
+export const bingham = `title = "Bingham element"
+domain = "rotation"
+
+[parameters]
+B  = "0.5 N*m*s/rad"
+Tc = "2 N*m"
+
+[elements]
+drive = { type = "motion",  at = "drum", velocity = { step = "10 rad/s", time = "0 s" } }
+k1    = { type = "spring",  between = ["drum", "mid"],   stiffness = "100 N*m/rad" }
+c1    = { type = "dashpot", between = ["mid", "ground"], damping = "B" }
+s1    = { type = "slider",  between = ["mid", "ground"], coulomb = "Tc" }
+
+[simulate]
+stop   = "0.2 s"
+output = { every = "1 ms" }
+record = ["k1.force", "mid.velocity"]
+`;

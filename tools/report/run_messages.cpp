@@ -1,0 +1,205 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "core/netlist/records.hpp"
+#include "core/network/error.hpp"
+#include "core/result/run.hpp"
+#include "tools/report/messages.hpp"
+#include "tools/report/thinner.hpp"
+#include "tools/rheonet/claims.hpp"
+#include "tools/rheonet/summary.hpp"
+
+namespace rheonet::report {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+/// Gathers rows and tells them by column. Seven digits are more than a screen shows; time has as many as it needs to
+/// tell neighbours apart.
+class RowTeller {
+ public:
+  RowTeller(std::size_t columns, bool as_they_come, const Tell& tell)
+      : columns_(columns), as_they_come_(as_they_come), tell_(tell) {}
+
+  void add(double time, const std::vector<double>& values) {
+    fmt::format_to(std::back_inserter(times_), "{}{:.12g}", rows_ > 0 ? "," : "", time);
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      fmt::format_to(std::back_inserter(columns_[k]), "{}{:.7g}", rows_ > 0 ? "," : "", values[k] + 0.0);
+    ++rows_;
+    constexpr auto wait = std::chrono::milliseconds(100);
+    if (as_they_come_ && Clock::now() - last_ > wait) flush();
+  }
+
+  void flush() {
+    last_ = Clock::now();
+    if (rows_ == 0) return;
+    fmt::memory_buffer line;
+    fmt::format_to(std::back_inserter(line), R"({{"kind":"rows","time":[{}],"values":[)", fmt::to_string(times_));
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      fmt::format_to(std::back_inserter(line), "{}[{}]", k > 0 ? "," : "", fmt::to_string(columns_[k]));
+    fmt::format_to(std::back_inserter(line), "]}}");
+    tell_(fmt::to_string(line));
+    rows_ = 0;
+    times_.clear();
+    for (fmt::memory_buffer& column : columns_) column.clear();
+  }
+
+ private:
+  std::vector<fmt::memory_buffer> columns_;
+  bool as_they_come_;
+  const Tell& tell_;
+  fmt::memory_buffer times_;
+  std::size_t rows_ = 0;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// The energy account over the run, in bounded memory: it is taken at times about equally far apart.
+class EnergyCourse {
+ public:
+  EnergyCourse(double start, double stop) : next_(start), every_((stop - start) / most) {}
+
+  void add(double time, const EnergySoFar& energy) {
+    last_ = {time, energy};
+    if (time < next_) return;
+    keep();
+    next_ = time + every_;
+  }
+
+  std::string message() {
+    if (!points_.empty() && points_.back().time != last_.time) keep();
+    json supplied = json::array(), stored = json::array(), dissipated = json::array(), time = json::array();
+    for (const Point& p : points_) {
+      time.push_back(p.time);
+      supplied.push_back(p.energy.supplied);
+      stored.push_back(p.energy.stored);
+      dissipated.push_back(p.energy.dissipated);
+    }
+    return to_line({{"kind", "energy"}, {"time", time}, {"supplied", supplied}, {"stored", stored}, {"dissipated", dissipated}});
+  }
+
+ private:
+  static constexpr double most = 1000;
+  struct Point {
+    double time;
+    EnergySoFar energy;
+  };
+  void keep() { points_.push_back(last_); }
+
+  std::vector<Point> points_;
+  Point last_{};
+  double next_, every_;
+};
+
+/// What switched; of very many the first.
+struct EventList {
+  std::size_t most;
+  json items = json::array();
+  std::size_t left_out = 0;
+
+  void add(double time, const std::string& element, const char* what, int direction) {
+    if (items.size() >= most)
+      ++left_out;
+    else
+      items.push_back({time, element, what, direction});
+  }
+  std::string message() const { return to_line({{"kind", "events"}, {"items", items}, {"left_out", left_out}}); }
+};
+
+json statistics(const Summary& s) {
+  json switched = json::array();
+  for (std::size_t k = 0; k < std::min<std::size_t>(s.switched.size(), 20); ++k)
+    switched.push_back({s.switched[k].element, s.switched[k].times});
+  return {{"unknowns", s.unknowns},
+          {"sparse", s.sparse},
+          {"steps", s.steps},
+          {"rejected", s.rejected_steps},
+          {"residuals", s.residual_evaluations},
+          {"jacobians", s.jacobian_evaluations},
+          {"events", s.events},
+          {"starts", s.restarts},
+          {"switched", switched},
+          {"supplied", s.supplied},
+          {"stored", s.stored},
+          {"dissipated", s.dissipated},
+          {"missing", s.missing},
+          {"largest", s.largest},
+          {"wall_time", tool::in_time_units(s.wall_seconds)},
+          {"cpu_time", tool::in_time_units(s.cpu_seconds)},
+          {"cpu_seconds", s.cpu_seconds}};
+}
+
+json claims(const Scene& scene, const Summary& summary) {
+  json list = json::array();
+  for (std::size_t k = 0; k < std::min(scene.claims.size(), summary.findings.size()); ++k) {
+    const tool::ClaimInWords words = tool::in_words(scene, scene.claims[k], summary.findings[k]);
+    list.push_back({{"name", words.name}, {"claimed", words.claimed}, {"found", words.found}, {"holds", words.holds}});
+  }
+  return list;
+}
+
+std::string failure_message(const SimulationError& error, const Sources& sources) {
+  json message = {{"kind", "failed"}, {"message", error.what()}};
+  if (error.spot && error.spot->file == 0) {
+    message["line"] = error.spot->line;
+    message["column"] = error.spot->column;
+  }
+  if (error.spot)
+    message["text"] = format({.severity = Severity::error, .spot = *error.spot, .message = error.what(), .hint = {}}, sources);
+  return to_line(message);
+}
+
+}  // namespace
+
+bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell) {
+  const Scene& scene = *read.scene;
+  const std::size_t columns = std::max<std::size_t>(scene.records.size(), 1);
+  RowTeller rows(scene.records.size(), wanted.as_they_come, tell);
+  const std::size_t most_rows = std::clamp<std::size_t>(wanted.most_values / columns, 200, 5000);
+  Thinner thinner(static_cast<std::size_t>(scene.output_intervals) + 1, most_rows,
+                  [&](double time, const std::vector<double>& values) { rows.add(time, values); });
+  EnergyCourse energy(scene.start, scene.stop);
+  EventList events{.most = wanted.most_events};
+  const auto finish = [&] {
+    thinner.finish();
+    rows.flush();
+    tell(energy.message());
+    tell(events.message());
+  };
+  try {
+    const Summary summary = run(scene, {.row = [&](double t, const std::vector<double>& v) { thinner.add(t, v); },
+                                        .event = [&](double t, const std::string& element, const char* what,
+                                                     int direction) { events.add(t, element, what, direction); },
+                                        .energy = [&](double t, const EnergySoFar& e) { energy.add(t, e); },
+                                        .interrupt = wanted.interrupt,
+                                        .tolerance = wanted.tolerance});
+    finish();
+    tell(to_line({{"kind", "done"},
+                  {"statistics", statistics(summary)},
+                  {"notes", summary.notes},
+                  {"claims", claims(scene, summary)}}));
+    return true;
+  } catch (const SimulationError& error) {
+    finish();
+    tell(failure_message(error, read.sources));
+    return false;
+  }
+}
+
+std::size_t record_what_pages_show(Scene& scene) {
+  constexpr std::size_t few = 60;
+  const std::size_t before = scene.records.size();
+  if (scene.elements.size() > few) return before;
+  for (const Record& record : every_record(scene)) {
+    const auto same = [&](const Record& other) { return other.path == record.path; };
+    if (std::none_of(scene.records.begin(), scene.records.begin() + static_cast<std::ptrdiff_t>(before), same))
+      scene.records.push_back(record);
+  }
+  return before;
+}
+
+}  // namespace rheonet::report

@@ -1,0 +1,204 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/netlist/characters.hpp"
+#include "core/network/component.hpp"
+#include "tools/draw/caption.hpp"
+#include "tools/draw/schematic.hpp"
+#include "tools/plot/mistake.hpp"
+#include "tools/plot/units.hpp"
+#include "tools/report/knobs.hpp"
+#include "tools/report/messages.hpp"
+#include "tools/rheonet/network_text.hpp"
+
+namespace rheonet::report {
+namespace {
+
+using nlohmann::json;
+
+const char* name_of(Sources::Role role) {
+  return role == Sources::Role::scene ? "scene" : role == Sources::Role::included ? "included" : "table";
+}
+
+const char* name_of(Record::Subject subject) {
+  using Subject = Record::Subject;
+  return subject == Subject::node      ? "node"
+         : subject == Subject::element ? "element"
+         : subject == Subject::block   ? "block"
+                                       : "assembly";
+}
+
+/// The first of the wished units in which a record can be shown; null if there is none.
+json shown_in(const std::vector<std::string>& wished, const std::string& unit) {
+  const plot::Measure measure = plot::measure("", unit);
+  for (const std::string& wish : wished) {
+    const plot::Measure other = plot::measure("", wish);
+    if (other.size && plot::compatible(measure, other)) return {{"name", plot::in_print(wish)}, {"factor", other.size->factor}};
+  }
+  return nullptr;
+}
+
+json records(const ReadResult& read) {
+  const Scene& scene = *read.scene;
+  json list = json::array();
+  for (const Record& record : scene.records) {
+    const auto quantity = quantity_of(scene, record);
+    const bool length = quantity == Quantity::position && scene.domain == Domain::translation;
+    const std::size_t dot = record.path.rfind('.');
+    list.push_back({{"path", record.path},
+                    {"owner", record.path.substr(0, dot)},
+                    {"channel", record.path.substr(dot + 1)},
+                    {"subject", name_of(record.subject)},
+                    {"quantity", !quantity ? "signal" : length ? "position" : rheonet::name_of(*quantity, scene.domain)},
+                    {"unit", unit_text(scene, record)}});
+    if (const json shown = shown_in(read.presentation.plot.units, unit_text(scene, record)); !shown.is_null())
+      list.back()["shown"] = shown;
+  }
+  return list;
+}
+
+json elements(const Scene& scene) {
+  json list = json::array();
+  constexpr std::size_t most = 500;  // of more no one reads a table
+  for (std::size_t i = 0; i < std::min(scene.elements.size(), most); ++i) {
+    const SceneElement& element = scene.elements[i];
+    const auto node = [&scene](NodeId id) { return scene.nodes[static_cast<std::size_t>(id)].name; };
+    const auto [name, type, place, values] = tool::row_of(element, scene);
+    list.push_back({{"name", name},
+                    {"type", type},
+                    {"place", place},
+                    {"a", node(element.a)},
+                    {"b", element.at ? "" : node(element.b)},
+                    {"values", values}});
+  }
+  return list;
+}
+
+/// The laws of the element types that are used, each once.
+json equations(const Scene& scene) {
+  std::set<int> used;
+  for (const SceneElement& element : scene.elements) used.insert(element.declaration);
+  json list = json::array();
+  for (const int index : used) {
+    const Declaration& d = components()[static_cast<std::size_t>(index)]->declaration;
+    json symbols = json::array();
+    for (const Parameter& p : d.parameters)
+      if (!p.symbol.empty())
+        symbols.push_back({draw::in_print(p.symbol), p.name_in(scene.domain), p.description});
+    list.push_back({{"type", d.type},
+                    {"tex", d.equation},
+                    {"law", d.law},
+                    {"summary", d.summary},
+                    {"notes", d.notes},
+                    {"source", d.source},
+                    {"symbols", symbols}});
+  }
+  return list;
+}
+
+json sliders(const ReadResult& read) {
+  json list = json::array();
+  for (const Knob& knob : knobs_of(read)) {
+    const char* scale = knob.scale == Knob::Scale::logarithmic ? "log" : knob.scale == Knob::Scale::whole ? "whole" : "linear";
+    list.push_back({{"group", knob.group},
+                    {"name", knob.name},
+                    {"description", knob.description},
+                    {"value", knob.value},
+                    {"unit", knob.unit},
+                    {"scale", scale},
+                    {"low", knob.low},
+                    {"high", knob.high},
+                    {"step", knob.step},
+                    {"asked", knob.asked},
+                    {"line", knob.spot.line},
+                    {"column", knob.spot.column}});
+  }
+  return list;
+}
+
+/// null of a scene that is none.
+json demo(const Demo& demo) {
+  if (demo.question.empty()) return nullptr;
+  return {{"question", demo.question}, {"change", demo.change}, {"see", demo.see}, {"why", demo.why}};
+}
+
+/// What the scene wants drawn: pairs of columns.
+json plot(const PlotTable& table) {
+  json curves = json::array();
+  for (const PlotTable::Curve& curve : table.curves) curves.push_back({curve.x, curve.y});
+  return {{"curves", curves}};
+}
+
+/// The drawing, the nodes at the left and the right end of each symbol in it, or why there is none.
+json schematic(const Scene& scene) {
+  try {
+    const draw::Picture picture = draw::schematic(scene, {.title = ""});
+    json ends = json::object();
+    for (const draw::Mark& mark : picture.marks) {
+      json& of_element = ends[scene.elements[static_cast<std::size_t>(mark.element)].name];
+      for (const draw::Mark::End& end : mark.ends) {
+        const bool left = 2 * end.at.x < mark.box.left + mark.box.right;
+        of_element[left ? "left" : "right"] = scene.nodes[static_cast<std::size_t>(end.node)].name;
+      }
+    }
+    return {{"svg", draw::svg(picture, scene)}, {"ends", ends}, {"why_not", ""}};
+  } catch (const plot::Mistake& mistake) {
+    return {{"svg", ""}, {"ends", json::object()}, {"why_not", mistake.what()}};
+  }
+}
+
+}  // namespace
+
+std::string to_line(const json& message) { return message.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+std::string mistakes_message(const ReadResult& read) {
+  json items = json::array();
+  for (const Diagnostic& d : read.diagnostics) {
+    json item = {{"severity", d.severity == Severity::error ? "error" : "warning"},
+                 {"message", printable(d.message)},
+                 {"hint", printable(d.hint)},
+                 {"text", format(d, read.sources)}};
+    if (d.spot.file == 0) {
+      item["line"] = d.spot.line;
+      item["column"] = d.spot.column;
+    }
+    items.push_back(item);
+  }
+  return to_line({{"kind", "mistakes"}, {"items", items}});
+}
+
+std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records,
+                          const std::string& explanation) {
+  const Scene& scene = *read.scene;
+  json sources = json::array();
+  for (const Sources::File& source : read.sources.files) {
+    constexpr std::size_t most = 100'000;
+    const std::string cut = source.text.size() > most ? "\n... and more\n" : "";
+    sources.push_back({{"file", source.path.string()}, {"role", name_of(source.role)}, {"text", source.text.substr(0, most) + cut}});
+  }
+  const json drawing = schematic(scene);
+  return to_line({{"kind", "scene"},
+                  {"file", file},
+                  {"title", scene.title},
+                  {"domain", scene.domain == Domain::rotation ? "rotation" : "translation"},
+                  {"start", scene.start},
+                  {"stop", scene.stop},
+                  {"accuracy", scene.accuracy},
+                  {"records", records(read)},
+                  {"own_records", own_records},
+                  {"elements", elements(scene)},
+                  {"element_count", scene.elements.size()},
+                  {"node_count", scene.nodes.size() - 1},
+                  {"equations", equations(scene)},
+                  {"sliders", sliders(read)},
+                  {"demo", demo(read.presentation.demo)},
+                  {"plot", plot(read.presentation.plot)},
+                  {"schematic", drawing.at("svg")},
+                  {"ends", drawing.at("ends")},
+                  {"no_schematic", drawing.at("why_not")},
+                  {"explanation", explanation},
+                  {"sources", sources}});
+}
+
+}  // namespace rheonet::report

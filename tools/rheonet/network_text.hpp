@@ -1,0 +1,19 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "core/netlist/scene.hpp"
+
+namespace rheonet::tool {
+
+/// "1 element", "2 elements".
+std::string count(std::size_t n, const char* one, const char* many);
+
+/// An element in words: its name, type, place and values, these in SI.
+std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scene);
+
+/// The network as it was understood, every value in SI: what `check -v` prints.
+std::string describe_network(const Scene& scene);
+
+}  // namespace rheonet::tool

@@ -1,0 +1,180 @@
+#include "tools/serve/api.hpp"
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+
+#include "tools/report/messages.hpp"
+#include "tools/serve/guard.hpp"
+#include "tools/web/assets.hpp"
+
+namespace rheonet::serve {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr std::size_t most_bytes = 1u << 20;  // of a body
+constexpr std::size_t most_scenes = 4, most_curves = 200, longest_name = 1000;
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(report::to_line({{"error", why}}), "application/json");
+  response.set_header("Connection", "close");
+  Server::end_connection();
+}
+
+/// The body as JSON; absent if it is none or too large, which has then been said.
+std::optional<json> read(httplib::Response& response, const httplib::ContentReader& body) {
+  std::string text;
+  bool too_large = false;
+  const bool whole = body([&](const char* data, std::size_t size) {
+    too_large = text.size() + size > most_bytes;
+    if (!too_large) text.append(data, size);
+    return !too_large;
+  });
+  if (too_large) return refuse(response, 413, "a request may have 1 MB"), std::nullopt;
+  if (!whole) return refuse(response, 400, "the request is not complete"), std::nullopt;
+  json value = json::parse(text, nullptr, false);
+  if (!value.is_object()) return refuse(response, 400, "the request is no JSON object"), std::nullopt;
+  return value;
+}
+
+/// A string of a request, "" if there is none; a long one is no name.
+std::string word(const json& value, const char* key) {
+  const auto found = value.find(key);
+  if (found == value.end() || !found->is_string()) return "";
+  const auto& text = found->get_ref<const std::string&>();
+  return text.size() <= longest_name ? text : "";
+}
+
+/// A netlist as a worker gets it; absent if it is not one.
+std::optional<json> scene_of(const json& value, const Folder& folder) {
+  if (!value.is_object() || !value.contains("text") || !value["text"].is_string()) return {};
+  const std::string file = word(value, "file");
+  return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder.beside(file).string()}};
+}
+
+/// The task that a request asks for, with nothing in it but what is known; absent if it asks for none.
+std::optional<json> task_of(const json& request, const Folder& folder) {
+  const std::string kind = word(request, "task");
+  if (kind == "show" || kind == "csv") {
+    std::optional<json> task = scene_of(request, folder);
+    if (!task) return {};
+    (*task)["task"] = kind;
+    (*task)["draw"] = request.value("draw", json()) == true;
+    return task;
+  }
+  if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
+  json task{{"task", kind}, {"scenes", json::array()}, {"curves", json::array()}};
+  if (request["scenes"].empty() || request["scenes"].size() > most_scenes) return {};
+  for (const json& scene : request["scenes"]) {
+    std::optional<json> one = scene_of(scene, folder);
+    if (!one) return {};
+    task["scenes"].push_back(std::move(*one));
+  }
+  if (kind == "report") return task;
+  if (!request.contains("curves") || !request["curves"].is_array() || request["curves"].size() > most_curves) return {};
+  for (const json& curve : request["curves"]) {
+    if (!curve.is_array() || curve.size() != 2 || !curve[0].is_string() || !curve[1].is_string()) return {};
+    task["curves"].push_back(curve);
+  }
+  return task;
+}
+
+void add_headers(httplib::Server& server) {
+  server.set_default_headers({
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src data:; "
+       "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+      {"Cache-Control", "no-store"},
+  });
+}
+
+}  // namespace
+
+void Api::attach(Server& server, const std::string& host) {
+  add_headers(server);
+  server.set_pre_routing_handler([host](const Request& request, Response& response) {
+    const std::string why = refusal(request, host);
+    if (why.empty()) return httplib::Server::HandlerResponse::Unhandled;
+    refuse(response, 403, why);
+    return httplib::Server::HandlerResponse::Handled;
+  });
+  const auto page = [&server](const char* path, const web::Asset& asset) {
+    server.Get(path, [asset](const Request&, Response& response) {
+      response.set_content(asset.text.data(), asset.text.size(), asset.type);
+    });
+  };
+  page("/", web::playground_page());
+  page("/playground.css", web::playground_style());
+  page("/playground.js", web::playground_script());
+  server.Get("/api/folder", [this](const Request&, Response& response) { list(response); });
+  server.Get("/api/scene", [this](const Request& request, Response& response) { open(request, response); });
+  server.Post("/api/save", [this](const Request&, Response& response, const Reader& body) { save(response, body); });
+  server.Post("/api/task", [this](const Request&, Response& response, const Reader& body) { start(response, body); });
+  server.set_exception_handler([](const Request&, Response& response, std::exception_ptr) {
+    refuse(response, 500, "the request could not be answered");
+  });
+}
+
+void Api::list(Response& response) const {
+  json scenes = json::array();
+  for (const Folder::Entry& each : folder_.scenes())
+    scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
+  response.set_content(report::to_line({{"name", folder_.path().filename().string()},
+                                        {"may_be_written", folder_.may_be_written()},
+                                        {"seconds", pool_.limits().seconds},
+                                        {"scenes", scenes}}),
+                       "application/json");
+}
+
+void Api::open(const Request& request, Response& response) const {
+  const std::optional<std::string> text = folder_.read(request.get_param_value("file"));
+  if (!text) return refuse(response, 404, "there is no such netlist in the folder");
+  response.set_content(*text, "text/plain; charset=utf-8");
+}
+
+void Api::save(Response& response, const Reader& body) const {
+  const std::optional<json> request = read(response, body);
+  if (!request) return;
+  if (!request->contains("text") || !(*request)["text"].is_string()) return refuse(response, 400, "there is no text to save");
+  const std::string why = folder_.write(word(*request, "file"), (*request)["text"].get<std::string>());
+  if (!why.empty()) return refuse(response, 409, why);
+  response.set_content("{}", "application/json");
+}
+
+std::shared_ptr<Job> Api::begin(const std::string& session, std::string task) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(sessions_, [](const auto& each) { return each.second.expired(); });
+  if (!session.empty())
+    if (const auto older = sessions_.find(session); older != sessions_.end())
+      if (const std::shared_ptr<Job> job = older->second.lock()) job->cancel();
+  auto job = std::make_shared<Job>(pool_, std::move(task));
+  if (!session.empty()) sessions_[session] = job;
+  return job;
+}
+
+void Api::start(Response& response, const Reader& body) {
+  const std::optional<json> request = read(response, body);
+  if (!request) return;
+  const std::optional<json> task = task_of(*request, folder_);
+  if (!task) return refuse(response, 400, "the request asks for nothing that is known here");
+  const std::shared_ptr<Job> job = begin(word(*request, "session"), report::to_line(*task));
+  response.set_chunked_content_provider("application/x-ndjson", [job](std::size_t, httplib::DataSink& sink) {
+    constexpr auto tick = 50ms;
+    bool finished = false;
+    const std::string text = job->take(tick, finished);
+    if (!sink.is_writable() || (!text.empty() && !sink.write(text.data(), text.size()))) {
+      job->cancel();
+      return false;
+    }
+    if (finished) sink.done();
+    return true;
+  });
+}
+
+}  // namespace rheonet::serve

@@ -1,0 +1,212 @@
+#include <poll.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "core/network/component.hpp"
+#include "core/network/error.hpp"
+#include "core/result/run.hpp"
+#include "tools/plot/compose.hpp"
+#include "tools/plot/mistake.hpp"
+#include "tools/report/document.hpp"
+#include "tools/report/messages.hpp"
+#include "tools/rheonet/library.hpp"
+#include "tools/rheonet/network_text.hpp"
+#include "tools/rheonet/plot_source.hpp"
+#include "tools/rheonet/reading.hpp"
+#include "tools/serve/worker.hpp"
+
+namespace rheonet::serve {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t most_elements = 100'000;
+
+void tell(const std::string& message) {
+  std::fwrite(message.data(), 1, message.size(), stdout);
+  std::fputc('\n', stdout);
+  std::fflush(stdout);
+}
+
+/// A netlist that was sent, or is in the folder.
+struct Sent {
+  std::string text, file, folder;
+};
+
+Sent sent(const json& item) {
+  return {item.at("text").get<std::string>(), item.at("file").get<std::string>(), item.at("folder").get<std::string>()};
+}
+
+ReadResult read(const Sent& item) {
+  ReadOptions options;
+  options.model_folders = tool::library_folders();
+  options.plotted = true;
+  ReadResult result = tool::read_text(item.text, item.file, item.folder, options);
+  if (result.scene && result.scene->elements.size() > most_elements) {
+    result.diagnostics.push_back({.severity = Severity::error,
+                                  .spot = {0, 1, 1},
+                                  .message = "a scene here may have " + std::to_string(most_elements) + " elements",
+                                  .hint = "`rheonet run` has no such limit"});
+    result.scene.reset();
+  }
+  return result;
+}
+
+void tell_file(const std::string& type, const std::string& text) {
+  tell(report::to_line({{"kind", "file"}, {"type", type}, {"text", text}}));
+}
+
+/// Everything that a page shows of a scene.
+void show(const json& task) {
+  const Sent item = sent(task);
+  ReadResult scene = read(item);
+  tell(report::mistakes_message(scene));
+  if (!scene.scene) return;
+  const bool drawn_only = task.value("draw", false);
+  const std::string explanation = drawn_only ? "" : tool::describe_network(*scene.scene);
+  const std::size_t own = report::record_what_pages_show(*scene.scene);
+  tell(report::scene_message(scene, item.file, own, explanation));
+  if (!drawn_only) report::tell_run(scene, {.most_values = 60'000, .as_they_come = true}, tell);
+}
+
+/// All rows, every digit.
+void csv(const json& task) {
+  const ReadResult scene = read(sent(task));
+  tell(report::mistakes_message(scene));
+  if (!scene.scene) return;
+  char* text = nullptr;
+  std::size_t size = 0;
+  std::FILE* const file = ::open_memstream(&text, &size);
+  if (file == nullptr) throw std::bad_alloc();
+  std::string failure;
+  try {
+    run(*scene.scene, {.csv = file});
+  } catch (const SimulationError& error) {
+    failure = error.what();
+  }
+  std::fclose(file);
+  const std::string rows(text, size);
+  std::free(text);
+  if (failure.empty())
+    tell_file("text/csv", rows);
+  else
+    tell(report::to_line({{"kind", "failed"}, {"message", failure}}));
+}
+
+void report_of(const json& task) {
+  std::vector<std::vector<std::string>> scenes;
+  std::string title;
+  for (const json& each : task.at("scenes")) {
+    const Sent item = sent(each);
+    ReadResult scene = read(item);
+    if (!scene.scene) return tell(report::mistakes_message(scene));
+    if (title.empty()) title = scene.scene->title.empty() ? item.file : scene.scene->title;
+    std::vector<std::string> messages{report::mistakes_message(scene)};
+    const std::string explanation = tool::describe_network(*scene.scene);
+    const std::size_t own = report::record_what_pages_show(*scene.scene);
+    messages.push_back(report::scene_message(scene, item.file, own, explanation));
+    report::tell_run(scene, {}, [&](const std::string& message) { messages.push_back(message); });
+    scenes.push_back(std::move(messages));
+  }
+  tell_file("text/html", report::document(title, scenes));
+}
+
+/// Curves as an SVG: of each scene the records `y` over `x`.
+void figure(const json& task) {
+  std::vector<plot::Measured> curves;
+  plot::Look look;
+  const bool several = task.at("scenes").size() > 1;
+  char letter = 'A';
+  for (const json& each : task.at("scenes")) {
+    ReadResult scene = read(sent(each));
+    if (!scene.scene) return tell(report::mistakes_message(scene));
+    if (look.title.empty()) look.title = scene.scene->title;
+    report::record_what_pages_show(*scene.scene);
+    const std::vector<plot::Column> columns = tool::columns_of(*scene.scene);
+    const auto find = [&](const std::string& name) {
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        if (columns[k].name == name) return k;
+      return columns.size();
+    };
+    std::vector<plot::ColumnPair> pairs;
+    const std::size_t first = curves.size();
+    for (const json& pair : task.at("curves")) {
+      const std::size_t x = find(pair.at(0).get<std::string>()), y = find(pair.at(1).get<std::string>());
+      if (x == columns.size() || y == columns.size()) continue;
+      pairs.emplace_back(x, y);
+      curves.push_back({(several ? std::string(1, letter) + " " : "") + columns[y].name, columns[x], columns[y], {}});
+    }
+    run(*scene.scene, {.row = [&](double time, const std::vector<double>& values) {
+          const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
+          for (std::size_t k = 0; k < pairs.size(); ++k) curves[first + k].trace.add({value(pairs[k].first), value(pairs[k].second)});
+        }});
+    ++letter;
+  }
+  if (curves.empty()) throw plot::Mistake("there is nothing to draw", "choose what is to be shown");
+  std::vector<std::string> notes;
+  tell_file("image/svg+xml", plot::svg(plot::compose(std::move(curves), look, notes)));
+}
+
+void carry_out(const json& task) {
+  const std::string kind = task.at("task").get<std::string>();
+  if (kind == "show") return show(task);
+  if (kind == "csv") return csv(task);
+  if (kind == "report") return report_of(task);
+  if (kind == "figure") return figure(task);
+}
+
+void limit(int resource, rlim_t most) {
+  const rlimit both{most, most};
+  ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+}
+
+/// Of this process so far.
+rlim_t address_space() {
+  std::ifstream pages("/proc/self/statm");
+  rlim_t count = 0;
+  pages >> count;
+  return count * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// Whoever gave the task may have gone while it is being done.
+void end_with_the_server() {
+  for (;;) {
+    pollfd input{STDIN_FILENO, 0, 0};
+    if (::poll(&input, 1, -1) > 0 && (input.revents & (POLLHUP | POLLERR)) != 0) ::_exit(0);
+  }
+}
+
+}  // namespace
+
+int work(const Limits& limits) {
+  std::thread(end_with_the_server).detach();
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, 0);
+#ifndef __SANITIZE_ADDRESS__  // which takes all addresses there are
+  limit(RLIMIT_AS, address_space() + static_cast<rlim_t>(limits.megabytes) * (1u << 20));
+#endif
+  for (std::string line; std::getline(std::cin, line);) {
+    const auto failed = [](const std::string& why) { tell(report::to_line({{"kind", "failed"}, {"message", why}})); };
+    try {
+      carry_out(json::parse(line));
+    } catch (const std::bad_alloc&) {
+      return 1;  // the server says so
+    } catch (const plot::Mistake& mistake) {
+      failed(mistake.what());
+    } catch (const std::exception& error) {
+      failed(error.what());
+    }
+    tell("");
+  }
+  return 0;
+}
+
+}  // namespace rheonet::serve

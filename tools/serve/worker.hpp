@@ -1,0 +1,46 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace rheonet::serve {
+
+/// What a run may take.
+struct Limits {
+  double seconds;
+  int megabytes;
+};
+
+/// A process of its own that simulates, so that nothing in a scene can hang or kill the server. It takes a task, a line
+/// of JSON, and answers with messages, a line each (see tools/report/messages.hpp); an empty line ends them.
+class Worker {
+ public:
+  /// Starts one; throws std::system_error.
+  explicit Worker(const Limits& limits);
+  /// Kills it.
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  /// False if it cannot take it.
+  bool give(const std::string& task);
+
+  enum class Answer { message, end, nothing, gone };
+  /// Waits a while for the next message.
+  Answer take(std::string& message, std::chrono::milliseconds patience);
+
+ private:
+  pid_t process_ = -1;
+  int in_ = -1, out_ = -1;
+  std::string buffer_;
+  std::size_t begin_ = 0;     ///< of what has not been taken
+  std::size_t searched_ = 0;  ///< before this there is no end of a line
+};
+
+/// The process itself: takes tasks from standard input until there are no more.
+int work(const Limits& limits);
+
+}  // namespace rheonet::serve

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string_view>
+
+namespace rheonet::web {
+
+/// What the browser gets, as it was bundled when rheonet was built: see README.md. Empty if that could not be done.
+struct Asset {
+  std::string_view text;
+  const char* type;  ///< as HTTP names it
+};
+
+Asset report_page();       ///< complete but for its data
+Asset playground_page();
+Asset playground_style();
+Asset playground_script();
+
+/// Whether there is any; if not, why not, and how to get it.
+bool are_built();
+const char* why_not_built();
+
+}  // namespace rheonet::web

@@ -1,0 +1,51 @@
+// How far runs are from the first, record by record.
+import { element, table } from './dom.js';
+import { number, withUnit } from './units.js';
+
+// The value of a column at a time, straight between rows.
+function interpolate(time, values, t) {
+  let low = 0;
+  let high = time.length - 1;
+  if (t < time[low] || t > time[high]) return NaN;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (time[middle] <= t) low = middle;
+    else high = middle;
+  }
+  const length = time[high] - time[low];
+  return length > 0 ? values[low] + ((values[high] - values[low]) * (t - time[low])) / length : values[low];
+}
+
+export function difference(first, second, path) {
+  const a = first.column(path);
+  const b = second.column(path);
+  let largest = 0;
+  let at = 0;
+  let scale = 0;
+  let squares = 0;
+  let count = 0;
+  first.time.forEach((time, k) => {
+    const other = interpolate(second.time, b, time);
+    if (Number.isNaN(other)) return;
+    const off = Math.abs(a[k] - other);
+    scale = Math.max(scale, Math.abs(a[k]), Math.abs(other));
+    squares += off * off;
+    ++count;
+    if (off > largest) [largest, at] = [off, time];
+  });
+  return { largest, at, scale, rms: count ? Math.sqrt(squares / count) : 0 };
+}
+
+export function differencesOf(runs) {
+  const [first, ...others] = runs;
+  const rows = [];
+  for (const { label, data } of others)
+    for (const { path, unit } of first.data.records.slice(0, first.data.scene.own_records)) {
+      if (!data.column(path) || !first.data.time.length || !data.time.length) continue;
+      const { largest, at, scale, rms } = difference(first.data, data, path);
+      rows.push([`${first.label} – ${label}`, element('code', {}, path), withUnit(largest, unit), scale > 0 ? number(largest / scale, 3) : '0',
+        largest > 0 ? `${number(at)} s` : '–', withUnit(rms, unit)]);
+    }
+  if (!rows.length) return element('p', { class: 'note' }, 'The scenes record nothing under the same name.');
+  return table(['scenes', 'record', 'largest difference', 'relative', 'at', 'root mean square'], rows, 'Differences');
+}

@@ -1,0 +1,59 @@
+// Makes elements: element('p', { class: 'note' }, 'text', child, ...).
+export function element(name, attributes = {}, ...children) {
+  const node = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (value === undefined || value === null || value === false) continue;
+    if (key.startsWith('on')) node.addEventListener(key.slice(2), value);
+    else if (key === 'class') node.className = value;
+    else if (key in node && typeof value !== 'string') node[key] = value;
+    else node.setAttribute(key, value === true ? '' : value);
+  }
+  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  return node;
+}
+
+export function table(headings, rows, caption) {
+  return element(
+    'div',
+    { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption },
+    element(
+      'table',
+      {},
+      element('thead', {}, element('tr', {}, headings.map((text) => element('th', { scope: 'col' }, text)))),
+      element('tbody', {}, rows.map((cells) => element('tr', {}, cells.map((cell) => element('td', {}, cell))))),
+    ),
+  );
+}
+
+let last = 0;
+export const freshId = (word) => `${word}-${++last}`;
+
+// A value of the style sheet, of the theme that is on.
+export const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+// Calls back whenever colours change: another theme, or paper.
+export function onTheme(changed) {
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', changed);
+  matchMedia('print').addEventListener('change', changed);
+  new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
+}
+
+// The drawing of a network, in the colours of the page.
+export function schematicOf(scene) {
+  const host = element('div', { class: 'schematic' });
+  if (!scene.schematic) {
+    host.append(element('p', { class: 'note' }, `It is not drawn: ${scene.no_schematic}.`));
+    return host;
+  }
+  host.innerHTML = scene.schematic
+    .replace(/^<\?xml[^>]*>\s*/, '')
+    .replaceAll('#111111', 'var(--ink)')
+    .replaceAll('#ffffff', 'var(--paper)')
+    .replaceAll('#666666', 'var(--faint)');
+  const svg = host.querySelector('svg');
+  svg.setAttribute('aria-label', `Schematic of ${scene.title || scene.file}`);
+  svg.style.maxWidth = `${svg.getAttribute('width')}px`;
+  svg.removeAttribute('width');
+  svg.removeAttribute('height');
+  return host;
+}

@@ -1,0 +1,99 @@
+// The editor of a netlist, with mistakes marked where they are.
+import { defaultKeymap, history, historyKeymap } from '@codemirror/commands';
+import { bracketMatching, HighlightStyle, StreamLanguage, syntaxHighlighting } from '@codemirror/language';
+import { toml } from '@codemirror/legacy-modes/mode/toml';
+import { lintGutter, lintKeymap, setDiagnostics } from '@codemirror/lint';
+import { EditorState } from '@codemirror/state';
+import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from '@codemirror/view';
+import { tags } from '@lezer/highlight';
+
+const colours = HighlightStyle.define([
+  { tag: tags.comment, color: 'var(--code-comment)', fontStyle: 'italic' },
+  { tag: tags.string, color: 'var(--code-string)' },
+  { tag: [tags.number, tags.bool, tags.atom], color: 'var(--code-number)' },
+  { tag: [tags.propertyName, tags.variableName, tags.definition(tags.propertyName)], color: 'var(--code-name)' },
+]);
+
+const look = EditorView.theme({
+  '&': { height: '100%', fontSize: '13px', backgroundColor: 'var(--paper)', color: 'var(--ink)' },
+  '.cm-scroller': { fontFamily: "ui-monospace, 'DejaVu Sans Mono', Menlo, Consolas, monospace", lineHeight: '1.5' },
+  '.cm-content': { caretColor: 'var(--ink)' },
+  '.cm-cursor': { borderLeftColor: 'var(--ink)' },
+  '.cm-gutters': { backgroundColor: 'var(--paper)', color: 'var(--faint)', borderRight: '1px solid var(--line)' },
+  '.cm-activeLine, .cm-activeLineGutter': { backgroundColor: 'color-mix(in srgb, var(--accent) 7%, transparent)' },
+  '.cm-selectionBackground, &.cm-focused > .cm-scroller > .cm-selectionLayer .cm-selectionBackground': {
+    backgroundColor: 'color-mix(in srgb, var(--accent) 25%, transparent)',
+  },
+  '.cm-tooltip': { backgroundColor: 'var(--paper)', color: 'var(--ink)', border: '1px solid var(--line)' },
+});
+
+export class Editor {
+  // onchange(text, byUser); onmove(changes): positions move.
+  constructor(host, { onchange, onmove }) {
+    this.onchange = onchange;
+    this.onmove = onmove;
+    this.view = new EditorView({ parent: host, state: this.stateOf('') });
+  }
+
+  stateOf(text) {
+    return EditorState.create({
+      doc: text,
+      extensions: [
+        lineNumbers(), highlightActiveLine(), highlightActiveLineGutter(), drawSelection(), history(), bracketMatching(),
+        StreamLanguage.define(toml), syntaxHighlighting(colours), look, lintGutter(), EditorView.lineWrapping,
+        EditorView.contentAttributes.of({ 'aria-label': 'Netlist', tabindex: '0' }),
+        keymap.of([...defaultKeymap, ...historyKeymap, ...lintKeymap]),
+        EditorView.updateListener.of((update) => {
+          if (!update.docChanged) return;
+          this.onmove(update.changes);
+          this.onchange(this.text, !this.quiet);
+        }),
+      ],
+    });
+  }
+
+  get text() {
+    return this.view.state.doc.toString();
+  }
+
+  // Another text, without a way back to the old one.
+  load(text) {
+    this.view.setState(this.stateOf(text));
+  }
+
+  // Puts something in place of a part of the text; not as if it had been typed.
+  replace(from, to, insert) {
+    this.quiet = true;
+    this.view.dispatch({ changes: { from, to, insert }, userEvent: 'slide' });
+    this.quiet = false;
+  }
+
+  // The place of a line and a column (both from 1, in characters).
+  offset(line, column) {
+    const { doc } = this.view.state;
+    if (!line || line > doc.lines) return doc.length;
+    const at = doc.line(line);
+    let offset = 0;
+    for (const character of [...at.text].slice(0, Math.max(0, column - 1))) offset += character.length;
+    return at.from + Math.min(offset, at.length);
+  }
+
+  mark(mistakes) {
+    const { state } = this.view;
+    const marks = mistakes
+      .filter((mistake) => mistake.line)
+      .map(({ line, column, severity, message, hint }) => {
+        const from = this.offset(line, column);
+        const end = state.doc.lineAt(from).to;
+        const word = /^("[^"]*"?|'[^']*'?|[\w.-]+)/.exec(state.sliceDoc(from, end));
+        return { from, to: Math.min(end, from + Math.max(1, word ? word[0].length : 1)), severity, message: hint ? `${message}\n${hint}` : message };
+      });
+    this.view.dispatch(setDiagnostics(state, marks));
+  }
+
+  go(line, column) {
+    const anchor = this.offset(line, column);
+    this.view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: 'center' }) });
+    this.view.focus();
+  }
+}

@@ -1,0 +1,39 @@
+// Files of what is seen.
+import { file } from './api.js';
+import { element } from './dom.js';
+
+export function download(blob, name) {
+  const link = element('a', { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+// An SVG as pixels, twice as fine as it is large.
+export function raster(svg) {
+  return new Promise((resolve, reject) => {
+    const image = new Image();
+    image.onload = () => {
+      const canvas = element('canvas', { width: image.width * 2, height: image.height * 2 });
+      canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
+      canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('the picture is too large'))), 'image/png');
+    };
+    image.onerror = () => reject(new Error('the picture cannot be drawn'));
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  });
+}
+
+// scenes: [{ text, file }]; curves: [[x, y], ...] as the plots show them; schematic: the drawing of the first.
+export function exporters({ scenes, curves, schematic, name }) {
+  const figure = () => file({ task: 'figure', scenes, curves });
+  const drawing = () => new Blob([schematic], { type: 'image/svg+xml' });
+  return [
+    { label: 'Rows (CSV)', make: () => file({ task: 'csv', ...scenes[0] }), name: `${name}.csv` },
+    { label: 'Plots (SVG)', make: figure, name: `${name}-plots.svg` },
+    { label: 'Plots (PNG)', make: async () => raster(await (await figure()).text()), name: `${name}-plots.png` },
+    { label: 'Schematic (SVG)', make: async () => drawing(), name: `${name}.svg` },
+    { label: 'Schematic (PNG)', make: () => raster(schematic), name: `${name}.png` },
+    { label: 'Report (HTML)', make: () => file({ task: 'report', scenes }), name: `${name}-report.html` },
+  ];
+}

@@ -1,0 +1,71 @@
+// The netlists of the folder, to choose from.
+import { open, task } from './api.js';
+import { element, schematicOf } from './dom.js';
+
+export class Gallery {
+  constructor({ onopen }) {
+    this.onopen = onopen;
+    this.find = element('input', { type: 'search', placeholder: 'find', 'aria-label': 'Find netlists' });
+    this.list = element('div', { class: 'cards' });
+    this.dialog = element('dialog', { class: 'gallery', 'aria-labelledby': 'gallery-title' },
+      element('div', { class: 'dialog-head' }, element('h2', { id: 'gallery-title' }, 'Gallery'), this.find,
+        element('button', { type: 'button', onclick: () => this.dialog.close(), 'aria-label': 'Close' }, '✕')),
+      this.list);
+    this.find.addEventListener('input', () => this.filter());
+    document.body.append(this.dialog);
+    this.drawn = new IntersectionObserver((items) => items.forEach((item) => item.isIntersecting && this.draw(item.target)), { rootMargin: '100px' });
+  }
+
+  show({ scenes }) {
+    const groups = new Map();
+    for (const scene of scenes) {
+      const folder = scene.file.includes('/') ? scene.file.slice(0, scene.file.lastIndexOf('/')) : '';
+      if (!groups.has(folder)) groups.set(folder, []);
+      groups.get(folder).push(scene);
+    }
+    // What is for beginners comes first.
+    const order = [...groups.keys()].sort((a, b) => Number(b.startsWith('teaching')) - Number(a.startsWith('teaching')) || a.localeCompare(b));
+    this.list.replaceChildren(...order.map((folder) =>
+      element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
+        element('div', { class: 'card-grid' }, groups.get(folder).map((scene) => this.card(scene))))));
+    if (!scenes.length) this.list.append(element('p', { class: 'note' }, 'The folder has no netlists yet: write one in the editor, and save it.'));
+  }
+
+  card(scene) {
+    const picture = element('div', { class: 'card-picture', 'aria-hidden': 'true' });
+    const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file },
+      picture, element('span', { class: 'card-title' }, scene.title || scene.file), element('span', { class: 'card-about' }, scene.about || scene.file));
+    card.addEventListener('click', () => {
+      this.dialog.close();
+      this.onopen(scene.file);
+    });
+    this.drawn.observe(card);
+    return card;
+  }
+
+  async draw(card) {
+    this.drawn.unobserve(card);
+    try {
+      const text = await open(card.dataset.file);
+      await task({ task: 'show', draw: true, text, file: card.dataset.file }, (message) => {
+        if (message.kind === 'scene' && message.schematic) card.querySelector('.card-picture').replaceChildren(schematicOf(message));
+      });
+    } catch {
+      // A card without its picture still opens.
+    }
+  }
+
+  filter() {
+    const words = this.find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    for (const card of this.list.querySelectorAll('.card')) {
+      const text = `${card.dataset.file} ${card.textContent}`.toLowerCase();
+      card.hidden = !words.every((word) => text.includes(word));
+    }
+    for (const group of this.list.querySelectorAll('.card-group')) group.hidden = !group.querySelector('.card:not([hidden])');
+  }
+
+  open() {
+    this.dialog.showModal();
+    this.find.focus();
+  }
+}

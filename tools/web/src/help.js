@@ -1,0 +1,12 @@
+// What can be done, and by which keys.
+import { element } from './dom.js';
+
+export function helpDialog() {
+  const keys = [['Ctrl S', 'save the netlist'], ['Space', 'animate, or pause (outside the editor)'], ['← →', 'turn the slider that has the focus; move in a plot'],
+    ['+ − 0', 'zoom in a plot, and show all'], ['Ctrl Z', 'undo, in the editor'], ['Esc, Tab', 'leave the editor'], ['G', 'the gallery (outside the editor)']];
+  const dialog = element('dialog', { class: 'help', 'aria-labelledby': 'help-title' },
+    element('div', { class: 'dialog-head' }, element('h2', { id: 'help-title' }, 'Help'), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')),
+    element('p', {}, 'Choose a netlist in the gallery. Turn a slider, or change the text: schematic and plots follow. Compare keeps the netlist as A and lets you change B. A link carries the whole scene.'),
+    element('dl', {}, keys.map(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])));
+  return dialog;
+}

@@ -1,0 +1,392 @@
+// The playground: a netlist in an editor, its schematic, its sliders and its plots, which follow each other.
+import './style.css';
+import './playground.css';
+import { Animation } from './animation.js';
+import { folder, open, save } from './api.js';
+import { element, schematicOf } from './dom.js';
+import { Editor } from './editor.js';
+import { download, exporters } from './export.js';
+import { Folds } from './folds.js';
+import { Gallery } from './gallery.js';
+import { helpDialog } from './help.js';
+import { decode, encode } from './link.js';
+import { menu } from './menu.js';
+import { PlotPanel } from './plot-panel.js';
+import { Runner } from './runner.js';
+import { SceneData } from './scene-data.js';
+import { lessonOf } from './sections.js';
+import { Sliders } from './sliders.js';
+import { rememberTheme, switchTheme } from './theme.js';
+
+const empty = `title = "A spring and a mass"
+
+[elements]
+k1 = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
+m1 = { type = "mass",   at = "block", mass = "1 kg" }
+
+[nodes]
+block = { position = "1 cm" }
+
+[simulate]
+stop = "2 s"
+`;
+const typing = 250; // ms without a key after which what was typed is run
+
+class Playground {
+  constructor(host) {
+    this.variants = [this.variant('A', empty, 'scene.toml')];
+    this.active = 0;
+    this.folder = { scenes: [], may_be_written: false };
+    this.gallery = new Gallery({ onopen: (file) => this.openFile(file) });
+    this.build(host);
+    this.editor = new Editor(this.parts.editor, {
+      onchange: (text, typed) => this.edited(text, typed),
+      onmove: (changes) => this.sliders?.move(changes),
+    });
+    this.sliders = new Sliders(this.parts.sliders, this.editor);
+    this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
+    this.folds = new Folds(this.parts.sections);
+    this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
+    document.addEventListener('keydown', (event) => this.key(event));
+    addEventListener('hashchange', () => this.openLink());
+  }
+
+  variant(label, text, file) {
+    const variant = { label, text, file, data: new SceneData(), stale: false };
+    variant.runner = new Runner(`${crypto.getRandomValues(new Uint32Array(2)).join('-')}`, (data, run) => this.arrived(variant, data, run));
+    return variant;
+  }
+
+  get current() {
+    return this.variants[this.active];
+  }
+
+  build(host) {
+    const part = (name, tag = 'div', ...content) => (this.parts[name] = element(tag, { class: name }, ...content));
+    const button = (text, act, extra = {}) => element('button', { type: 'button', onclick: act, ...extra }, text);
+    this.parts = {};
+    this.title = element('h1', {}, 'rheonet');
+    this.compareButton = button('Compare', () => this.compare(), { 'aria-pressed': 'false' });
+    this.status = element('p', { class: 'status', role: 'status' });
+    this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
+    const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': 'Actions' },
+      button('Gallery', () => this.gallery.open()),
+      menu('Save', () => this.saves()),
+      menu('Export', () => this.exports()),
+      button('Link', () => this.copyLink()),
+      this.compareButton, this.themeButton,
+      button('?', () => this.help.showModal(), { 'aria-label': 'Help' })));
+    this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': 'Variant that is edited', hidden: true });
+    const box = (name, heading, ...content) => element('section', { class: `box ${name}-box`, 'aria-label': heading }, element('h2', { class: 'box-title' }, heading), ...content);
+    host.append(bar, element('main', { class: 'desk' },
+      box('editor', 'Netlist', this.choice, part('editor'), part('mistakes')),
+      element('div', { class: 'stage' },
+        (this.lesson = box('lesson', 'Question')),
+        box('schematic', 'Schematic', part('drawing'), part('animation')),
+        box('plots', 'Plots', this.status, part('plots')),
+        box('more', 'More', part('sections'))),
+      box('sliders', 'Sliders', part('sliders'))));
+    this.lesson.hidden = true;
+    this.help = helpDialog();
+    document.body.append(this.help);
+  }
+
+  async begin() {
+    try {
+      this.folder = await folder();
+      this.gallery.show(this.folder);
+    } catch (error) {
+      this.say(error.message, true);
+    }
+    const opened = await this.openLink();
+    if (opened) return;
+    this.load(0, empty, 'scene.toml');
+    if (this.notice) return;
+    if (this.folder.scenes.length) this.gallery.open();
+  }
+
+  // Texts and runs.
+
+  load(k, text, file) {
+    const variant = this.variants[k];
+    Object.assign(variant, { text, file, fresh: true });
+    if (k === this.active) this.editor.load(text);
+    variant.runner.run(text, file);
+  }
+
+  async openFile(file) {
+    try {
+      const text = await open(file);
+      this.plots.state = {};
+      this.endComparison();
+      this.load(0, text, file);
+      history.replaceState(null, '', `#file=${encodeURIComponent(file)}`);
+    } catch (error) {
+      this.say(error.message, true);
+    }
+  }
+
+  edited(text, typed) {
+    const variant = this.current;
+    variant.text = text;
+    clearTimeout(this.typing);
+    if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
+    else variant.runner.run(text, variant.file);
+  }
+
+  arrived(variant, data, { text, complete, asked }) {
+    const isCurrent = variant === this.current;
+    if (complete && isCurrent) this.showMistakes(data, text === variant.text);
+    if (!data.scene) {
+      variant.stale = true;
+      this.showStale();
+      if (complete) this.say(data.failed ? data.failed.message : 'The netlist has mistakes; the plots show what was there before.', true);
+      return;
+    }
+    if (data.time.length || complete) variant.data = data;
+    variant.stale = false;
+    if (isCurrent && text === variant.text && complete) {
+      this.sliders.show(data.scene.sliders, variant.fresh);
+      variant.fresh = false;
+    }
+    if (isCurrent) this.showScene(data);
+    this.showPlots();
+    if (complete) this.finish(data, asked);
+  }
+
+  finish(data, asked) {
+    this.showStale();
+    clearTimeout(this.later);
+    this.later = setTimeout(() => this.showSections(), 200);
+    if (data.failed) {
+      this.say(`The run did not come to its end: ${data.failed.message}`, true);
+      return;
+    }
+    requestAnimationFrame(() => {
+      const took = performance.now() - asked;
+      this.status.dataset.latency = took.toFixed(1);
+      if (this.notice) {
+        this.say(this.notice, true);
+        this.notice = null;
+        return;
+      }
+      this.say(`${data.done.statistics.steps} steps, ${data.done.statistics.cpu_time} of CPU time; drawn ${Math.round(took)} ms after the change`);
+    });
+  }
+
+  say(text, bad = false) {
+    this.status.textContent = text;
+    this.status.classList.toggle('bad', bad);
+  }
+
+  // What is seen.
+
+  showScene(data) {
+    const { scene } = data;
+    this.title.textContent = scene.title || this.current.file;
+    document.title = `${scene.title || this.current.file} – rheonet`;
+    this.showLesson(scene);
+    if (scene.schematic !== this.drawn) {
+      this.drawn = scene.schematic;
+      this.parts.drawing.replaceChildren(schematicOf(scene));
+    }
+    this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+  }
+
+  showLesson(scene) {
+    const words = JSON.stringify(scene.demo ?? null);
+    if (words === this.words) return;
+    this.words = words;
+    this.lesson.hidden = !scene.demo;
+    this.lesson.querySelector('.lesson')?.remove();
+    if (scene.demo) this.lesson.append(lessonOf(scene, true));
+  }
+
+  showPlots() {
+    const several = this.variants.length > 1;
+    this.plots.show(this.variants.map(({ label, data }) => ({ label: several ? label : '', data })));
+  }
+
+  showStale() {
+    this.parts.plots.classList.toggle('stale', this.variants.some(({ stale }) => stale));
+    this.parts.drawing.classList.toggle('stale', this.current.stale);
+  }
+
+  showMistakes(data, isNew) {
+    if (isNew) this.editor.mark([...data.mistakes, ...(data.failed?.line ? [{ ...data.failed, severity: 'error' }] : [])]);
+    this.parts.mistakes.replaceChildren(...data.mistakes.map(({ severity, line, column, message, hint }) =>
+      element('button', { type: 'button', class: `mistake ${severity}`, onclick: () => line && this.editor.go(line, column) },
+        element('b', {}, line ? `${line}:${column} ` : ''), message, hint ? element('span', { class: 'hint' }, ` – ${hint}`) : null)));
+  }
+
+  showSections() {
+    if (this.current.data.scene) this.folds.show(this.current.data, this.variants.map(({ label, data }) => ({ label, data })));
+  }
+
+  // Two variants.
+
+  compare() {
+    if (this.variants.length > 1) {
+      this.endComparison();
+      this.showPlots();
+      this.showSections();
+      return;
+    }
+    const { text, file, data } = this.current;
+    const other = this.variant('B', text, file);
+    other.data = data;
+    this.variants.push(other);
+    this.edit(1);
+    this.load(1, text, file);
+  }
+
+  endComparison() {
+    if (this.variants.length > 1) {
+      // What was edited last stays.
+      const kept = this.variants[this.active];
+      kept.label = 'A';
+      this.variants = [kept];
+    }
+    this.active = 0;
+    this.showChoice();
+  }
+
+  edit(k) {
+    this.active = k;
+    this.showChoice();
+    const { text, data } = this.current;
+    this.editor.load(text);
+    if (data.scene) {
+      this.sliders.show(data.scene.sliders, true);
+      this.showScene(data);
+      this.showMistakes(data, true);
+    }
+  }
+
+  showChoice() {
+    const several = this.variants.length > 1;
+    this.choice.hidden = !several;
+    this.compareButton.setAttribute('aria-pressed', String(several));
+    this.compareButton.textContent = several ? 'End comparison' : 'Compare';
+    this.choice.replaceChildren(...(several ? this.variants : []).map(({ label }, k) => {
+      const input = element('input', { type: 'radio', name: 'variant', checked: k === this.active });
+      input.addEventListener('change', () => {
+        this.edit(k);
+        this.choice.querySelectorAll('input')[k].focus();
+      });
+      return element('label', {}, input, element('span', {}, `Edit ${label}`));
+    }));
+    this.choice.classList.add('tabs');
+  }
+
+  // Files and links.
+
+  get name() {
+    return this.current.file.replace(/^.*\//, '').replace(/\.toml$/, '');
+  }
+
+  saves() {
+    const items = [{ label: 'Download the netlist', act: () => this.downloadNetlist() }];
+    if (this.folder.may_be_written) items.push({ label: 'Save in the folder', act: () => this.saveInFolder() });
+    return items;
+  }
+
+  downloadNetlist() {
+    download(new Blob([this.editor.text], { type: 'application/toml' }), `${this.name}.toml`);
+  }
+
+  async saveInFolder() {
+    const file = prompt('Name of the netlist in the folder', this.current.file);
+    if (!file) return;
+    try {
+      await save(file, this.editor.text);
+      this.current.file = file;
+      this.folder = await folder();
+      this.gallery.show(this.folder);
+      this.say(`Saved as ${file}.`);
+    } catch (error) {
+      this.say(`Not saved: ${error.message}`, true);
+    }
+  }
+
+  exports() {
+    const scenes = this.variants.map(({ text, file }) => ({ text, file }));
+    const curves = this.plots.curvePairs();
+    const active = [scenes[this.active], ...scenes.filter((_, k) => k !== this.active)];
+    return exporters({ scenes: this.variants.length > 1 ? scenes : active, curves, schematic: this.current.data.scene?.schematic ?? '', name: this.name })
+      .map(({ label, make, name }) => ({
+        label,
+        act: async () => {
+          this.say(`Making ${name} …`);
+          try {
+            download(await make(), name);
+            this.say(`Made ${name}.`);
+          } catch (error) {
+            this.say(`Not made: ${error.message}`, true);
+          }
+        },
+      }));
+  }
+
+  async copyLink() {
+    const scenes = this.variants.map(({ text, file }) => ({ text, file }));
+    const link = `#scene=${await encode({ scenes, plots: this.plots.state })}`;
+    history.replaceState(null, '', link);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.say('The link is copied: it carries the scene.');
+    } catch {
+      this.say('The address of this page carries the scene.');
+    }
+  }
+
+  async openLink() {
+    const [kind, value] = location.hash.slice(1).split(/=(.*)/s);
+    try {
+      if (kind === 'file') {
+        await this.openFile(decodeURIComponent(value));
+        return true;
+      }
+      if (kind !== 'scene') return false;
+      const { scenes, plots } = await decode(value);
+      this.endComparison();
+      this.plots.state = plots ?? {};
+      this.load(0, String(scenes[0].text), String(scenes[0].file));
+      if (scenes[1]) {
+        this.variants.push(this.variant('B', String(scenes[1].text), String(scenes[1].file)));
+        this.edit(1);
+        this.load(1, this.variants[1].text, this.variants[1].file);
+      }
+      return true;
+    } catch (error) {
+      this.notice = `The link cannot be read: ${error.message}`;
+      this.say(this.notice, true);
+      return false;
+    }
+  }
+
+  // The rest.
+
+  key(event) {
+    if ((event.ctrlKey || event.metaKey) && event.key === 's') {
+      event.preventDefault();
+      if (this.folder.may_be_written) this.saveInFolder();
+      else this.downloadNetlist();
+      return;
+    }
+    const inField = event.target.closest?.('input, textarea, select, button, summary, .cm-editor, dialog');
+    if (event.target.closest?.('.cm-editor') && event.key === 'Escape') event.target.blur();
+    if (inField || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === ' ') {
+      event.preventDefault();
+      this.animation.toggle();
+    } else if (event.key === 'g') {
+      event.preventDefault();
+      this.gallery.open();
+    }
+  }
+}
+
+rememberTheme();
+const playground = new Playground(document.getElementById('playground'));
+playground.begin();

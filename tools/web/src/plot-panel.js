@@ -1,0 +1,276 @@
+// The plots of one or several runs: over time, or one quantity against another, with a choice of what is shown.
+import { LoopChart, TimeChart, TimeGroup } from './charts.js';
+import { element, freshId } from './dom.js';
+
+const kinds = [
+  { id: 'own', label: 'As the scene says' },
+  { id: 'time', label: 'Over time' },
+  { id: 'loop', label: 'Force against displacement', x: 'displacement', y: 'force' },
+  { id: 'flow', label: 'Force against velocity', x: 'velocity', y: 'force' },
+  { id: 'phase', label: 'Phase plane', x: 'position', y: 'velocity' },
+];
+const few = 6; // curves of one quantity that are shown before anyone chooses
+
+export class PlotPanel {
+  constructor(host, { onchange = () => {} } = {}) {
+    this.host = host;
+    this.onchange = onchange;
+    this.kind = null; // nobody has chosen
+    this.owner = null;
+    this.chosen = null;
+    this.charts = [];
+    this.runs = [];
+    this.shape = '';
+    this.tabs = element('div', { class: 'tabs', role: 'radiogroup', 'aria-label': 'Kind of plot' });
+    this.tools = element('div', { class: 'plot-tools' });
+    this.body = element('div', { class: 'plots' });
+    document.addEventListener('pointerdown', (event) => {
+      const chooser = this.tools.querySelector('details[open]');
+      if (chooser && !chooser.contains(event.target)) chooser.open = false;
+    });
+    host.append(element('div', { class: 'plot-head' }, this.tabs, this.tools), this.body);
+    const name = freshId('kind');
+    for (const kind of kinds) {
+      const input = element('input', { type: 'radio', name, value: kind.id, checked: kind.id === 'time' });
+      input.addEventListener('change', () => this.choose({ kind: kind.id }));
+      this.tabs.append(element('label', { 'data-kind': kind.id }, input, element('span', {}, kind.label)));
+    }
+  }
+
+  // runs: [{ label, data }]; curves carry the labels where there are several.
+  show(runs) {
+    this.runs = runs.filter((run) => run.data.scene);
+    this.tabs.querySelector('[data-kind="own"]').hidden = !this.ownCurves().length;
+    for (const input of this.tabs.querySelectorAll('input')) input.checked = input.value === this.shownKind;
+    const shape = JSON.stringify([
+      this.shownKind,
+      this.ownCurves(),
+      this.owner,
+      this.chosen && [...this.chosen],
+      this.runs.map((run) => [run.label, run.data.records.map((record) => [record.path, record.unit])]),
+    ]);
+    if (shape === this.shape) this.update();
+    else this.build();
+    this.shape = shape;
+  }
+
+  choose(choice) {
+    Object.assign(this, choice);
+    this.show(this.runs);
+    this.onchange();
+  }
+
+  // What somebody chose, to be kept in a link.
+  get state() {
+    return { kind: this.kind, owner: this.owner, chosen: this.chosen && [...this.chosen] };
+  }
+  set state({ kind, owner, chosen }) {
+    this.kind = kinds.some((known) => known.id === kind) ? kind : null;
+    this.owner = owner ?? null;
+    this.chosen = chosen ? new Set(chosen) : null;
+  }
+
+  // What the scene wants drawn against something else than time.
+  ownCurves() {
+    const curves = this.runs[0]?.data.scene.plot?.curves ?? [];
+    return curves.filter(([x]) => x !== 'time');
+  }
+
+  get shownKind() {
+    const own = this.ownCurves().length > 0;
+    if (this.kind && (this.kind !== 'own' || own)) return this.kind;
+    return own ? 'own' : 'time';
+  }
+
+  build() {
+    this.charts.forEach((chart) => chart.destroy());
+    this.charts = [];
+    this.body.replaceChildren();
+    this.tools.replaceChildren();
+    if (!this.runs.length) return;
+    const kind = kinds.find((known) => known.id === this.shownKind);
+    if (kind.id === 'time') this.buildTime();
+    else if (kind.id === 'own') this.buildOwn();
+    else this.buildLoop(kind);
+  }
+
+  update() {
+    const kind = kinds.find((known) => known.id === this.shownKind);
+    if (kind.id === 'own') {
+      const panels = this.ownPanels();
+      this.charts.forEach((chart, k) => chart.update(panels[k].curves));
+      return;
+    }
+    if (kind.id !== 'time') {
+      const curves = this.loopCurves(kind);
+      if (this.charts[0]) this.charts[0].update(curves);
+      return;
+    }
+    const panels = this.panels();
+    this.charts.forEach((chart, k) => chart.update(panels[k].curves, this.eventTimes()));
+  }
+
+  // A panel for each pair of quantities that the scene draws against each other.
+  ownPanels() {
+    const panels = new Map();
+    this.runs.forEach(({ label, data }, run) => {
+      this.ownCurves().forEach(([x, y], style) => {
+        const sides = [x, y].map((path) => data.records[data.index.get(path)]);
+        if (!sides[0] || !sides[1]) return;
+        const [across, up] = sides.map(({ quantity, unit, shown }) => ({ quantity, unit, as: shown }));
+        const key = JSON.stringify([across, up]);
+        if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
+        const panel = panels.get(key);
+        const name = this.ownCurves().every(([other]) => other === x) ? y : `${y} against ${x}`;
+        panel.curves.push({ name: this.runs.length > 1 ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y),
+          style: style + run * this.ownCurves().length, data });
+      });
+    });
+    return [...panels.values()];
+  }
+
+  buildOwn() {
+    for (const panel of this.ownPanels()) {
+      const host = element('div');
+      this.body.append(host);
+      this.charts.push(new LoopChart(host, panel));
+    }
+  }
+
+  // The records that are shown, by default those that the scene draws, or the first of each quantity that the scene itself records.
+  shownPaths() {
+    if (this.chosen) return this.chosen;
+    const drawn = this.runs.flatMap(({ data }) => data.scene.plot?.curves ?? []).filter(([x]) => x === 'time').map(([, y]) => y);
+    if (drawn.length) return new Set(drawn);
+    const counts = new Map();
+    const paths = new Set();
+    for (const { data } of this.runs)
+      data.records.slice(0, data.scene.own_records).forEach(({ path, quantity, unit }) => {
+        const key = `${quantity} ${unit}`;
+        if (paths.has(path)) return;
+        counts.set(key, (counts.get(key) ?? 0) + 1);
+        if (counts.get(key) <= few) paths.add(path);
+      });
+    return paths;
+  }
+
+  panels() {
+    const paths = this.shownPaths();
+    const panels = new Map();
+    this.runs.forEach(({ label, data }, run) => {
+      data.records.forEach((record, k) => {
+        if (!paths.has(record.path)) return;
+        const key = `${record.quantity}|${record.unit}`;
+        if (!panels.has(key)) panels.set(key, { quantity: record.quantity, unit: record.unit, as: record.shown, names: [], curves: [] });
+        const panel = panels.get(key);
+        if (!panel.names.includes(record.path)) panel.names.push(record.path);
+        panel.curves.push({
+          name: this.runs.length > 1 ? `${label} ${record.path}` : record.path,
+          time: data.time,
+          values: data.columns[k],
+          style: panel.names.indexOf(record.path) + (panel.names.length === 1 && this.runs.length > 1 ? run : 0),
+          dash: run,
+        });
+      });
+    });
+    return [...panels.values()];
+  }
+
+  eventTimes() {
+    return this.runs.length === 1 ? [...new Set(this.runs[0].data.events.items.map((item) => item[0]))] : [];
+  }
+
+  buildTime() {
+    this.group = new TimeGroup();
+    const panels = this.panels();
+    panels.forEach(({ quantity, unit, as, curves }, k) => {
+      const host = element('div');
+      this.body.append(host);
+      this.charts.push(new TimeChart(host, this.group, { quantity, unit, as, curves, events: this.eventTimes(),
+        height: panels.length > 1 ? 200 : 260, labelled: k === panels.length - 1 }));
+    });
+    if (!panels.length) this.body.append(element('p', { class: 'note' }, 'Choose what is to be shown.'));
+    this.tools.append(this.chooser());
+  }
+
+  chooser() {
+    const shown = this.shownPaths();
+    const all = new Map();
+    for (const { data } of this.runs) data.records.forEach((record) => all.set(record.path, record));
+    const boxes = element('div', { class: 'boxes' });
+    const count = element('span', {}, `Records (${[...shown].filter((path) => all.has(path)).length} of ${all.size})`);
+    for (const [path, record] of all) {
+      const box = element('input', { type: 'checkbox', checked: shown.has(path) });
+      box.addEventListener('change', () => {
+        const paths = new Set(this.shownPaths());
+        if (box.checked) paths.add(path);
+        else paths.delete(path);
+        this.keepOpen = true;
+        this.focusOn = path;
+        this.choose({ chosen: paths });
+      });
+      boxes.append(element('label', { title: `${record.quantity} [${record.unit}]`, 'data-path': path }, box, ` ${path}`));
+    }
+    const find = element('input', { type: 'search', placeholder: 'find', 'aria-label': 'Find records' });
+    find.addEventListener('input', () => {
+      for (const label of boxes.children) label.hidden = !label.dataset.path.includes(find.value.trim());
+    });
+    const details = element('details', { class: 'chooser', open: Boolean(this.keepOpen) }, element('summary', {}, count),
+      element('div', { class: 'chooser-body' }, all.size > 12 ? find : null, boxes));
+    details.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape' || !details.open) return;
+      details.open = false;
+      details.querySelector('summary').focus();
+      event.stopPropagation();
+    });
+    if (this.keepOpen) queueMicrotask(() => boxes.querySelector(`[data-path="${CSS.escape(this.focusOn)}"] input`)?.focus());
+    this.keepOpen = false;
+    return details;
+  }
+
+  loopCurves(kind) {
+    const curves = [];
+    this.runs.forEach(({ label, data }, run) => {
+      const x = data.column(`${this.loopOwner}.${kind.x}`);
+      const y = data.column(`${this.loopOwner}.${kind.y}`);
+      if (x && y) curves.push({ name: this.runs.length > 1 ? `${label} ${this.loopOwner}` : this.loopOwner, time: data.time, x, y, style: run, data });
+    });
+    return curves;
+  }
+
+  buildLoop(kind) {
+    const owners = [...new Set(this.runs.flatMap(({ data }) => data.ownersOf(kind.x, kind.y)))];
+    if (!owners.length) {
+      this.body.append(element('p', { class: 'note' }, `The run has no ${kind.x} and ${kind.y} of one element to draw against each other.`));
+      return;
+    }
+    this.loopOwner = owners.includes(this.owner) ? this.owner : owners[0];
+    const select = element('select', { 'aria-label': 'Whose' }, owners.map((owner) => element('option', { value: owner, selected: owner === this.loopOwner }, owner)));
+    select.addEventListener('change', () => this.choose({ owner: select.value }));
+    this.tools.append(select);
+    const record = (channel) => {
+      for (const { data } of this.runs) {
+        const k = data.index.get(`${this.loopOwner}.${channel}`);
+        if (k !== undefined) return data.records[k];
+      }
+      return null;
+    };
+    const side = (channel) => ({ quantity: channel === 'displacement' ? 'displacement' : record(channel).quantity, unit: record(channel).unit, as: record(channel).shown });
+    const host = element('div');
+    this.body.append(host);
+    this.charts.push(new LoopChart(host, { x: side(kind.x), y: side(kind.y), curves: this.loopCurves(kind) }));
+  }
+
+  // What is drawn, as pairs of columns: x and y.
+  curvePairs() {
+    const kind = kinds.find((known) => known.id === this.shownKind);
+    if (kind.id === 'own') return this.ownCurves();
+    if (kind.id !== 'time') return this.loopOwner ? [[`${this.loopOwner}.${kind.x}`, `${this.loopOwner}.${kind.y}`]] : [];
+    return [...this.shownPaths()].map((path) => ['time', path]);
+  }
+
+  // Shows where everything is at a time.
+  mark(time) {
+    for (const chart of this.charts) chart.mark(time, chart.curves.map((curve) => curve.data?.at(time) ?? 0));
+  }
+}

@@ -1,0 +1,55 @@
+// Runs the newest text: one run is on its way at a time, what comes in between is left out, and a run that takes long
+// gives way to a newer one.
+import { task } from './api.js';
+import { SceneData } from './scene-data.js';
+
+const patience = 150; // ms that a run has before a newer one ends it
+const partly = 250; // ms after which what has come is shown before all has
+
+export class Runner {
+  // ondata(data, { text, complete, took }): what has come.
+  constructor(session, ondata) {
+    this.session = session;
+    this.ondata = ondata;
+    this.next = null;
+    this.current = null;
+  }
+
+  run(text, file) {
+    this.next = { text, file, asked: performance.now() };
+    if (!this.current) this.begin();
+    else this.giveWay();
+  }
+
+  giveWay() {
+    const since = performance.now() - this.current.began;
+    clearTimeout(this.timer);
+    if (since >= patience) this.begin();
+    else this.timer = setTimeout(() => this.next && this.begin(), patience - since);
+  }
+
+  async begin() {
+    clearTimeout(this.timer);
+    this.current?.control.abort();
+    const run = { ...this.next, began: performance.now(), control: new AbortController() };
+    this.next = null;
+    this.current = run;
+    const data = new SceneData();
+    let shown = run.began;
+    try {
+      await task({ task: 'show', session: this.session, text: run.text, file: run.file }, (message) => {
+        data.take(message);
+        if (this.current !== run || !data.scene || performance.now() - shown < partly) return;
+        shown = performance.now();
+        this.ondata(data, { text: run.text, complete: false });
+      }, run.control.signal);
+    } catch (error) {
+      if (error.name === 'AbortError' || this.current !== run) return;
+      data.failed ??= { message: `The server does not answer: ${error.message}` };
+    }
+    if (this.current !== run) return;
+    this.current = null;
+    this.ondata(data, { text: run.text, complete: true, asked: run.asked });
+    if (this.next) this.begin();
+  }
+}

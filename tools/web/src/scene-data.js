@@ -1,0 +1,72 @@
+// What a scene is and what its run gave, gathered from the messages that tools/report/messages.hpp lists.
+
+export class SceneData {
+  constructor() {
+    this.mistakes = [];
+    this.scene = null;
+    this.time = [];
+    this.columns = [];
+    this.energy = null;
+    this.events = { items: [], left_out: 0 };
+    this.done = null;
+    this.failed = null;
+    this.certificate = null;
+    this.prices = null;
+  }
+
+  take(message) {
+    switch (message.kind) {
+      case 'mistakes':
+        this.mistakes = message.items;
+        break;
+      case 'scene':
+        this.scene = message;
+        this.columns = message.records.map(() => []);
+        this.index = new Map(message.records.map((record, k) => [record.path, k]));
+        break;
+      case 'rows':
+        for (const time of message.time) this.time.push(time);
+        message.values.forEach((values, k) => {
+          const column = this.columns[k];
+          for (const value of values) column.push(value);
+        });
+        break;
+      default:
+        this[message.kind] = message;
+    }
+  }
+
+  static from(messages) {
+    const data = new SceneData();
+    messages.forEach((message) => data.take(message));
+    return data;
+  }
+
+  get records() {
+    return this.scene?.records ?? [];
+  }
+
+  column(path) {
+    const k = this.index?.get(path);
+    return k === undefined ? null : this.columns[k];
+  }
+
+  // Elements and assemblies, or nodes, that both channels are known of.
+  ownersOf(first, second) {
+    const has = (owner, channel) => this.index?.has(`${owner}.${channel}`);
+    const owners = [...new Set(this.records.map((record) => record.owner))];
+    return owners.filter((owner) => has(owner, first) && has(owner, second));
+  }
+
+  // The position in `time` that is nearest to t.
+  at(t) {
+    let low = 0;
+    let high = this.time.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (this.time[middle] <= t) low = middle;
+      else high = middle;
+    }
+    return high >= 0 && Math.abs(this.time[high] - t) < Math.abs(this.time[low] - t) ? high : Math.max(low, 0);
+  }
+}

@@ -1,0 +1,166 @@
+// The parts that a page is made of, each from the data of a scene.
+import katex from 'katex';
+import 'katex/dist/katex.min.css';
+import { LoopChart, TimeChart, TimeGroup } from './charts.js';
+import { element, table } from './dom.js';
+import { grouped, number, withUnit } from './units.js';
+
+// What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
+export function lessonOf({ demo }, folded) {
+  if (!demo) return null;
+  const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, text)) : element('p', {}, element('b', {}, `${name} `), text));
+  return element('div', { class: 'lesson' },
+    element('p', { class: 'question' }, demo.question),
+    element('p', {}, element('b', {}, 'Change '), demo.change),
+    answer('See', demo.see),
+    answer('Why', demo.why));
+}
+
+export function equationsOf(scene) {
+  const list = element('div', { class: 'equations' });
+  for (const { type, tex, law, summary, notes, source, symbols } of scene.equations) {
+    const equation = element('div', { class: 'equation', tabindex: '0', role: 'group', 'aria-label': `Law of ${type}` });
+    if (tex) katex.render(tex, equation, { displayMode: true, throwOnError: false, output: 'htmlAndMathml' });
+    else equation.append(element('code', {}, law));
+    list.append(
+      element('section', { class: 'law' },
+        element('h4', {}, element('code', {}, type), ` – ${summary}`),
+        equation,
+        symbols.length ? element('p', { class: 'symbols' }, symbols.map(([symbol, name], k) => [k ? ', ' : '', element('i', {}, symbol), ` ${name.replaceAll('_', ' ')}`])) : null,
+        notes ? element('p', { class: 'notes' }, notes) : null,
+        source ? element('p', { class: 'source' }, source) : null),
+    );
+  }
+  return list;
+}
+
+export function elementsOf(scene) {
+  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, values]);
+  const all = table(['element', 'type', 'between', 'values (SI)'], rows, 'Elements');
+  if (scene.element_count > scene.elements.length)
+    all.append(element('p', { class: 'note' }, `and ${grouped(scene.element_count - scene.elements.length)} more`));
+  return all;
+}
+
+export function sourcesOf(scene) {
+  return scene.sources.map(({ file, role, text }, k) =>
+    element('details', { class: 'source-text', open: k === 0 },
+      element('summary', {}, element('code', {}, file), role === 'scene' ? '' : ` (${role})`),
+      element('pre', { tabindex: '0' }, text)));
+}
+
+export function energyOf(data, charts = []) {
+  const host = element('div');
+  const { time, supplied, stored, dissipated } = data.energy;
+  const missing = time.map((_, k) => supplied[k] - stored[k] - dissipated[k]);
+  const curve = (name, values) => ({ name, time, values });
+  queueMicrotask(() => {
+    charts.push(new TimeChart(host, new TimeGroup(), {
+      quantity: 'energy',
+      unit: 'J',
+      curves: [curve('supplied', supplied), curve('stored', stored), curve('dissipated', dissipated), curve('missing', missing)],
+    }));
+  });
+  return host;
+}
+
+const lanes = 12;
+export function eventsOf(data) {
+  const { items, left_out } = data.events;
+  if (!items.length) return element('p', { class: 'note' }, 'Nothing switched.');
+  const { start, stop } = data.scene;
+  const names = [...new Set(items.map((item) => item[1]))];
+  const shown = names.slice(0, lanes);
+  const height = 22 * shown.length + 30;
+  const width = 800;
+  const left = 130;
+  const x = (time) => left + ((time - start) / (stop - start)) * (width - left - 20);
+  const kinds = [...new Set(items.map((item) => item[2]))];
+  const parts = shown.map((name, lane) => {
+    const y = 14 + 22 * lane;
+    const ticks = items.filter((item) => item[1] === name).map(([time, , what, direction]) =>
+      `<path class="event-tick" style="stroke:var(--curve-${(kinds.indexOf(what) % 7) + 1})" d="M${x(time).toFixed(2)} ${y - 8}v16"><title>${escape(`${name}: ${what}${direction ? `, direction ${direction}` : ''} at ${number(time, 6)} s`)}</title></path>`);
+    return `<text x="${left - 8}" y="${y + 4}" text-anchor="end">${escape(name.length > 18 ? `${name.slice(0, 17)}…` : name)}</text><path class="lane" d="M${left} ${y}H${width - 20}"/>${ticks.join('')}`;
+  });
+  const axisY = 22 * shown.length + 8;
+  const marks = [0, 0.25, 0.5, 0.75, 1].map((part) => {
+    const time = start + part * (stop - start);
+    return `<path class="lane" d="M${x(time)} ${axisY - 4}v6"/><text x="${x(time)}" y="${axisY + 16}" text-anchor="middle">${number(time, 4)} s</text>`;
+  });
+  const host = element('div', { class: 'events' });
+  host.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Events over time">${parts.join('')}${marks.join('')}</svg>`;
+  host.append(element('p', { class: 'loop-legend' }, kinds.map((kind, k) => {
+    const swatch = element('span', { class: 'swatch' });
+    swatch.style.background = `var(--curve-${(k % 7) + 1})`;
+    return element('span', { class: 'key' }, swatch, `${kind} (${items.filter((item) => item[2] === kind).length})`);
+  })));
+  const most = 200;
+  const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time, 8), name, what, String(direction)]);
+  host.append(element('details', {}, element('summary', {}, `All ${grouped(items.length + left_out)} events`),
+    table(['time [s]', 'element', 'event', 'direction'], rows, 'Events'),
+    items.length + left_out > most ? element('p', { class: 'note' }, `and ${grouped(items.length + left_out - most)} more; \`rheonet run --events\` lists all`) : null));
+  if (names.length > lanes) host.append(element('p', { class: 'note' }, `${names.length - lanes} other elements switch too.`));
+  return host;
+}
+
+function escape(text) {
+  return text.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
+}
+
+export function statisticsOf(data) {
+  const s = data.done.statistics;
+  const share = s.largest > 0 ? ` (${Math.abs(s.missing / s.largest).toExponential(1)} of the largest energy in the run)` : '';
+  const switched = s.switched.slice(0, 4).map(([name, times]) => `${grouped(times)} of ${name}`).join(', ');
+  return table(['', ''], [
+    ['unknowns', `${grouped(s.unknowns)}, ${s.unknowns === 0 ? 'every motion is prescribed' : s.sparse ? 'sparse linear algebra' : 'dense linear algebra'}`],
+    ['steps', `${grouped(s.steps)}, ${grouped(s.rejected)} rejected`],
+    ['evaluations', `${grouped(s.residuals)} of the residual, ${grouped(s.jacobians)} of the Jacobian`],
+    ['events', `${grouped(s.events)}${switched ? `: ${switched}` : ''}`],
+    ['starts of the integrator', grouped(s.starts)],
+    ['CPU time', s.cpu_time],
+    ['energy supplied', withUnit(s.supplied, 'J')],
+    ['energy stored', `${withUnit(s.stored, 'J')} more than at the start`],
+    ['energy dissipated', withUnit(s.dissipated, 'J')],
+    ['energy missing', `${withUnit(s.missing, 'J')}${share}`],
+  ], 'Statistics');
+}
+
+export function claimsOf(data) {
+  const claims = data.done?.claims ?? [];
+  if (!claims.length) return null;
+  return table(['claim', 'claimed', 'found', ''], claims.map(({ name, claimed, found, holds }) => [name, claimed, found,
+    element('span', { class: holds ? 'holds' : 'fails' }, holds ? 'holds' : 'fails')]), 'Claims');
+}
+
+export function notesOf(data) {
+  const notes = [...data.mistakes.map(({ text }) => text), ...(data.done?.notes ?? [])];
+  if (data.failed) notes.unshift(`The run did not come to its end: ${data.failed.message}`);
+  return notes.map((text) => element('p', { class: data.failed ? 'note bad' : 'note' }, text));
+}
+
+export function accuracyOf(data, charts = []) {
+  const { certificate, prices } = data;
+  if (!certificate && !prices) return null;
+  const host = element('div');
+  if (certificate) {
+    host.append(element('pre', { class: certificate.holds ? 'verdict holds' : 'verdict fails', tabindex: '0' }, certificate.text));
+    if (certificate.records.length)
+      host.append(table(['record', 'estimated error', 'relative', 'at', 'largest magnitude'],
+        certificate.records.map(({ path, unit, error, relative, at, scale }) => [element('code', {}, path), withUnit(error, unit, 2),
+          relative.toExponential(1), error > 0 ? `${number(at)} s` : '–', withUnit(scale, unit)]), 'Errors'));
+  }
+  if (prices) {
+    const known = prices.prices.filter(({ error }) => error > 0);
+    const plot = element('div');
+    host.append(element('p', {}, 'What each accuracy costs: CPU time over the error that is made.'), plot, element('pre', { tabindex: '0' }, prices.text));
+    if (known.length)
+      queueMicrotask(() => charts.push(new LoopChart(plot, {
+        x: { quantity: 'relative error of the worst record', unit: '', log: true },
+        y: { quantity: 'CPU time', unit: 's', log: true },
+        curves: [{ name: 'order up to 5', x: known.map((p) => p.error), y: known.map((p) => p.cpu) }],
+        height: 300,
+        marks: true,
+      })));
+  }
+  return host;
+}

@@ -1,0 +1,43 @@
+// Values and units as a person reads them.
+
+const prefixes = { '-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G' };
+const raised = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '.': '·' };
+
+export function inPrint(unit) {
+  if (!unit || unit === '1') return '';
+  return unit.replace(/\*/g, '·').replace(/\^(-?[\d.]+)/g, (_, power) => [...power].map((c) => raised[c]).join(''));
+}
+
+// The decimal multiple of an SI unit in which values up to `largest` are easy to read: its name and its size.
+export function shownIn(unit, largest) {
+  const plain = { name: inPrint(unit), factor: 1 };
+  if (!(largest > 0) || !Number.isFinite(largest) || !/^(m|N|s|J|W|rad)([*/]|$)/.test(unit)) return plain;
+  if (largest >= 0.1 && largest < 1e4) return plain;
+  // What would be printed as 1000 of a unit is 1 of the next.
+  const power = Math.min(9, Math.max(-9, 3 * Math.floor(Math.log10(largest * 1.0001) / 3)));
+  if (power > 0 && /^(m|s|rad)/.test(unit)) return plain;
+  return { name: prefixes[power] + plain.name, factor: 10 ** power };
+}
+
+export function number(value, digits = 4) {
+  if (value === null || value === undefined || Number.isNaN(value)) return '–';
+  if (value === 0) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e-3 && size < 1e5) return String(Number(value.toPrecision(digits)));
+  return value.toExponential(Math.max(0, digits - 2)).replace('e+', 'e');
+}
+
+export function withUnit(value, unit, digits = 4) {
+  const shown = shownIn(unit, Math.abs(value));
+  return `${number(value / shown.factor, digits)}${shown.name ? ` ${shown.name}` : ''}`;
+}
+
+export function grouped(count) {
+  return String(count).replace(/\B(?=(\d{3})+$)/g, ',');
+}
+
+export function largestOf(arrays) {
+  let largest = 0;
+  for (const array of arrays) for (const value of array) if (Math.abs(value) > largest) largest = Math.abs(value);
+  return largest;
+}
