@@ -38,7 +38,7 @@ class Recorder final : public Observer {
         csv_(settings.csv, "the results"),
         events_(settings.events, "the events"),
         tells_(settings.events != nullptr),
-        energy_(scene_.accuracy * 0.01),
+        energy_(scene_.accuracy * 0.01, length_),
         switched_(scene_.elements.size(), 0) {
     for (const Record& record : scene_.records) names_.push_back(record.path);
   }
