@@ -20,7 +20,7 @@ struct Spring : MemorylessLaw {
   double start(double d) const { return std::isnan(preload) ? d - rest : start_with(preload); }
   double start_with(double f) const { return f / k; }
   double stored_energy(double p) const { return k * p * p / 2; }
-  double dissipated_power(double, double, double) const { return 0; }
+  static constexpr bool lossless = true;
 };
 
 LinearSpring linear(std::span<const double> v) { return {.stiffness = v[0], .rest = v[1], .force = v[2], .displacement = v[3]}; }

@@ -146,6 +146,8 @@ class Dae {
   /// Supplied and dissipated power [W] and stored energy [J] of the state last viewed. What laws turn into heat that know
   /// it in closed form is left out of the power: their sum since their memories changed last [J].
   double supplied_power() const;
+  /// Whether the powers of a view hang on y': where velocities follow from rates of deflections, or laws turn these into heat.
+  bool power_needs_rates() const;
   double dissipated_power() const;
   double heat_of_laws() const;
   double stored_energy() const;

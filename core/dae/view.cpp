@@ -162,6 +162,12 @@ double Dae::supplied_power() const {
   return power;
 }
 
+bool Dae::power_needs_rates() const {
+  return !structure_->groups.empty() ||
+         std::any_of(network_->deflection_laws.begin(), network_->deflection_laws.end(),
+                     [](const Laws<DeflectionBatch>& laws) { return !laws.batch->knows_heat(); });
+}
+
 double Dae::dissipated_power() const {
   double power = 0;
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {

@@ -18,7 +18,8 @@ namespace rheonet {
 ///       double start(double d);                                      // p at the start
 ///       double start_with(double f);                                 // the same for a law with an initial force
 ///       double stored_energy(double p) const;
-///       double dissipated_power(double p, double dp, double w) const;
+///       double dissipated_power(double p, double dp, double w) const;  // or, of one that gives back all that it stores:
+///       static constexpr bool lossless = true;
 ///     };
 ///
 /// One whose force goes on beyond a bound until the event there also has `force_reached(p)`, the force within its bounds.
@@ -139,10 +140,15 @@ class DeflectionBatchOf final : public DeflectionBatch {
   double settle(std::size_t i, double p, double f, int direction) override { return laws_[i].settle(p, f, direction); }
   double stored_energy(std::size_t i, double p) const override { return laws_[i].stored_energy(p); }
   double dissipated_power(std::size_t i, double p, double dp, double w) const override {
-    return laws_[i].dissipated_power(p, dp, w);
+    if constexpr (lossless) return 0;
+    else return laws_[i].dissipated_power(p, dp, w);
   }
 
+  bool knows_heat() const override { return lossless; }
+
  private:
+  static constexpr bool lossless = requires { Law::lossless; };
+
   std::vector<Law> laws_;
 };
 

@@ -40,7 +40,7 @@ class Recorder final : public Observer {
         event_(settings.event),
         account_(settings.energy),
         tells_(settings.events != nullptr),
-        energy_(scene_.accuracy * 0.01),
+        energy_(scene_.accuracy * 0.01, length_),
         switched_(scene_.elements.size(), 0) {
     for (const Record& record : scene_.records) names_.push_back(record.path);
   }

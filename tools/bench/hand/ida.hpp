@@ -1,0 +1,86 @@
+#pragma once
+
+#include <ida/ida.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace rheonet::hand {
+
+/// IDA with what belongs to it: all that is common to the programs written by hand.
+class Ida {
+ public:
+  /// From y = y' = 0. `entries`: of a sparse matrix, solved with KLU; 0 for a dense one.
+  Ida(sunindextype size, sunindextype entries, IDAResFn residual, IDALsJacFn jacobian, double tolerance, double absolute) {
+    SUNContext_Create(nullptr, &context);
+    y = N_VNew_Serial(size, context);
+    yp = N_VClone(y);
+    N_VConst(0, y);
+    N_VConst(0, yp);
+    memory = IDACreate(context);
+    check(IDAInit(memory, residual, 0, y, yp), "IDAInit");
+    check(IDASStolerances(memory, tolerance, absolute), "IDASStolerances");
+    matrix = entries > 0 ? SUNSparseMatrix(size, size, entries, CSC_MAT, context) : SUNDenseMatrix(size, size, context);
+    solver = entries > 0 ? SUNLinSol_KLU(y, matrix, context) : SUNLinSol_Dense(y, matrix, context);
+    check(IDASetLinearSolver(memory, solver, matrix), "IDASetLinearSolver");
+    check(IDASetJacFn(memory, jacobian), "IDASetJacFn");
+    check(IDASetMaxNumSteps(memory, 100'000'000), "IDASetMaxNumSteps");
+    at_ = N_VClone(y);
+  }
+  ~Ida() {
+    IDAFree(&memory);
+    SUNLinSolFree(solver);
+    SUNMatDestroy(matrix);
+    for (N_Vector vector : {y, yp, at_}) N_VDestroy(vector);
+    SUNContext_Free(&context);
+  }
+  Ida(const Ida&) = delete;
+  Ida& operator=(const Ida&) = delete;
+
+  static void check(int flag, const char* what) {
+    if (flag < 0) throw std::runtime_error(std::string(what) + " returned " + std::to_string(flag));
+  }
+
+  double* Y() const { return N_VGetArrayPointer(y); }
+  double* P() const { return N_VGetArrayPointer(yp); }
+
+  /// One step; IDA's flag.
+  int step(double end) {
+    check(IDASetStopTime(memory, end), "IDASetStopTime");
+    const int flag = IDASolve(memory, end, &t, y, yp, IDA_ONE_STEP);
+    check(flag, "IDASolve");
+    return flag;
+  }
+  /// Takes down an unknown at those of the times that the last step has reached.
+  void take(sunindextype unknown, const std::vector<double>& times, std::vector<double>& values) {
+    while (values.size() < times.size() && times[values.size()] <= t) {
+      check(IDAGetDky(memory, times[values.size()], 0, at_), "IDAGetDky");
+      values.push_back(N_VGetArrayPointer(at_)[unknown]);
+    }
+  }
+  long steps() const {
+    long count = 0;
+    IDAGetNumSteps(memory, &count);
+    return count;
+  }
+
+  SUNContext context = nullptr;
+  void* memory = nullptr;
+  N_Vector y = nullptr, yp = nullptr;
+  double t = 0;
+
+ private:
+  N_Vector at_ = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver solver = nullptr;
+};
+
+}  // namespace rheonet::hand

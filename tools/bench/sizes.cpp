@@ -1,0 +1,98 @@
+// What scenes cost that grow: reading, simulating, memory, against their size; each in a process of its own.
+//
+//   bench_sizes [-o FILE.csv] [--large] [--limit SECONDS] [SCENE ...]
+//
+// Scenes: ladder, hand-ladder, iwan, hand-iwan, couette, tree, grid, written-out. --large goes up to a million masses, and to the grid
+// of 100 x 100.
+
+#include <cstring>
+
+#include "tools/bench/hand/hand.hpp"
+#include "tools/bench/measure.hpp"
+#include "tools/bench/scenes.hpp"
+#include "tools/bench/simulated.hpp"
+
+namespace {
+
+using namespace rheonet;
+using namespace rheonet::bench;
+
+struct Family {
+  std::string name;
+  std::vector<int> sizes, large;  ///< these besides, if they are asked for
+  std::string (*netlist)(int size);  ///< nullptr: written by hand
+  hand::Run (*by_hand)(int size, double tolerance, const std::vector<double>& times);
+  double stop;  ///< of what is written by hand [s]
+};
+
+const Family families[] = {
+    {"ladder", {10, 100, 1000, 10000}, {100000, 1000000}, ladder, nullptr, 0},
+    {"hand-ladder", {10, 100, 1000, 10000}, {100000, 1000000}, nullptr, hand::ladder, 0.1},
+    {"iwan", {1, 10, 100, 1000, 10000, 100000}, {}, iwan, nullptr, 0},
+    {"hand-iwan", {1, 10, 100}, {1000}, nullptr, hand::iwan, 3},
+    {"couette", {10, 100, 1000, 10000}, {100000}, couette, nullptr, 0},
+    {"tree", {100, 1000, 10000}, {}, tree, nullptr, 0},
+    {"grid", {5, 10, 20}, {40, 100}, grid, nullptr, 0},
+    {"written-out", {3000, 30000}, {300000}, written_out, nullptr, 0},
+};
+
+/// Reading [s], simulating [s], unknowns, steps, events, starts.
+std::vector<double> simulated(const std::string& netlist) {
+  const double begin = cpu_seconds();
+  const Scene scene = read(netlist);
+  const double read = cpu_seconds();
+  const Summary summary = run(scene);
+  return {read - begin, cpu_seconds() - read, static_cast<double>(summary.unknowns), static_cast<double>(summary.steps),
+          static_cast<double>(summary.events), static_cast<double>(summary.restarts)};
+}
+
+std::vector<double> done_by_hand(const Family& family, int size) {
+  const double begin = cpu_seconds();
+  const hand::Run run = family.by_hand(size, 1e-6, {0, family.stop});
+  return {0, cpu_seconds() - begin, 0, static_cast<double>(run.steps), static_cast<double>(run.events), 0};
+}
+
+std::string whole(double value) { return fmt::format("{:.0f}", value); }
+
+void measure(const Family& family, std::FILE* csv, bool large, unsigned limit) {
+  Table table(csv, family.name, {"size", "reading, ms", "simulating, ms", "ms an event", "unknowns", "steps", "events", "starts", "MB"});
+  std::vector<int> sizes = family.sizes;
+  if (large) sizes.insert(sizes.end(), family.large.begin(), family.large.end());
+  std::vector<double> x, seconds;
+  for (const int size : sizes) {
+    const Outcome outcome = alone(limit, [&] { return family.netlist ? simulated(family.netlist(size)) : done_by_hand(family, size); });
+    const auto& v = outcome.values;
+    if (v.size() < 6) {
+      table.row({std::to_string(size), "-", fmt::format("not in {} s", limit), "-", "-", "-", "-", "-", whole(outcome.megabytes)});
+      break;
+    }
+    table.row({std::to_string(size), milliseconds(v[0]), milliseconds(v[1]), v[4] > 0 ? milliseconds(v[1] / v[4]) : "-", whole(v[2]), whole(v[3]),
+               whole(v[4]), whole(v[5]), whole(outcome.megabytes)});
+    x.push_back(size);
+    seconds.push_back(v[1]);
+  }
+  if (x.size() > 2) fmt::print("\nCPU time of simulating ~ size^{:.2f}\n", exponent(x, seconds));
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  std::FILE* csv = nullptr;
+  bool large = false;
+  unsigned limit = 600;
+  std::vector<std::string> names;
+  for (int k = 1; k < count; ++k) {
+    const std::string word = words[k];
+    if (word == "-o" && k + 1 < count)
+      csv = std::fopen(words[++k], "w");
+    else if (word == "--large")
+      large = true;
+    else if (word == "--limit" && k + 1 < count)
+      limit = static_cast<unsigned>(std::atoi(words[++k]));
+    else
+      names.push_back(word);
+  }
+  for (const Family& family : families)
+    if (names.empty() || std::find(names.begin(), names.end(), family.name) != names.end()) measure(family, csv, large, limit);
+  return csv && std::fclose(csv) != 0 ? 1 : 0;
+}
