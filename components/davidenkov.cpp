@@ -220,6 +220,7 @@ const RegisterComponent registered({
                      .description = "force at the start (0 unless given), to which it was loaded once, within +-Fc"},
                 },
             .check = start_within_bound,
+            .effects = friction_effects(),
             .summary = "Davidenkov's hysteresis: elastic to plastic along power curves, the same loops at any speed",
             .law = "f = f_r + 2 s g(abs(d - d_r)/2) after a reversal,  g(x) = sigma (x - x^n/(n X^(n-1)))",
             .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; "

@@ -77,6 +77,7 @@ const RegisterComponent registered({
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
             .check = start_within_bound,
+            .effects = friction_effects(),
             .summary = "solid friction model: dry friction with presliding displacement",
             .law = "df/dt = E w,  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
             .source = "P. R. Dahl, A solid friction model, 1968; P. L. Dahl 1982, Eqs. 8-11, 18",

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <string>
 #include <tuple>
@@ -14,8 +13,10 @@
 #include "core/network/network.hpp"
 #include "core/result/channels.hpp"
 #include "core/result/claims.hpp"
+#include "core/result/cpu_time.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
+#include "core/result/in_parts.hpp"
 #include "core/result/manner.hpp"
 #include "core/solve/simulation.hpp"
 
@@ -189,15 +190,10 @@ class Recorder final : public Observer {
   std::vector<double> y_, yp_, before_;
 };
 
+// So many values of rows are held in memory: half a gigabyte.
+constexpr double most_held = 6e7;
 // What is missing of the energy may be so many times the accuracy asked for before it is told.
 constexpr double loose_account = 10;
-
-// Of this thread alone: simulations may run side by side.
-double cpu_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The profile in the user's names.
 std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene, const std::vector<Summary::Switched>& switched) {
@@ -234,6 +230,18 @@ Summary run(const Scene& scene, const RunSettings& settings) { return run_in({.o
 
 Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
   const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
+  const auto wall = std::chrono::steady_clock::now();
+  // Who looks between the rows, or asks for rows at events, looks at the whole at once. Rows of parts are held in memory.
+  const bool whole = scene.output_events || settings.state || settings.profile ||
+                     static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > most_held;
+  const Division division = divide(scene, {.apart = !whole, .drop = settings.events == nullptr});
+  if (division.excerpts.empty()) return run_whole(scene, settings);
+  Summary summary = run_in_parts(scene, division, settings);
+  summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  return summary;
+}
+
+Summary run_whole(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);

@@ -11,6 +11,8 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "core/network/reductions.hpp"
+#include "tools/rheonet/help_texts.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
@@ -20,71 +22,6 @@ struct WrongCommandLine {
   std::string message;
   std::string hint;
 };
-
-constexpr const char* of_rheonet =
-    "For instance:\n"
-    "  rheonet run scene.toml -o result.csv\n"
-    "  rheonet components spring\n"
-    "`rheonet run --help` says more of `run`, and so on.";
-constexpr const char* of_run =
-    "For instance:\n"
-    "  rheonet run scene.toml -o result.csv\n"
-    "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
-    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
-    "2 the scene or the command line is wrong.";
-constexpr const char* of_check =
-    "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
-    "line is wrong.";
-
-constexpr const char* of_compare =
-    "For instance:\n"
-    "  rheonet compare combined.toml wired.toml --pair friction.force=chain.force --within 1e-6\n"
-    "  rheonet compare combined.toml wired.toml --vary parameters.B=\"1 N*s/m:100 N*s/m:9:log\"\n\n"
-    "Without --pair the records that all scenes have under one name are compared. The rows are those of the first\n"
-    "scene, up to the end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with it\n"
-    "-o writes the table instead of the rows.\n\n"
-    "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
-    "the comparison was interrupted (the values of RANGE up to there are kept), or the output not be written;\n"
-    "2 a scene or the command line is wrong.";
-
-constexpr const char* of_precision =
-    "For instance:\n"
-    "  rheonet precision scene.toml\n"
-    "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n\n"
-    "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
-    "written; 2 the scene or the command line is wrong.";
-
-constexpr const char* of_sweep =
-    "For instance:\n"
-    "  rheonet sweep scene.toml --vary c1.damping=\"1 N*s/m:100 N*s/m:50:log\" --measure 'max(k1.force)' -o sweep.csv\n"
-    "  rheonet sweep scene.toml --vary k1.stiffness=100:1000 --vary c1.damping=1:100:log --latin 500 -o sweep.csv\n"
-    "  rheonet sweep scene.toml --list cases.csv -o rows.csv\n\n"
-    "RANGE is from:to:count, from:to:count:log or value,value,...; several --vary make a grid. With --random and --latin\n"
-    "it is from:to, from:to:log or value,value,..., from which values are drawn. FILE of --list is a CSV file whose first\n"
-    "row has paths, with units as in `k1.stiffness [N/m]`, and each other row the values of a run.\n\n"
-    "Measures: max, min, mean, rms, final and `time of max`, `time of min` of a record, as in max(k1.force) or\n"
-    "max(k1.force, from 1 s, to 2 s); value(k1.force, 0.2 s); time of crossing(k1.force, 2 N); energy dissipated, energy\n"
-    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`.\n\n"
-    "Exit status: 0 every run is done; 1 one or more could not be read or simulated (the column `error` says why), or\n"
-    "the sweep was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
-
-constexpr const char* of_plot =
-    "For instance:\n"
-    "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
-    "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
-    "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
-    "A FILE that ends in .toml is a scene, which is simulated; any other is a CSV file whose first row names its\n"
-    "columns: rows of `run`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over the\n"
-    "first. Different quantities have a panel each, over one horizontal axis.\n\n"
-    "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
-    "line is wrong.";
-
-constexpr const char* of_draw =
-    "For instance:\n"
-    "  rheonet draw scene.toml -o network.svg\n"
-    "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
-    "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
 
 bool is_override(const std::string& word) {
   const std::size_t equals = word.find('=');
@@ -196,6 +133,17 @@ std::vector<double> read_accuracies(const std::vector<std::string>& texts) {
   return values;
 }
 
+void check_reductions(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const ReductionWords& words : reductions()) known.push_back(words.name);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string hint = did_you_mean(name, known);
+    throw WrongCommandLine{fmt::format("`--keep`: there is no reduction `{}`", name),
+                           hint.empty() ? fmt::format("those that there are: {}", fmt::join(known, ", ")) : hint};
+  }
+}
+
 ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
   say("error: {}\n", printable(mistake.message));
@@ -247,7 +195,7 @@ void add_plot(CLI::App* command, Arguments& arguments) {
 struct CommandLine {
   Arguments arguments;
   std::optional<std::string> accuracy, within, order, runs, random, latin, seed, jobs;
-  std::vector<std::string> accuracies;
+  std::vector<std::string> accuracies, only;
   CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet"};
 
@@ -259,6 +207,8 @@ struct CommandLine {
     app.allow_extras()->require_subcommand(0, 1);
     add_run();
     add_check();
+    add_explain();
+    add_effects();
     add_compare();
     add_precision();
     add_sweep();
@@ -282,6 +232,10 @@ struct CommandLine {
   void add_overrides(CLI::App* command) {
     add_list(command, "--set", arguments.overrides,
              "in place of a value of the scene, named by its path; may be repeated", "PATH=VALUE", false);
+    add_list(command, "--without", arguments.without, "effects that are left out: inertia, or elasticity:oil of one element",
+             "EFFECT,...");
+    add_list(command, "--only", only, "effects that stay; all others are left out; `none`: all", "EFFECT,...");
+    add_list(command, "--keep", arguments.keep, "reductions that are not made, to see what they are worth", "NAME,...");
   }
   void add_scene(CLI::App* command) {
     command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
@@ -343,6 +297,20 @@ struct CommandLine {
     add_scene(check);
     check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
   }
+  void add_explain() {
+    CLI::App* explain = add_command("explain", "say what will be simulated of a scene, and why", of_explain);
+    add_scene(explain);
+    add_accuracy(explain);
+    explain->add_flag("--json", arguments.json, "for a program to read");
+  }
+  void add_effects() {
+    CLI::App* weigh = add_command("effects", "say what each effect of a scene contributes to its records, and what it costs", of_effects);
+    add_scene(weigh);
+    add_accuracy(weigh);
+    weigh->add_option("--within", within, "difference that would not matter, of a record's largest magnitude; 0.01 if not given")->type_name("E");
+    weigh->add_option("--runs", runs, "of each model, whose CPU time is taken; 5 if not given")->type_name("N");
+    weigh->add_option("-o,--output", arguments.overlay, "where all differences go as CSV; `-` is standard output")->type_name("FILE");
+  }
   void add_draw() {
     CLI::App* draw = add_command("draw", "draw the network of a scene as an engineer does", of_draw);
     add_scene(draw);
@@ -378,7 +346,7 @@ struct CommandLine {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   CommandLine line;
-  auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, app] = line;
+  auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, only, app] = line;
 
   words = with_every_option(words);
   std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
@@ -402,6 +370,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     if (latin) arguments.sweep.latin = read_whole("--latin", *latin, 1, most_drawn);
     if (seed) arguments.sweep.seed = static_cast<std::uint64_t>(read_whole("--seed", *seed, 0, 1'000'000'000));
     if (jobs) arguments.sweep.jobs = read_whole("--jobs", *jobs, 1, 1024);
+    check_reductions(arguments.keep);
+    if (!only.empty()) arguments.only = only == std::vector<std::string>{"none"} ? std::vector<std::string>{} : only;
     if (within && !(*arguments.within >= 0))
       throw WrongCommandLine{fmt::format("`--within` must be at least 0, but is {}", *within), ""};
     if (app.get_subcommands().empty())
@@ -413,6 +383,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   using Command = Arguments::Command;
   const std::map<std::string, Command> commands = {{"run", Command::run},
                                                    {"check", Command::check},
+                                                   {"explain", Command::explain},
+                                                   {"effects", Command::effects},
                                                    {"compare", Command::compare},
                                                    {"precision", Command::precision},
                                                    {"sweep", Command::sweep},

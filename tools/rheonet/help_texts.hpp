@@ -1,0 +1,85 @@
+#pragma once
+
+namespace rheonet::tool {
+
+// What `--help` says below the options of each command.
+
+inline constexpr const char* of_rheonet =
+    "For instance:\n"
+    "  rheonet run scene.toml -o result.csv\n"
+    "  rheonet components spring\n"
+    "`rheonet run --help` says more of `run`, and so on.";
+inline constexpr const char* of_run =
+    "For instance:\n"
+    "  rheonet run scene.toml -o result.csv\n"
+    "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
+    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
+    "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
+    "2 the scene or the command line is wrong.";
+inline constexpr const char* of_check =
+    "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
+    "line is wrong.";
+
+inline constexpr const char* of_explain =
+    "For instance:\n"
+    "  rheonet explain scene.toml\n"
+    "  rheonet explain scene.toml --without inertia --json\n\n"
+    "Exit status: 0 done; 1 the scene can be read but not simulated; 2 the scene or the command line is wrong.";
+
+inline constexpr const char* of_effects =
+    "For instance:\n"
+    "  rheonet effects scene.toml\n"
+    "  rheonet effects scene.toml --within 1e-4 -o effects.csv\n\n"
+    "Exit status: 0 done; 1 the full model could not be simulated, or the command was interrupted, or the output not be\n"
+    "written; 2 the scene or the command line is wrong.";
+
+inline constexpr const char* of_compare =
+    "For instance:\n"
+    "  rheonet compare combined.toml wired.toml --pair friction.force=chain.force --within 1e-6\n"
+    "  rheonet compare combined.toml wired.toml --vary parameters.B=\"1 N*s/m:100 N*s/m:9:log\"\n\n"
+    "Without --pair the records that all scenes have under one name are compared. The rows are those of the first\n"
+    "scene, up to the end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with it\n"
+    "-o writes the table instead of the rows.\n\n"
+    "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
+    "the comparison was interrupted (the values of RANGE up to there are kept), or the output not be written;\n"
+    "2 a scene or the command line is wrong.";
+
+inline constexpr const char* of_precision =
+    "For instance:\n"
+    "  rheonet precision scene.toml\n"
+    "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n\n"
+    "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
+    "written; 2 the scene or the command line is wrong.";
+
+inline constexpr const char* of_sweep =
+    "For instance:\n"
+    "  rheonet sweep scene.toml --vary c1.damping=\"1 N*s/m:100 N*s/m:50:log\" --measure 'max(k1.force)' -o sweep.csv\n"
+    "  rheonet sweep scene.toml --vary k1.stiffness=100:1000 --vary c1.damping=1:100:log --latin 500 -o sweep.csv\n"
+    "  rheonet sweep scene.toml --list cases.csv -o rows.csv\n\n"
+    "RANGE is from:to:count, from:to:count:log or value,value,...; several --vary make a grid. With --random and --latin\n"
+    "it is from:to, from:to:log or value,value,..., from which values are drawn. FILE of --list is a CSV file whose first\n"
+    "row has paths, with units as in `k1.stiffness [N/m]`, and each other row the values of a run.\n\n"
+    "Measures: max, min, mean, rms, final and `time of max`, `time of min` of a record, as in max(k1.force) or\n"
+    "max(k1.force, from 1 s, to 2 s); value(k1.force, 0.2 s); time of crossing(k1.force, 2 N); energy dissipated, energy\n"
+    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`.\n\n"
+    "Exit status: 0 every run is done; 1 one or more could not be read or simulated (the column `error` says why), or\n"
+    "the sweep was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
+
+inline constexpr const char* of_plot =
+    "For instance:\n"
+    "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
+    "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
+    "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
+    "A FILE that ends in .toml is a scene, which is simulated; any other is a CSV file whose first row names its\n"
+    "columns: rows of `run`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over the\n"
+    "first. Different quantities have a panel each, over one horizontal axis.\n\n"
+    "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
+    "line is wrong.";
+
+inline constexpr const char* of_draw =
+    "For instance:\n"
+    "  rheonet draw scene.toml -o network.svg\n"
+    "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
+    "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
+
+}  // namespace rheonet::tool
