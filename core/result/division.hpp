@@ -17,7 +17,7 @@ struct Excerpt {
 
 /// A scene divided into its independent parts (core/network/parts.hpp), each to be integrated with steps of its own. What
 /// switches - friction, limiters - starts its integrator anew with each event, and stands alone; what does not goes with others that
-/// are about as fast, since a step of one costs hardly more than that of another.
+/// are about as fast, since a step of one costs hardly more than that of another. A scene with delays stays whole.
 struct Division {
   std::vector<Excerpt> excerpts;       ///< empty: the scene is to be integrated as a whole
   std::vector<Excerpt> unasked;        ///< no record, claim or event list needs these, and nothing in them can go wrong in a run
