@@ -6,6 +6,7 @@ namespace rheonet {
 
 const std::vector<ReductionWords>& reductions() {
   static const std::vector<ReductionWords> all{
+      {Reduction::chains, "chains", "linear springs in series or side by side are one, and so are linear dashpots"},
       {Reduction::bundles, "bundles", "springs in series with sliders are one element, all between the same two nodes one bundle"},
       {Reduction::given, "given", "what stands between prescribed motions has no unknown: it follows from them"},
       {Reduction::positions, "positions", "positions that nobody asks for are not integrated"},

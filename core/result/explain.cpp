@@ -12,6 +12,7 @@
 #include "core/network/index.hpp"
 #include "core/network/limits.hpp"
 #include "core/network/listed.hpp"
+#include "core/network/merge.hpp"
 #include "core/network/network.hpp"
 #include "core/network/parts.hpp"
 #include "core/network/reductions.hpp"
@@ -19,6 +20,7 @@
 #include "core/result/channels.hpp"
 #include "core/result/cpu_time.hpp"
 #include "core/result/division.hpp"
+#include "core/result/grouped.hpp"
 #include "core/result/run.hpp"
 #include "core/solve/simulation.hpp"
 
@@ -30,30 +32,15 @@ namespace {
 constexpr double tried_seconds = 0.1;
 constexpr std::size_t least_steps = 4;
 
-/// Lines of one kind, each with its names, in the order in which they come up.
-template <class Line>
-class Grouped {
- public:
-  void add(const std::string& key, const Line& line, const std::string& name) {
-    const auto [found, fresh] = index_.try_emplace(key, lines_.size());
-    if (fresh) lines_.push_back(line);
-    lines_[found->second].names.push_back(name);
-  }
-  std::vector<Line> take() { return std::move(lines_); }
-
- private:
-  std::vector<Line> lines_;
-  std::map<std::string, std::size_t> index_;
-};
-
 class Explainer {
  public:
   explicit Explainer(const Scene& whole)
-      : whole_(whole), asked_(divide(whole, {.apart = false})), scene_(asked_.excerpts.empty() ? whole : asked_.excerpts.front().scene),
-        network_(build_network(scene_)) {}
+      : whole_(whole), asked_(divide(whole, {.apart = false})), unmerged_(asked_.excerpts.empty() ? whole : asked_.excerpts.front().scene),
+        merging_(merge(unmerged_)), scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
 
   Explanation explain() {
     find_effects();
+    find_merged();
     find_limits();
     find_pairs();
     find_parts_of_it();
@@ -103,6 +90,22 @@ class Explainer {
     for (const std::string& name : division.left_out) {
       leave_out({.reduction = name_of(Reduction::unasked), .what = "element", .reason = "nothing that is recorded or claimed depends on its part of the network"},
                 name);
+    }
+  }
+
+  void find_merged() {
+    if (!merging_) return;
+    const std::string& chains = name_of(Reduction::chains);
+    for (const int e : merging_->elements) {
+      const SceneElement& element = unmerged_.elements[at(e)];
+      leave_out({.reduction = chains,
+                 .what = components()[at(element.declaration)]->declaration.type,
+                 .reason = "another one stands for all that are in series or side by side with it"},
+                element.name);
+    }
+    for (const NodeId node : merging_->nodes) {
+      leave_out({.reduction = chains, .what = "node", .reason = "it lies between elements for which one stands", .of_nodes = true},
+                unmerged_.nodes[at(node)].name);
     }
   }
 
@@ -373,7 +376,9 @@ class Explainer {
 
   const Scene& whole_;
   const Division asked_;
-  const Scene& scene_;  ///< what is integrated of it
+  const Scene& unmerged_;  ///< what is asked for of it
+  const std::optional<Merging> merging_;
+  const Scene& scene_;     ///< what is integrated
   const Network network_;
   Explanation result_;
   Grouped<Explanation::Omission> omissions_;

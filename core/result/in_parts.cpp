@@ -106,10 +106,10 @@ class SideBySide {
 
   void integrate(std::size_t k) {
     Outcome& outcome = outcomes_[k];
-    RunSettings settings;
-    settings.interrupt = settings_.interrupt;
-    settings.tolerance = settings_.tolerance;
-    settings.order = settings_.order;
+    RunSettings settings = settings_;
+    settings.csv = settings.events = nullptr;
+    settings.state = {};
+    settings.profile = false;
     settings.row = [&outcome](double time, const std::vector<double>& values) {
       outcome.times.push_back(time);
       outcome.rows.push_back(values);

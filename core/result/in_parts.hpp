@@ -10,6 +10,9 @@ namespace rheonet {
 /// SimulationError as `run` does.
 Summary run_in_parts(const Scene& scene, const Division& division, const RunSettings& settings);
 
+/// A scene in its parts, or as a whole where that is better.
+Summary run_divided(const Scene& scene, const RunSettings& settings);
+
 /// One scene as a whole, whatever its parts.
 Summary run_whole(const Scene& scene, const RunSettings& settings);
 

@@ -18,6 +18,7 @@
 #include "core/result/energy.hpp"
 #include "core/result/in_parts.hpp"
 #include "core/result/manner.hpp"
+#include "core/result/merged.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet {
@@ -226,10 +227,12 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
 
 }  // namespace
 
-Summary run(const Scene& scene, const RunSettings& settings) { return run_in({.order = settings.order}, scene, settings); }
+Summary run(const Scene& scene, const RunSettings& settings) {
+  if (const std::optional<Merging> merging = merge(scene)) return run_merged(scene, *merging, settings, run_divided);
+  return run_divided(scene, settings);
+}
 
-Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
-  const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
+Summary run_divided(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
   // Who looks between the rows, or asks for rows at events, looks at the whole at once. Rows of parts are held in memory.
   const bool whole = scene.output_events || settings.state || settings.profile ||
@@ -241,7 +244,10 @@ Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& sett
   return summary;
 }
 
-Summary run_whole(const Scene& scene, const RunSettings& settings) {
+namespace {
+
+/// One scene as a whole.
+Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);
@@ -253,8 +259,8 @@ Summary run_whole(const Scene& scene, const RunSettings& settings) {
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
                            .accuracy = settings.tolerance.value_or(scene.accuracy),
-                           .order = manner.order,
-                           .locate_events = manner.locate_events,
+                           .order = settings.order,
+                           .locate_events = locate_events,
                            .switch_times = settings.events != nullptr,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress,
@@ -300,6 +306,17 @@ Summary run_whole(const Scene& scene, const RunSettings& settings) {
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   summary.cpu_seconds = cpu_seconds() - cpu;
   return summary;
+}
+
+}  // namespace
+
+Summary run_whole(const Scene& scene, const RunSettings& settings) { return integrate(scene, settings, true); }
+
+Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
+  const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
+  RunSettings in_manner = settings;
+  in_manner.order = manner.order;
+  return manner.locate_events ? run(scene, in_manner) : integrate(scene, in_manner, false);
 }
 
 namespace {
