@@ -47,8 +47,8 @@ stop = 1
 record = ["cart.velocity"]
 )");
   const Finished result = free.shell("rheonet effects scene.toml --runs 1 -o -", 0);
-  CHECK(contains(result.err, "without viscosity, inertia: nothing determines the motion of node `cart`"));
-  CHECK(contains(result.out, "viscosity inertia,,,,,,,,,\"nothing determines the motion of node `cart`"));
+  CHECK(contains(result.err, "without inertia, viscosity: nothing determines the motion of node `cart`"));
+  CHECK(contains(result.out, "inertia viscosity,,,,,,,,,\"nothing determines the motion of node `cart`"));
 }
 
 TEST_CASE("a scene without any effect has nothing to weigh") {
