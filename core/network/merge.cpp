@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <tuple>
 #include <utility>
 
 #include "core/network/component.hpp"
-#include "core/network/effects.hpp"
 #include "core/network/index.hpp"
 #include "core/network/limits.hpp"
 #include "core/network/linear_net.hpp"
 #include "core/network/reductions.hpp"
+#include "core/network/resolved.hpp"
 
 namespace rheonet {
 
@@ -67,23 +67,24 @@ class Merger {
 
   void find_law(std::size_t e) {
     const SceneElement& element = scene_.elements[e];
-    const Component& c = component(e);
-    if (element.at || element.a == element.b || (!c.spring && c.role != Role::rate)) return;
-    if (starts_by_itself(e) || !left_out_of(scene_, element).empty()) return;
-    std::vector<const Limit*> taken;
-    take_limits(&c, element.values, &taken);
-    if (!taken.empty()) return;
-    if (c.spring) {
-      const LinearSpring law = c.spring(element.values);
+    const Role role = component(e).role;
+    if (element.at || element.a == element.b || (role != Role::deflection && role != Role::rate) || starts_by_itself(e)) return;
+    const Reduced reduced = law_of(e);
+    if (!reduced.component) return;
+    if (reduced.component->spring) {
+      const LinearSpring law = reduced.component->spring(reduced.values);
+      if (!std::isnan(law.force) || !std::isnan(law.displacement)) return;
       kind_[e] = spring;
       laws_[e] = {law.stiffness, law.rest};
-    } else {
-      const Growth growth = c.rate(Values{element.values})->growth(0);
+    } else if (reduced.component->role == Role::rate) {
+      const Growth growth = reduced.component->rate(Values{reduced.values})->growth(0);
       if (growth.exponent != 1) return;
       kind_[e] = dashpot;
       laws_[e] = {growth.coefficient, 0};
     }
   }
+
+  Reduced law_of(std::size_t e) const { return take_limits(&component(e), resolved_values(scene_, scene_.elements[e])); }
 
   bool starts_by_itself(std::size_t e) const {
     const std::vector<Parameter>& parameters = component(e).declaration.parameters;
@@ -184,7 +185,10 @@ class Merger {
     element.a = node_[at(net_->first(id))];
     element.b = element.at ? ground : node_[at(net_->second(id))];
     if (id == e) return element;
-    const std::vector<Parameter>& parameters = component(e).declaration.parameters;
+    Reduced law = law_of(e);
+    element.declaration = static_cast<int>(std::find(components().begin(), components().end(), law.component) - components().begin());
+    element.values = std::move(law.values);
+    const std::vector<Parameter>& parameters = law.component->declaration.parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       if (parameters[k].kind != Parameter::Kind::value) continue;
       if (parameters[k].quantity == (kind_[e] == spring ? Quantity::stiffness : Quantity::damping)) element.values[k] = net_->law(id).K;

@@ -62,6 +62,7 @@ struct Outcome {
   std::unique_ptr<Text> events;
   Summary summary;
   std::exception_ptr failure;
+  double reached = 0;   ///< the same, for this thread alone
   double fraction = 0;  ///< of the run that is done
 };
 
@@ -114,15 +115,16 @@ class SideBySide {
       outcome.times.push_back(time);
       outcome.rows.push_back(values);
     };
-    if (settings_.progress) {
-      settings.progress = [this, &outcome](double fraction) {
+    settings.progress = [this, &outcome](double fraction) {
+      outcome.reached = fraction;
+      if (settings_.progress) {
         const std::lock_guard lock(told_);
         outcome.fraction = fraction;
         double sum = 0;
         for (const Outcome& other : outcomes_) sum += other.fraction;
         settings_.progress(sum / static_cast<double>(outcomes_.size()));
-      };
-    }
+      }
+    };
     try {
       if (settings_.events) {
         outcome.events = std::make_unique<Text>();
@@ -169,7 +171,7 @@ class SideBySide {
     std::vector<std::pair<double, std::string>> lines;
     std::set<std::string> told;
     double last = scene_.stop;
-    if (failed) last = failed->times.empty() ? scene_.start : failed->times.back();
+    if (failed) last = scene_.start + failed->reached * (scene_.stop - scene_.start) * (1 + time_rounding);
     for (const Outcome& outcome : outcomes_) {
       if (!outcome.events) continue;
       for (std::string& line : outcome.events->lines()) {
