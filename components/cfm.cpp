@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "components/solid_friction.hpp"
 #include "components/spring_to_slider.hpp"
@@ -8,7 +9,8 @@ namespace rheonet {
 namespace {
 
 constexpr double at_bound = 1e-12;
-constexpr double any = -std::numeric_limits<double>::infinity();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double any = -infinity;
 
 // Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
 // deflection p with p' = w - f/B the force is that model's: df/dp = E. At rest s = 0 and E = sigma.
@@ -178,6 +180,12 @@ const RegisterComponent registered({
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
             .check = start_that_can_be,
+            .effects = {{Effect::dry_friction, "coulomb", infinity},
+                        {Effect::viscosity, "damping", infinity},
+                        {Effect::elasticity, "stiffness"}},
+            .absences = {{{Effect::dry_friction, Effect::viscosity}, {{"damping", 0}}},
+                         {{Effect::elasticity, Effect::dry_friction}, {{"stiffness", infinity}}},
+                         {{Effect::elasticity, Effect::viscosity}, {{"stiffness", infinity}}}},
             .summary = "combined friction model: solid friction that relaxes",
             .law = "df/dt = E (w - f/B),  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
             .equation = R"(\frac{\mathrm{d}f}{\mathrm{d}t} = E\left(w - \frac{f}{B}\right),\qquad E = \sigma\left|1 - s\,\frac{f}{F_c}\right|^{i}\operatorname{sgn}\!\left(1 - s\,\frac{f}{F_c}\right),\qquad s = \operatorname{sgn} w)",

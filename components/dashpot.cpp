@@ -65,6 +65,7 @@ const RegisterComponent registered({
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "d",
                      .description = "displacement at the start, where it does not follow from positions of nodes"},
                 },
+            .effects = {{Effect::viscosity, "damping", 0}},
             .summary = "dashpot, linear or with a power law",
             .law = "f = B abs(w)^n sgn(w)",
             .equation = R"(f = B\,|w|^{n}\operatorname{sgn} w)",

@@ -220,6 +220,7 @@ const RegisterComponent registered({
                      .description = "force at the start (0 unless given), to which it was loaded once, within +-Fc"},
                 },
             .check = start_within_bound,
+            .effects = friction_effects(),
             .summary = "Davidenkov's hysteresis: elastic to plastic along power curves, the same loops at any speed",
             .law = "f = f_r + 2 s g(abs(d - d_r)/2) after a reversal,  g(x) = sigma (x - x^n/(n X^(n-1)))",
             .equation = R"(f = f_r + 2 s\,g\!\left(\frac{|d - d_r|}{2}\right)\ \text{after a reversal},\qquad g(x) = \sigma\left(x - \frac{x^{n}}{n X^{n-1}}\right))",

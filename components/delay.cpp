@@ -14,6 +14,7 @@ const RegisterComponent registered({
                     {.name = "delay", .quantity = Quantity::time, .lower_open = false, .symbol = "T", .description = "the input is put out so much later; 0: at once"},
                     block_initial("output until the first of the input comes through"),
                 },
+            .effects = {{Effect::delay, "delay", 0}},
             .summary = "transport delay",
             .law = "y(t) = u(t - T), y0 before",
             .equation = R"(y(t) = u(t - T),\quad y_0\ \text{before})",

@@ -13,6 +13,7 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::at,
             .parameters = {{.name = "mass", .quantity = Quantity::mass, .lower_open = false, .rotational_name = "inertia",
                             .symbol = "m", .description = "inertia of the node; several at one node add up; 0 means none"}},
+            .effects = {{Effect::inertia, "mass", 0}},
             .summary = "inertia of a node",
             .law = "f = m dv/dt",
             .equation = R"(f = m\,\frac{\mathrm{d}v}{\mathrm{d}t})",

@@ -77,6 +77,7 @@ const RegisterComponent registered({
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
             .check = start_within_bound,
+            .effects = friction_effects(),
             .summary = "solid friction model: dry friction with presliding displacement",
             .law = "df/dt = E w,  E = sigma abs(1 - s f/Fc)^i sgn(1 - s f/Fc),  s = sgn(w)",
             .equation = R"(\frac{\mathrm{d}f}{\mathrm{d}t} = E\,w,\qquad E = \sigma\left|1 - s\,\frac{f}{F_c}\right|^{i}\operatorname{sgn}\!\left(1 - s\,\frac{f}{F_c}\right),\qquad s = \operatorname{sgn} w)",

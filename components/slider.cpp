@@ -24,6 +24,8 @@ const RegisterComponent registered({
                             .same_as = "coulomb", .symbol = "Fs",
                             .description = "force at which it breaks away, not less than `coulomb`"}},
             .check = breakaway_above_coulomb,
+            .effects = {{Effect::dry_friction, "coulomb", 0}},
+            .absences = {{{Effect::dry_friction}, {{"breakaway", 0}}}},
             .summary = "ideal Coulomb slider: sticks without creep, or slips at a constant force",
             .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w)",
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "core/network/law_batch.hpp"
 
@@ -34,8 +35,8 @@ const RegisterComponent registered({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "k",
-                     .description = "force per displacement; 0 means no spring"},
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "k",
+                     .description = "force per displacement; 0 means no spring, inf a rigid link"},
                     {.name = "rest", .quantity = Quantity::position, .fallback = 0.0,
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0",
                      .description = "displacement at which the spring is free of force"},
@@ -46,6 +47,7 @@ const RegisterComponent registered({
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "d",
                      .description = "displacement at the start, where it does not follow from positions of nodes"},
                 },
+            .effects = {{Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()}},
             .summary = "linear spring",
             .law = "f = k (d - d0)",
             .equation = R"(f = k\,(d - d_0))",
@@ -53,7 +55,10 @@ const RegisterComponent registered({
             .notes = "Stores k (d - d0)^2/2, dissipates nothing.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0", .becomes = "", .applies = no_stiffness, .values = {}}},
+    .limits = {{.when = "stiffness = 0", .becomes = "", .applies = no_stiffness, .values = {}},
+               {.when = "stiffness = inf", .becomes = "slider",
+                .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .deflection = deflection_batch<Spring>,
     .spring = linear,
     .drawing = {.lines = "M0 .5 H.14 L.19 .34 L.29 .66 L.39 .34 L.49 .66 L.59 .34 L.69 .66 L.79 .34 L.84 .5 H1"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,11 @@ inline std::vector<double> as_spring(double sigma, double f0) {
 
 /// The same where the law's parameters are stiffness, coulomb, one for its shape, f0.
 inline std::optional<Misfit> start_within_bound(std::span<const double> v) { return beyond_bound(v[3], v[1]); }
+
+/// Its effects: without friction there is no force, without elasticity it is rigid up to its bound.
+inline std::vector<Brought> friction_effects() {
+  return {{Effect::dry_friction, "coulomb", 0}, {Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()}};
+}
 
 /// The limits that such a law has whatever its shape is; `others` follow them.
 inline std::vector<Limit> spring_to_slider(std::vector<Limit> others = {}) {

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "components/spring_to_slider.hpp"
 #include "core/netlist/scene.hpp"
@@ -63,6 +64,10 @@ const RegisterComponent registered({
                      .description = "force at the start (0 unless given)"},
                 },
             .check = delay_of_a_limit,
+            .effects = {{Effect::viscosity, "damping", 0},
+                        {Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()},
+                        {Effect::delay, "delay", 0}},
+            .absences = {{{Effect::elasticity}, {{"delay", 0}}}},
             .summary = "viscous friction model: a lag in front of Newton's law",
             .law = "(B/sigma) df/dt + f = B w(t - TD)",
             .equation = R"(\frac{B}{\sigma}\,\frac{\mathrm{d}f}{\mathrm{d}t} + f = B\,w(t - T_D))",

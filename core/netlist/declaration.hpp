@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/netlist/dimension.hpp"
+#include "core/netlist/effect.hpp"
 
 namespace rheonet {
 
@@ -60,6 +62,20 @@ struct Misfit {
   std::string what;       ///< after its name: "is less than ..."
 };
 
+/// An effect that an element brings while `parameter` is finite and above 0, and the value of that in its absence; without
+/// one the element cannot do without it while it has all its others.
+struct Brought {
+  Effect effect;
+  std::string parameter;
+  std::optional<double> absent = {};
+};
+
+/// Values of further parameters where all of these effects are left out.
+struct Absence {
+  std::vector<Effect> effects;
+  std::vector<std::pair<std::string, double>> values;
+};
+
 /// What an element type is, as data. Values given by a netlist are stored in the order of `parameters`.
 struct Declaration {
   enum class Ports {
@@ -82,6 +98,8 @@ struct Declaration {
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)
   std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< of the values of an element
+  std::vector<Brought> effects = {};   ///< those that can be left out of a scene
+  std::vector<Absence> absences = {};  ///< tried in order, after the values of each effect by itself
   std::string summary = {};  ///< one line
   std::string law = {};      ///< as a textbook prints it
   std::string equation = {};  ///< the law as TeX sets it

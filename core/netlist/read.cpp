@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "core/netlist/checks.hpp"
+#include "core/netlist/effects_table.hpp"
 #include "core/netlist/exact.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/expect.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 const std::vector<std::string> top_level{"title", "domain", "parameters", "check",    "elements",
                                          "nodes", "models", "include",    "simulate", "expect",
-                                         "exact", "plot",   "demo"};
+                                         "exact", "plot",   "demo",     "effects"};
 
 bool is_top_level(const std::string& name) {
   return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
@@ -118,6 +119,8 @@ class Reader {
     connect(expander.loose_ends(), doubtful, context_, scene_);
     if (const TomlEntry* nodes = document_.find("nodes"))
       read_initial_values(nodes->value, environment, doubtful, context_, scene_);
+    scene_.keep = options_.keep;
+    read_effects(document_.find("effects"), options_.without, options_.only, context_, result_.sources, scene_);
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // A million default records of a scene that is refused would be for nothing.

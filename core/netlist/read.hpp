@@ -18,6 +18,9 @@ struct ReadOptions {
   std::optional<double> accuracy;             ///< as after --accuracy; wins over the file
   std::vector<std::string> records = {};      ///< paths that are recorded besides those that the file asks for
   bool plotted = false;                       ///< what `[plot]` draws is recorded besides
+  std::vector<std::string> without = {};      ///< effects, as after --without: they are left out besides those of the file
+  std::optional<std::vector<std::string>> only = {};  ///< as after --only: all others are left out, whatever the file says
+  std::vector<std::string> keep = {};         ///< Scene::keep
   bool claims = true;                         ///< false: `[expect]` is not read
   std::vector<std::string> measures = {};     ///< become Scene::claims after those of the file: see measures.hpp
   std::vector<std::filesystem::path> model_folders = {};  ///< folders that `include` falls back on

@@ -9,6 +9,7 @@
 
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/dimension.hpp"
+#include "core/netlist/effect.hpp"
 #include "core/netlist/signal.hpp"
 
 namespace rheonet {
@@ -129,6 +130,9 @@ struct Scene {
   std::vector<Claim> claims;    ///< of `[expect]`, in the order of the file
 
   std::vector<ExactRecord> exact;
+
+  std::vector<EffectLeftOut> without;  ///< effects that are left out
+  std::vector<std::string> keep;       ///< names of reductions that are not made: core/network/reductions.hpp
 
   enum class StartFrom {
     given,   ///< the start values of nodes and elements

@@ -317,6 +317,15 @@ Json simulate_schema() {
   return schema;
 }
 
+Json effects_schema() {
+  std::string pattern;
+  for (const Effect effect : effects()) pattern += (pattern.empty() ? "" : "|") + name_of(effect);
+  const Json list = list_of({{"type", "string"}, {"pattern", "^(" + pattern + ")(:.+)?$"}});
+  Json schema = object({{"without", described(list, "effects that are left out: inertia, or elasticity:oil of one element")},
+                        {"only", described(list, "all others are left out")}});
+  return described(std::move(schema), "physical effects that the scene does without");
+}
+
 }  // namespace
 
 std::string json_schema(Declarations declarations) {
@@ -357,6 +366,7 @@ std::string json_schema(Declarations declarations) {
       {"elements", reference("elements")},
       {"models", named(reference("model"))},
       {"simulate", simulate_schema()},
+      {"effects", effects_schema()},
       {"expect", reference("expect")},
       {"exact", reference("exact")},
       {"plot", plot_schema()},

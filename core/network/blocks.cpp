@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/network/effects.hpp"
 #include "core/network/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
@@ -15,7 +16,16 @@ namespace {
 
 class Finder {
  public:
-  explicit Finder(Network& network) : network_(network), scene_(*network.scene) {}
+  explicit Finder(Network& network) : network_(network), scene_(*network.scene) {
+    if (scene_.without.empty()) return;
+    open_ = acting_blocks(scene_);
+    for (std::size_t b = 0; b < open_.size(); ++b) {
+      const std::string& block = scene_.elements[at(scene_.blocks[b].element)].name;
+      open_[b] = open_[b] && std::any_of(scene_.without.begin(), scene_.without.end(), [&](const EffectLeftOut& e) {
+        return e.effect == Effect::feedback && e.concerns(block);
+      });
+    }
+  }
 
   Blocks find() {
     const std::vector<int> rates = number_rates();
@@ -90,11 +100,12 @@ class Finder {
   /// A quantity of the network, as a sum of what sensors tell.
   void take_in(Blocks::Block& block, const SceneBlock::Input& input) {
     const Record& record = scene_.sensed[at(input.index)];
+    const bool no_feedback = !open_.empty() && open_[result_.blocks.size()] != 0;
     using What = Blocks::Sensor::What;
     if (record.channel == Record::Channel::force) {
       if (record.subject == Record::Subject::element) {
-        force(block, record.index, input.sign, input.index);
-      } else {
+        if (!no_feedback) force(block, record.index, input.sign, input.index);
+      } else if (!no_feedback) {
         for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force)
           force(block, term.element, input.sign * term.sign, input.index);
       }
@@ -117,7 +128,7 @@ class Finder {
       const int giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
       if (what == What::velocity && giver >= 0)
         block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign});
-      else
+      else if (!no_feedback || (motion >= 0 && giver < 0))
         block.inputs.push_back({false, sensor({what, node, giver < 0 ? motion : -1, input.index}), sign});
     }
   }
@@ -201,6 +212,7 @@ class Finder {
 
   Network& network_;
   const Scene& scene_;
+  std::vector<char> open_;  ///< blocks that take in nothing of the network: feedback is left out; empty: none
   Blocks result_;
 };
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/network/effects.hpp"
 #include "core/network/resolved.hpp"
 
 namespace rheonet {
@@ -18,21 +19,6 @@ namespace {
 // (tests/analytic/iwan_test.cpp), at accuracies from 1e-3 to 1e-9: the error is within the accuracy either way; up to
 // about 30 pairs events cost no more steps than the error test does without them, from 50 on up to twice as many.
 constexpr double kink_worth_an_event = 0.03;
-
-Reduced take_limits(const Component* component, std::vector<double> values) {
-  for (bool again = true; again;) {
-    again = false;
-    for (const Limit& limit : component->limits) {
-      if (!limit.applies(values)) continue;
-      if (limit.becomes.empty()) return {nullptr, {}};
-      values = limit.values(values);
-      component = find_component(limit.becomes);
-      again = true;
-      break;
-    }
-  }
-  return {component, std::move(values)};
-}
 
 std::string describe(const std::string& what, const std::string& element, const std::string& rule) {
   return fmt::format("{} `{}`: {}", what, element, rule);
@@ -77,6 +63,7 @@ std::vector<Reduced> laws_of(const Scene& scene) {
 void tell_lost_times(Network& network) {
   for (const SceneElement& element : network.scene->elements) {
     const std::vector<double> values = resolved_values(*network.scene, element);
+    if (!left_out_of(*network.scene, element).empty()) continue;  // on demand, and told by whoever demands it
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (values[k] != 0 || !(element.values[k] > 0)) continue;
       const Declaration& declared = components()[static_cast<std::size_t>(element.declaration)]->declaration;
@@ -84,6 +71,19 @@ void tell_lost_times(Network& network) {
                                           element.name + "." + declared.parameters[k].name, element.values[k]));
     }
   }
+}
+
+void tell_left_out(Network& network) {
+  const Scene& scene = *network.scene;
+  std::vector<std::string> told;
+  for (const EffectLeftOut& out : scene.without) {
+    const bool concerns = std::any_of(scene.elements.begin(), scene.elements.end(), [&](const SceneElement& e) {
+      const std::vector<Effect> brought = brought_by(e);
+      return out.concerns(e.name) && std::find(brought.begin(), brought.end(), out.effect) != brought.end();
+    });
+    if (concerns || (out.effect == Effect::feedback && !scene.feeds.empty())) told.push_back(out.in_words());
+  }
+  if (!told.empty()) network.notes.push_back(fmt::format("left out of this run: {}", fmt::join(told, ", ")));
 }
 
 /// Nodes between pairs are left out.
@@ -182,6 +182,7 @@ Network build_network(const Scene& scene) {
   }
   number_nodes(network);
   tell_lost_times(network);
+  tell_left_out(network);
   ByComponent deflections, rates;
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };
@@ -204,7 +205,9 @@ Network build_network(const Scene& scene) {
     switch (role) {
       case Role::nothing:
         place = {Role::nothing, -1};
-        network.notes.push_back(fmt::format("element `{}` carries no force: a parameter of it is 0", element.name));
+        if (left_out_of(scene, element).empty()) {
+          network.notes.push_back(fmt::format("element `{}` carries no force: a parameter of it is 0", element.name));
+        }
         break;
       case Role::deflection:
         deflections[law.component->declaration.type].push_back({{index, a, b}, std::move(law.values)});

@@ -5,6 +5,7 @@
 
 #include "core/network/index.hpp"
 #include "core/network/network.hpp"
+#include "core/network/reductions.hpp"
 
 namespace rheonet {
 
@@ -90,6 +91,7 @@ bool holds_at_start(const Pair& pair, const Touch& end) {
 }  // namespace
 
 std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& laws) {
+  if (kept(scene, Reduction::bundles)) return {};
   std::vector<Touch> touched = touches(scene, laws);
   keep_sensed(scene, touched);
   std::vector<char> taken(scene.elements.size(), 0);

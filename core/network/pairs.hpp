@@ -4,14 +4,9 @@
 
 #include "core/netlist/scene.hpp"
 #include "core/network/component.hpp"
+#include "core/network/limits.hpp"
 
 namespace rheonet {
-
-/// An element's law after all limits of its parameters have been taken.
-struct Reduced {
-  const Component* component;  ///< nullptr: no force at all
-  std::vector<double> values;
-};
 
 /// A spring in series with a slider through a node that nothing else touches: one rate-independent element, a stop
 /// operator. The node needs no equation, nor does the slider a mode.

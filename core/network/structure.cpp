@@ -8,6 +8,7 @@
 
 #include "core/network/forest.hpp"
 #include "core/network/index.hpp"
+#include "core/network/reductions.hpp"
 
 namespace rheonet {
 
@@ -153,6 +154,7 @@ Structure analyse(const Network& network, const Modes& modes) {
   grow_forest(network, s);
 
   s.driven.assign(network.deflections.size(), 0);
+  const bool integrate_given = kept(*network.scene, Reduction::given);
   std::vector<char> in_tree(network.deflections.size(), 0);
   for (const Structure::Group& g : s.groups) {
     if (g.tree_branch >= 0) in_tree[at(g.tree_branch)] = 1;
@@ -161,7 +163,7 @@ Structure analyse(const Network& network, const Modes& modes) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int j = laws.first + static_cast<int>(i);
       const Branch& b = s.deflections[at(j)];
-      const bool given = b.a == b.b || (s.of_time[at(b.a)] && s.of_time[at(b.b)]);
+      const bool given = b.a == b.b || (!integrate_given && s.of_time[at(b.a)] && s.of_time[at(b.b)]);
       s.driven[at(j)] = given && !laws.batch->creeps(i);
       if (laws.batch->delay(i) > 0) {
         s.loops.push_back({.branch = j, .flows = {{j, 1}}, .velocities = {}});

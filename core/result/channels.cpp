@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/network/index.hpp"
+#include "core/network/reductions.hpp"
 
 namespace rheonet {
 
@@ -89,6 +90,7 @@ std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& rec
 }
 
 std::vector<char> needed_positions(const Network& network) {
+  if (kept(*network.scene, Reduction::positions)) return std::vector<char>(network.nodes(), 1);
   std::vector<char> needed(network.nodes(), 0);
   for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
     const std::vector<Gauge> measured = gauges(network, *records);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <string>
 #include <tuple>
@@ -14,9 +13,12 @@
 #include "core/network/network.hpp"
 #include "core/result/channels.hpp"
 #include "core/result/claims.hpp"
+#include "core/result/cpu_time.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
+#include "core/result/in_parts.hpp"
 #include "core/result/manner.hpp"
+#include "core/result/merged.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet {
@@ -200,15 +202,10 @@ class Recorder final : public Observer {
   std::vector<double> y_, yp_, before_;
 };
 
+// So many values of rows are held in memory: half a gigabyte.
+constexpr double most_held = 6e7;
 // What is missing of the energy may be so many times the accuracy asked for before it is told.
 constexpr double loose_account = 10;
-
-// Of this thread alone: simulations may run side by side.
-double cpu_seconds() {
-  std::timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// The profile in the user's names.
 std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene, const std::vector<Summary::Switched>& switched) {
@@ -241,10 +238,27 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
 
 }  // namespace
 
-Summary run(const Scene& scene, const RunSettings& settings) { return run_in({.order = settings.order}, scene, settings); }
+Summary run(const Scene& scene, const RunSettings& settings) {
+  if (const std::optional<Merging> merging = merge(scene)) return run_merged(scene, *merging, settings, run_divided);
+  return run_divided(scene, settings);
+}
 
-Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
-  const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
+Summary run_divided(const Scene& scene, const RunSettings& settings) {
+  const auto wall = std::chrono::steady_clock::now();
+  // Who looks between the rows, or asks for rows at events, looks at the whole at once. Rows of parts are held in memory.
+  const bool whole = scene.output_events || settings.state || settings.event || settings.profile ||
+                     static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > most_held;
+  const Division division = divide(scene, {.apart = !whole, .drop = settings.events == nullptr});
+  if (division.excerpts.empty()) return run_whole(scene, settings);
+  Summary summary = run_in_parts(scene, division, settings);
+  summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  return summary;
+}
+
+namespace {
+
+/// One scene as a whole.
+Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);
@@ -256,8 +270,8 @@ Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& sett
     statistics = simulate(network, needed,
                           {.stop = scene.stop - scene.start,
                            .accuracy = settings.tolerance.value_or(scene.accuracy),
-                           .order = manner.order,
-                           .locate_events = manner.locate_events,
+                           .order = settings.order,
+                           .locate_events = locate_events,
                            .switch_times = settings.events != nullptr || settings.event,
                            .interrupt = settings.interrupt,
                            .progress = settings.progress,
@@ -303,6 +317,17 @@ Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& sett
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   summary.cpu_seconds = cpu_seconds() - cpu;
   return summary;
+}
+
+}  // namespace
+
+Summary run_whole(const Scene& scene, const RunSettings& settings) { return integrate(scene, settings, true); }
+
+Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
+  const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
+  RunSettings in_manner = settings;
+  in_manner.order = manner.order;
+  return manner.locate_events ? run(scene, in_manner) : integrate(scene, in_manner, false);
 }
 
 namespace {

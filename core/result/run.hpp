@@ -34,6 +34,7 @@ struct RunSettings {
       {};  ///< called now and then with the fraction of the run that is done
   std::optional<double> tolerance = {};  ///< the integrator works to this accuracy in place of the scene's; > 0
   int order = 5;                         ///< of the integration method, at most; 1 to 5
+  int threads = 1;                       ///< on so many independent parts of a scene may be integrated side by side; >= 1
   bool profile = false;                  ///< finds out what the steps are spent on: Summary::profile
 };
 
@@ -41,6 +42,7 @@ struct RunSettings {
 struct Summary {
   struct Switched { std::string element; long times; };
   int unknowns = 0;
+  int parts = 1;  ///< independent parts of the scene that were integrated each with its own steps
   bool sparse = false;  ///< KLU rather than dense linear algebra
   long steps = 0;
   long rejected_steps = 0;

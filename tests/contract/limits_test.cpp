@@ -100,7 +100,9 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
       const std::vector<double> values = values_at_limit(*c.component, k, generic);
       REQUIRE_MESSAGE(!values.empty(), "no values within the bounds are at the limit");
       const bool held = rigid(limit, values) && c.place.wiring != Wiring::free;
-      const Scene of_values = situate(*c.component, values, c.place, c.seed).scene;
+      Scene of_values = situate(*c.component, values, c.place, c.seed).scene;
+      // A law of a limit may be one with others, and one without a force leaves more parts: the last digits would differ.
+      of_values.keep = {"parts", "chains"};
       const Scene at_limit = held ? without_velocities(of_values) : of_values;
       const Scene law = with_limit_law(at_limit, situation.element, limit);
       if (rigid(limit, values) && c.place.wiring == Wiring::given) {

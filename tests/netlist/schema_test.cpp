@@ -67,9 +67,9 @@ void collect_references(const json& node, std::set<std::string>& references) {
 TEST_CASE("the schema is of draft 2020-12 and knows the top-level keys and no others") {
   CHECK(schema()["$schema"] == "https://json-schema.org/draft/2020-12/schema");
   CHECK(schema()["additionalProperties"] == false);
-  for (const char* key : {"title", "domain", "include", "parameters", "nodes", "elements", "models", "simulate"})
+  for (const char* key : {"title", "domain", "include", "parameters", "nodes", "elements", "models", "simulate", "effects"})
     CHECK(schema()["properties"].contains(key));
-  CHECK(schema()["properties"].size() == 13);
+  CHECK(schema()["properties"].size() == 14);
   CHECK_FALSE(schema().contains("required"));  // a library has models only
 }
 

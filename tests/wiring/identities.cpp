@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/network/component.hpp"
+#include "core/network/reductions.hpp"
 #include "tests/support/reference_integrator.hpp"
 #include "tests/support/simulate.hpp"
 #include "tests/wiring/refusals.hpp"
@@ -57,6 +58,7 @@ std::string wrong_friction(const Scene& scene, const Trajectory& rows) {
   for (const SceneElement& e : scene.elements) {
     const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
     if (type != "slider" && type != "sfm" && type != "cfm") continue;
+    if (!rows.columns.contains(e.name + ".force") || !rows.columns.contains(e.name + ".velocity")) continue;
     const double Fc = parameter(e, "coulomb"), given = parameter(e, "breakaway"), Fs = std::isnan(given) ? Fc : given;
     const std::vector<double>&force = rows[e.name + ".force"], &velocity = rows[e.name + ".velocity"];
     for (std::size_t i = 0; i < force.size(); ++i) {
@@ -138,20 +140,9 @@ std::string wrong_end(const View& view, const Scene& scene, const std::string& r
 /// The laws leave open how the scene goes on from some time before this: any of many solutions is right.
 bool open_before(const Scene& scene, double t) { return integrate_reference(scene, declarations(), {}).fork <= t; }
 
-}  // namespace
-
-Judgement check_identities(const Wiring& wiring) {
-  const Scene scene = scene_of(netlist_of(wiring));
-  const Attempt run = attempt(scene);
-  Judgement result{.verdict = Verdict::wrong, .judged = 1, .text = ""};
-  if (!run.refusal.empty() && !says(run.refusal, overload)) {
-    result.text = "refused: " + run.refusal;
-    return result;
-  }
-  if (run.refusal.empty()) result.text = wrong_energy(scene, run.summary);
-  if (result.text.empty() && !run.rows.header.empty()) result.text = wrong_friction(scene, run.rows);
-  if (!result.text.empty()) return result;
-  for (const View& view : seen_differently(wiring, scene)) {
+/// A run beside the views of it.
+Judgement judge_views(const Scene& scene, const Attempt& run, const std::vector<View>& views, Judgement result) {
+  for (const View& view : views) {
     const Attempt seen = attempt(view.scene);
     double since = scene.stop;
     result.text = wrong_end(view, scene, run.refusal, seen.refusal);
@@ -174,6 +165,31 @@ Judgement check_identities(const Wiring& wiring) {
   }
   result.verdict = run.refusal.empty() ? Verdict::agrees : Verdict::refused;
   return result;
+}
+
+}  // namespace
+
+Judgement check_identities(const Wiring& wiring) {
+  const Scene scene = scene_of(netlist_of(wiring));
+  const Attempt run = attempt(scene);
+  Judgement result{.verdict = Verdict::wrong, .judged = 1, .text = ""};
+  if (!run.refusal.empty() && !says(run.refusal, overload)) {
+    result.text = "refused: " + run.refusal;
+    return result;
+  }
+  if (run.refusal.empty()) result.text = wrong_energy(scene, run.summary);
+  if (result.text.empty() && !run.rows.header.empty()) result.text = wrong_friction(scene, run.rows);
+  if (!result.text.empty()) return result;
+  return judge_views(scene, run, seen_differently(wiring, scene), result);
+}
+
+Judgement check_reductions(const Wiring& wiring) {
+  const Scene scene = scene_of(netlist_of(wiring));
+  Scene unreduced = scene;
+  for (const ReductionWords& words : reductions()) unreduced.keep.push_back(words.name);
+  const Attempt run = attempt(unreduced);
+  if (!run.refusal.empty() && !says(run.refusal, overload)) return {.verdict = Verdict::wrong, .text = "refused: " + run.refusal};
+  return judge_views(unreduced, run, reduced(scene, unreduced), {.verdict = Verdict::wrong, .judged = 1, .text = ""});
 }
 
 }  // namespace rheonet::test

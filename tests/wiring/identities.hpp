@@ -10,4 +10,8 @@ namespace rheonet::test {
 /// same trajectory. `refused` where the run ended early, and then so in every view.
 Judgement check_identities(const Wiring& wiring);
 
+/// What is left out changes nothing: each reduction by itself gives the trajectory that there is without any, of all records and of a
+/// few of them.
+Judgement check_reductions(const Wiring& wiring);
+
 }  // namespace rheonet::test

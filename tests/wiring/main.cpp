@@ -24,7 +24,7 @@ struct Options {
   int jobs = 1;
   std::string part, name, log;
   std::vector<int> numbers;
-  bool toml = false, identities = false, closer = false;
+  bool toml = false, identities = false, reductions = false, closer = false;
 };
 
 std::vector<int> chosen(const Options& options) {
@@ -50,6 +50,7 @@ int go(const Options& options) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> log(
       options.log.empty() ? nullptr : std::fopen(options.log.c_str(), "w"), [](std::FILE* f) { return f ? std::fclose(f) : 0; });
   const auto how = [&](const Wiring& wiring) {
+    if (options.reductions) return check_reductions(wiring);
     return options.identities ? check_identities(wiring) : judge(wiring, options.closer);
   };
   const Tally tally = judge_all(numbers, options.jobs, how, log.get());
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
   app.add_option("--number", options.numbers, "these alone");
   app.add_flag("--toml", options.toml, "print their netlists instead");
   app.add_flag("--identities", options.identities, "the identities of mechanics instead of the reference");
+  app.add_flag("--reductions", options.reductions, "each reduction on against off instead of the reference");
   app.add_flag("--closer", options.closer, "with a smaller step and a tighter accuracy: who is nearer to the truth");
   app.add_option("--log", options.log, "a line for each scene goes to this file");
   try {

@@ -112,4 +112,23 @@ std::vector<View> seen_differently(const Wiring& wiring, const Scene& scene) {
   return views;
 }
 
+std::vector<View> reduced(const Scene& scene, const Scene& unreduced) {
+  constexpr std::size_t one_in = 5;
+  Scene few = scene;
+  few.records.clear();
+  for (std::size_t k = 0; k < scene.records.size(); k += one_in) few.records.push_back(scene.records[k]);
+  std::vector<View> views{{.name = "reduced", .scene = scene, .columns = same_columns(scene)},
+                          {.name = "reduced, with few records", .scene = few, .columns = same_columns(few)}};
+  for (const std::string& name : unreduced.keep) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      View view = views[k];
+      view.name += " by " + name + " alone";
+      view.scene.keep = unreduced.keep;
+      std::erase(view.scene.keep, name);
+      views.push_back(std::move(view));
+    }
+  }
+  return views;
+}
+
 }  // namespace rheonet::test

@@ -22,4 +22,7 @@ struct View {
 /// position is prescribed; the members of all groups in reverse order, if no mass lies between them.
 std::vector<View> seen_differently(const Wiring& wiring, const Scene& scene);
 
+/// The scene with one reduction each, and with all; recording all, and some. `unreduced` has none.
+std::vector<View> reduced(const Scene& scene, const Scene& unreduced);
+
 }  // namespace rheonet::test

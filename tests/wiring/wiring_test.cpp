@@ -41,6 +41,11 @@ TEST_CASE("wirings satisfy the identities of mechanics") {
   check(judge_all(sample(count, seed), 1, check_identities), count);
 }
 
+TEST_CASE("reductions change no record of wirings beyond the accuracy asked") {
+  constexpr int count = 110;
+  check(judge_all(sample(count, seed), 1, check_reductions), count);
+}
+
 // Each of these showed a fault that the samples do not show.
 TEST_CASE("wirings that did not always agree with an independent integrator") {
   const std::vector<int> numbers = {927, 3231, 3410, 4826, 5310, 8559};

@@ -11,6 +11,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "core/network/reductions.hpp"
 #include "tools/rheonet/footers.hpp"
 #include "tools/rheonet/say.hpp"
 
@@ -132,6 +133,17 @@ std::vector<double> read_accuracies(const std::vector<std::string>& texts) {
   return values;
 }
 
+void check_reductions(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const ReductionWords& words : reductions()) known.push_back(words.name);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string hint = did_you_mean(name, known);
+    throw WrongCommandLine{fmt::format("`--keep`: there is no reduction `{}`", name),
+                           hint.empty() ? fmt::format("those that there are: {}", fmt::join(known, ", ")) : hint};
+  }
+}
+
 ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
   say("error: {}\n", printable(mistake.message));
@@ -183,7 +195,7 @@ void add_plot(CLI::App* command, Arguments& arguments) {
 struct CommandLine {
   Arguments arguments;
   std::optional<std::string> accuracy, within, order, runs, random, latin, seed, jobs;
-  std::vector<std::string> accuracies;
+  std::vector<std::string> accuracies, only;
   CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet"};
 
@@ -195,6 +207,8 @@ struct CommandLine {
     app.allow_extras()->require_subcommand(0, 1);
     add_run();
     add_check();
+    add_explain();
+    add_effects();
     add_compare();
     add_precision();
     add_sweep();
@@ -223,6 +237,10 @@ struct CommandLine {
   void add_overrides(CLI::App* command) {
     add_list(command, "--set", arguments.overrides,
              "in place of a value of the scene, named by its path; may be repeated", "PATH=VALUE", false);
+    add_list(command, "--without", arguments.without, "effects that are left out: inertia, or elasticity:oil of one element",
+             "EFFECT,...");
+    add_list(command, "--only", only, "effects that stay; all others are left out; `none`: all", "EFFECT,...");
+    add_list(command, "--keep", arguments.keep, "reductions that are not made, to see what they are worth", "NAME,...");
   }
   void add_scene(CLI::App* command) {
     command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
@@ -284,6 +302,20 @@ struct CommandLine {
     add_scene(check);
     check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
   }
+  void add_explain() {
+    CLI::App* explain = add_command("explain", "say what will be simulated of a scene, and why", footer_of_explain);
+    add_scene(explain);
+    add_accuracy(explain);
+    explain->add_flag("--json", arguments.json, "for a program to read");
+  }
+  void add_effects() {
+    CLI::App* weigh = add_command("effects", "say what each effect of a scene contributes to its records, and what it costs", footer_of_effects);
+    add_scene(weigh);
+    add_accuracy(weigh);
+    weigh->add_option("--within", within, "difference that would not matter, of a record's largest magnitude; 0.01 if not given")->type_name("E");
+    weigh->add_option("--runs", runs, "of each model, whose CPU time is taken; 5 if not given")->type_name("N");
+    weigh->add_option("-o,--output", arguments.overlay, "where all differences go as CSV; `-` is standard output")->type_name("FILE");
+  }
   void add_draw() {
     CLI::App* draw = add_command("draw", "draw the network of a scene as an engineer does", footer_of_draw);
     add_scene(draw);
@@ -319,7 +351,7 @@ struct CommandLine {
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
   CommandLine line;
-  auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, app] = line;
+  auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, only, app] = line;
 
   words = with_every_option(words);
   std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
@@ -343,6 +375,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     if (latin) arguments.sweep.latin = read_whole("--latin", *latin, 1, most_drawn);
     if (seed) arguments.sweep.seed = static_cast<std::uint64_t>(read_whole("--seed", *seed, 0, 1'000'000'000));
     if (jobs) arguments.sweep.jobs = read_whole("--jobs", *jobs, 1, 1024);
+    check_reductions(arguments.keep);
+    if (!only.empty()) arguments.only = only == std::vector<std::string>{"none"} ? std::vector<std::string>{} : only;
     if (within && !(*arguments.within >= 0))
       throw WrongCommandLine{fmt::format("`--within` must be at least 0, but is {}", *within), ""};
     if (app.get_subcommands().empty())
@@ -354,6 +388,8 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   using Command = Arguments::Command;
   const std::map<std::string, Command> commands = {{"run", Command::run},
                                                    {"check", Command::check},
+                                                   {"explain", Command::explain},
+                                                   {"effects", Command::effects},
                                                    {"compare", Command::compare},
                                                    {"precision", Command::precision},
                                                    {"sweep", Command::sweep},

@@ -13,17 +13,20 @@ namespace rheonet::tool {
 /// What a process ends with; part of the contract with scripts that call the program.
 enum ExitStatus { done = 0, not_simulated = 1, not_as_claimed = 1, wrong_input = 2 };
 
+/// What `effects` lets a record be off, of its largest magnitude, to recommend a model: what a measurement does not show.
+inline constexpr double default_within = 0.01;
+
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, compare, precision, sweep, plot, draw, report, serve, components, schema };
+  enum class Command { run, check, explain, effects, compare, precision, sweep, plot, draw, report, serve, components, schema };
 
   Command command = Command::run;
   std::string scene;
   std::vector<std::string> scenes;     ///< of `compare`; of `plot` also CSV files
   std::vector<std::string> pairs;      ///< PATH=PATH, of `compare`
   std::string vary;                    ///< PATH=RANGE, of `compare`; "": nothing
-  std::optional<double> within;        ///< of `compare`
-  std::string overlay;                 ///< where the data of `compare` go; "": nowhere
+  std::optional<double> within;        ///< of `compare`; of `effects`, else default_within
+  std::string overlay;                 ///< where the data of `compare`, `precision` and `effects` go; "": nowhere
   std::string output = "-";            ///< "-": standard output
   std::string events;                  ///< where the events go; "": nowhere
   std::string figure;                  ///< where `run` draws its records; "": nowhere
@@ -33,8 +36,12 @@ struct Arguments {
   bool profile = false;                ///< of `run`
   int order = 5;                       ///< of the integration method in `run`, at most
   std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
-  int runs = 5;                        ///< of `precision`, for each accuracy
+  int runs = 5;                        ///< of `precision`, for each accuracy; of `effects`, of each model
   bool variants = false;               ///< of `precision`
+  std::vector<std::string> without;    ///< effects
+  std::optional<std::vector<std::string>> only;  ///< effects; empty: none
+  std::vector<std::string> keep;       ///< reductions that are not made
+  bool json = false;                   ///< of `explain`
   bool quiet = false;
   bool verbose = false;
   std::string type;  ///< of `components`; "": all

@@ -10,6 +10,12 @@ ExitStatus run_scene(const Arguments& arguments);
 /// `rheonet check`: reads, and finds out what can be known without simulating.
 ExitStatus check_scene(const Arguments& arguments);
 
+/// `rheonet explain`: says what will be simulated of a scene, and why.
+ExitStatus explain_scene(const Arguments& arguments);
+
+/// `rheonet effects`: says what each effect of a scene contributes, and what it costs.
+ExitStatus weigh_effects(const Arguments& arguments);
+
 /// `rheonet compare`: runs several scenes and says how far they are from the first.
 ExitStatus compare_scenes(const Arguments& arguments);
 

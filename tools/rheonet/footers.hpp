@@ -19,6 +19,19 @@ inline constexpr const char* footer_of_check =
     "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
     "line is wrong.";
 
+inline constexpr const char* footer_of_explain =
+    "For instance:\n"
+    "  rheonet explain scene.toml\n"
+    "  rheonet explain scene.toml --without inertia --json\n\n"
+    "Exit status: 0 done; 1 the scene can be read but not simulated; 2 the scene or the command line is wrong.";
+
+inline constexpr const char* footer_of_effects =
+    "For instance:\n"
+    "  rheonet effects scene.toml\n"
+    "  rheonet effects scene.toml --within 1e-4 -o effects.csv\n\n"
+    "Exit status: 0 done; 1 the full model could not be simulated, or the command was interrupted, or the output not be\n"
+    "written; 2 the scene or the command line is wrong.";
+
 inline constexpr const char* footer_of_compare =
     "For instance:\n"
     "  rheonet compare combined.toml wired.toml --pair friction.force=chain.force --within 1e-6\n"

@@ -23,6 +23,10 @@ ExitStatus carry_out(const Arguments& arguments) {
       return run_scene(arguments);
     case Command::check:
       return check_scene(arguments);
+    case Command::explain:
+      return explain_scene(arguments);
+    case Command::effects:
+      return weigh_effects(arguments);
     case Command::compare:
       return compare_scenes(arguments);
     case Command::precision:

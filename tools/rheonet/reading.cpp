@@ -12,7 +12,12 @@
 namespace rheonet::tool {
 
 ReadOptions options_of(const Arguments& arguments) {
-  return {.overrides = arguments.overrides, .accuracy = arguments.accuracy, .model_folders = library_folders()};
+  return {.overrides = arguments.overrides,
+          .accuracy = arguments.accuracy,
+          .without = arguments.without,
+          .only = arguments.only,
+          .keep = arguments.keep,
+          .model_folders = library_folders()};
 }
 
 namespace {

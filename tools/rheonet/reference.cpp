@@ -108,6 +108,22 @@ std::string ports(Declaration::Ports p) {
 
 std::string becomes(const Limit& limit) { return limit.becomes.empty() ? "no force at all" : limit.becomes; }
 
+/// What the element brings, and what it is without that: "inertia (without it mass = 0)".
+std::string effects_of(const Declaration& d) {
+  std::vector<std::string> parts;
+  for (const Brought& b : d.effects) {
+    parts.push_back(in_words(b.effect) + (b.absent ? fmt::format(" (without it {} = {:g})", b.parameter, *b.absent) : " (not left out by itself)"));
+  }
+  std::string text = fmt::format("{}", fmt::join(parts, ", "));
+  for (const Absence& a : d.absences) {
+    if (a.effects.size() < 2) continue;
+    std::vector<std::string> without;
+    for (const Effect effect : a.effects) without.push_back(in_words(effect));
+    for (const auto& [name, value] : a.values) text += fmt::format("; without {} {} = {:g}", fmt::join(without, " and "), name, value);
+  }
+  return text;
+}
+
 // Stars outside code would set what stands between them in italics.
 std::string prose(const std::string& text) {
   std::string result;
@@ -169,6 +185,7 @@ std::string as_text(const Component& component) {
   }
 
   for (const Limit& limit : component.limits) line("limit", limit.when + ": " + becomes(limit));
+  line("effects", effects_of(d));
   line("notes", d.notes);
   line("source", d.source);
   return text;
@@ -190,6 +207,7 @@ std::string as_markdown(const std::vector<const Component*>& components) {
       text +=
           fmt::format("* {}: {}\n", limit.when, limit.becomes.empty() ? becomes(limit) : "a `" + becomes(limit) + "`");
     }
+    if (!d.effects.empty()) text += fmt::format("* Effects: {}\n", effects_of(d));
     if (!d.notes.empty()) text += fmt::format("* {}\n", prose(d.notes));
     if (!d.source.empty()) text += fmt::format("* Source: {}\n", prose(d.source));
     text += "\n| parameter | symbol | quantity | unit | value | default | |\n|---|---|---|---|---|---|---|\n";

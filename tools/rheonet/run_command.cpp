@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
@@ -101,6 +103,7 @@ ExitStatus run_scene(const Arguments& arguments) {
                                .interrupt = &interrupted,
                                .progress = on_progress,
                                .order = arguments.order,
+                               .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
                                .profile = arguments.profile};
     std::optional<Certificate> certificate;
     if (arguments.certify) certificate = certify(*read.scene, settings);

@@ -57,6 +57,7 @@ std::string describe(const Summary& s, long rows, const std::string& destination
        s.unknowns == 0 ? "every motion is prescribed"
        : s.sparse      ? "sparse linear algebra (KLU)"
                        : "dense linear algebra");
+  if (s.parts > 1) line("independent parts", grouped(s.parts), "each with steps of its own: the figures are their sums");
   line("steps", grouped(s.steps), fmt::format("{} rejected", grouped(s.rejected_steps)));
   line("residual evaluations", grouped(s.residual_evaluations), "");
   line("Jacobian evaluations", grouped(s.jacobian_evaluations), "");

@@ -1,0 +1,126 @@
+#include "core/netlist/effects_table.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/netlist/keys.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// The effects of a list: words of the netlist, or of the command line.
+class EffectList {
+ public:
+  EffectList(Context& context, const Scene& scene) : mistakes_(context.mistakes), scene_(scene) {}
+
+  void add(const TomlValue& word) {
+    if (!expect_string(word, "an effect", mistakes_, "one of " + list_names(names()))) return;
+    const std::size_t colon = word.text.find(':');
+    const std::string name = word.text.substr(0, colon);
+    const std::optional<Effect> effect = find_effect(name);
+    if (!effect) {
+      mistakes_.error(mistakes_.inside(word, 0), "there is no effect `" + name + "`",
+                      did_you_mean(name, names(), "the effects are " + list_names(names(), "and")));
+      return;
+    }
+    EffectLeftOut out{*effect, colon == std::string::npos ? "" : word.text.substr(colon + 1)};
+    if (colon != std::string::npos && !names_something(out)) {
+      mistakes_.error(mistakes_.inside(word, colon + 1), "nothing is called `" + out.of + "`", did_you_mean(out.of, paths()));
+      return;
+    }
+    found_.push_back(std::move(out));
+  }
+
+  void add_all(const TomlEntry& list) {
+    if (!expect_array(list.value, "`" + list.key + "`", mistakes_, list.key + " = [\"inertia\", \"delay\"]")) return;
+    for (const TomlValue& word : list.value.items) add(word);
+  }
+
+  const std::vector<EffectLeftOut>& found() const { return found_; }
+
+  /// All effects but those of the list; one that is kept for some elements alone is left out of all others.
+  std::vector<EffectLeftOut> all_others() const {
+    std::vector<EffectLeftOut> result;
+    for (const Effect effect : effects()) {
+      const auto kept = [&](const std::string& element) {
+        return std::any_of(found_.begin(), found_.end(),
+                           [&](const EffectLeftOut& e) { return e.effect == effect && e.concerns(element); });
+      };
+      const bool anywhere = std::any_of(found_.begin(), found_.end(), [&](const EffectLeftOut& e) { return e.effect == effect; });
+      if (!anywhere) {
+        result.push_back({effect});
+        continue;
+      }
+      for (const SceneElement& element : scene_.elements) {
+        if (!kept(element.name)) result.push_back({effect, element.name});
+      }
+    }
+    return result;
+  }
+
+ private:
+  static std::vector<std::string> names() {
+    std::vector<std::string> result;
+    for (const Effect effect : effects()) result.push_back(name_of(effect));
+    return result;
+  }
+  bool names_something(const EffectLeftOut& out) const {
+    return !out.of.empty() && std::any_of(scene_.elements.begin(), scene_.elements.end(),
+                                          [&](const SceneElement& e) { return out.concerns(e.name); });
+  }
+  /// Of elements, and of what they are in.
+  std::vector<std::string> paths() const {
+    std::set<std::string> result;
+    for (const SceneElement& element : scene_.elements) {
+      for (std::size_t end = element.name.find('.'); end != std::string::npos; end = element.name.find('.', end + 1)) {
+        result.insert(element.name.substr(0, end));
+      }
+      result.insert(element.name);
+    }
+    return {result.begin(), result.end()};
+  }
+
+  Mistakes& mistakes_;
+  const Scene& scene_;
+  std::vector<EffectLeftOut> found_;
+};
+
+/// Words of the command line as values, so that messages can point at them.
+void add_words(const std::vector<std::string>& words, const std::string& option, Sources& sources, EffectList& list) {
+  for (const std::string& word : words) {
+    sources.command_line.push_back(option + " " + word);
+    TomlValue value;
+    value.kind = TomlValue::Kind::string;
+    value.text = word;
+    value.spot = {Spot::command_line, static_cast<int>(sources.command_line.size()), 2 + static_cast<int>(option.size())};
+    list.add(value);
+  }
+}
+
+}  // namespace
+
+void read_effects(const TomlEntry* table, const std::vector<std::string>& without, const std::optional<std::vector<std::string>>& only,
+                  Context& context, Sources& sources, Scene& scene) {
+  EffectList out(context, scene), stay(context, scene);
+  bool some_stay = only.has_value();
+  if (table && expect_table(table->value, "`effects`", context.mistakes, "[effects] with without = [...] or only = [...]")) {
+    Keys keys(table->value, "[effects]");
+    const TomlEntry* table_without = keys.find("without");
+    const TomlEntry* table_only = keys.find("only");
+    keys.finish(context.mistakes);
+    if (table_without && table_only) refuse_both(*table_without, *table_only, "[effects]", context.mistakes);
+    if (table_without && !only) out.add_all(*table_without);
+    if (table_only && !only) {
+      stay.add_all(*table_only);
+      some_stay = true;
+    }
+  }
+  add_words(without, "--without", sources, out);
+  if (only) add_words(*only, "--only", sources, stay);
+  if (some_stay) scene.without = stay.all_others();
+  scene.without.insert(scene.without.end(), out.found().begin(), out.found().end());
+}
+
+}  // namespace rheonet

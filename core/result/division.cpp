@@ -1,0 +1,287 @@
+#include "core/result/division.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/network/index.hpp"
+#include "core/network/limits.hpp"
+#include "core/network/network.hpp"
+#include "core/network/parts.hpp"
+#include "core/network/reductions.hpp"
+#include "core/network/resolved.hpp"
+#include "core/network/sets.hpp"
+#include "core/result/excerpt.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// What a part is like.
+struct Nature {
+  bool asked = false;
+  bool may_fail = false;  ///< in a run that has begun: it has what gives way, or what may grow without bound
+  bool switches = false;  ///< has events of its own
+  bool delays = false;    ///< remembers what has been
+  double stiffness = 0, mass = 0;  ///< the largest stiffness and the least mass in it
+  double drive = 0;                ///< largest angular frequency of its drives [rad/s]
+
+  /// About how fast it changes, as a decade of angular frequencies; what dies away is not counted.
+  int decade() const {
+    const double own = stiffness > 0 && mass > 0 ? std::sqrt(stiffness / mass) : 0;
+    const double fastest = std::max(own, drive);
+    return fastest > 0 ? static_cast<int>(std::floor(std::log10(fastest))) : std::numeric_limits<int>::min();
+  }
+};
+
+class Divider {
+ public:
+  Divider(const Scene& scene, const DivisionWishes& wishes)
+      : scene_(scene), wishes_(wishes), idle_(wishes.drop ? idle_blocks() : std::vector<char>()), parts_(find_parts(scene, idle_)), joined_(static_cast<std::size_t>(std::max(parts_.count, 1))) {}
+
+  Division divide() {
+    if (parts_.count < 2 && !any_idle()) return {};
+    join_by_claims();
+    for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed}) {
+      for (const Record& record : *records) ask(record);
+    }
+    return number_jobs() ? cut_up() : Division{};
+  }
+
+ private:
+  /// Blocks whose output comes to nothing that moves, is recorded or claimed.
+  std::vector<char> idle_blocks() const {
+    std::vector<int> needed;
+    std::vector<char> idle(scene_.blocks.size(), 1);
+    const auto need = [&](int block) {
+      if (std::exchange(idle[at(block)], 0)) needed.push_back(block);
+    };
+    for (const SceneFeed& feed : scene_.feeds) need(feed.block);
+    for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed}) {
+      for (const Record& record : *records) {
+        if (record.subject == Record::Subject::block) need(record.index);
+      }
+    }
+    for (std::size_t k = 0; k < needed.size(); ++k) {
+      for (const SceneBlock::Input& input : scene_.blocks[at(needed[k])].inputs) {
+        if (input.from_block) need(input.index);
+      }
+    }
+    return idle;
+  }
+  bool any_idle() const { return std::find(idle_.begin(), idle_.end(), 1) != idle_.end(); }
+
+  int part_of(NodeId node) { return parts_.of_node[at(node)] < 0 ? -1 : joined_.find(parts_.of_node[at(node)]); }
+  int part_of_element(int e) { return parts_.of_element[at(e)] < 0 ? -1 : joined_.find(parts_.of_element[at(e)]); }
+  const Component& component(int e) const { return *components()[at(scene_.elements[at(e)].declaration)]; }
+
+  void join(int part, int other) {
+    if (part >= 0 && other >= 0) joined_.join(part, other);
+  }
+
+  /// A motion's force is what all parts at its node take together.
+  std::vector<int> parts_at(NodeId node) {
+    if (at_node_.empty()) {
+      at_node_.resize(scene_.nodes.size());
+      for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
+        const int part = parts_.of_element[e];
+        if (part < 0) continue;
+        for (const NodeId end : {scene_.elements[e].a, scene_.elements[e].at ? ground : scene_.elements[e].b}) {
+          if (end != ground && parts_.of_node[at(end)] < 0) at_node_[at(end)].insert(part);
+        }
+      }
+    }
+    return {at_node_[at(node)].begin(), at_node_[at(node)].end()};
+  }
+
+  std::vector<int> parts_of(const Record& record) {
+    std::vector<int> found;
+    const auto add = [&](int part) {
+      if (part >= 0) found.push_back(part);
+    };
+    const auto add_force = [&](int e) {
+      add(part_of_element(e));
+      if (component(e).role != Role::motion) return;
+      for (const int part : parts_at(scene_.elements[at(e)].a)) add(part);
+    };
+    switch (record.subject) {
+      case Record::Subject::node:
+        add(part_of(record.index));
+        break;
+      case Record::Subject::element:
+        record.channel == Record::Channel::force ? add_force(record.index) : add(part_of_element(record.index));
+        if (scene_.elements[at(record.index)].at) add(part_of(scene_.elements[at(record.index)].a));
+        break;
+      case Record::Subject::block:
+        add(part_of_element(scene_.blocks[at(record.index)].element));
+        break;
+      case Record::Subject::assembly: {
+        const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
+        if (record.channel == Record::Channel::force) {
+          for (const SceneAssembly::Term& term : assembly.force) add_force(term.element);
+        } else {
+          add(part_of(assembly.a));
+          add(part_of(assembly.b));
+        }
+        break;
+      }
+    }
+    for (int& part : found) part = joined_.find(part);
+    return found;
+  }
+
+  /// A claim is looked at within one part, and so is a difference between two nodes.
+  void join_by_claims() {
+    const auto join_all = [&](const std::vector<int>& parts) {
+      for (const int part : parts) join(parts.front(), part);
+    };
+    for (const Claim& claim : scene_.claims) {
+      std::vector<int> parts = parts_of(scene_.claimed[at(claim.record)]);
+      if (claim.per >= 0) {
+        const std::vector<int> per = parts_of(scene_.claimed[at(claim.per)]);
+        parts.insert(parts.end(), per.begin(), per.end());
+      }
+      join_all(parts);
+    }
+    for (const Record& record : scene_.records) {
+      if (record.channel != Record::Channel::force) join_all(parts_of(record));
+    }
+  }
+
+  void ask(const Record& record) {
+    for (const int part : parts_of(record)) nature_[part].asked = true;
+  }
+
+  void look_at_elements() {
+    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
+      const int part = part_of_element(static_cast<int>(e));
+      if (part >= 0) look_at(scene_.elements[e], nature_[part]);
+    }
+    // Shared motions drive all parts at their nodes.
+    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
+      if (parts_.of_element[e] >= 0 || component(static_cast<int>(e)).role != Role::motion) continue;
+      for (const int part : parts_at(scene_.elements[e].a)) {
+        Nature& nature = nature_[joined_.find(part)];
+        for (const Signal& signal : scene_.elements[e].signals) nature.drive = std::max(nature.drive, fastest(signal));
+      }
+    }
+  }
+
+  double fastest(const Signal& signal) const {
+    const Piece piece = signal.piece(scene_.start);
+    const double of_period = std::isfinite(piece.end) && piece.end > scene_.start ? 1 / (piece.end - scene_.start) : 0;
+    return std::max(std::abs(piece.omega), of_period);
+  }
+
+  void look_at(const SceneElement& element, Nature& nature) const {
+    const Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene_, element));
+    if (!law.component) return;
+    const std::vector<Parameter>& parameters = law.component->declaration.parameters;
+    for (std::size_t k = 0; k < law.values.size(); ++k) {
+      if (!std::isfinite(law.values[k]) || law.values[k] <= 0) continue;
+      if (parameters[k].quantity == Quantity::stiffness) nature.stiffness = std::max(nature.stiffness, law.values[k]);
+      if (parameters[k].quantity == Quantity::mass) nature.mass = nature.mass > 0 ? std::min(nature.mass, law.values[k]) : law.values[k];
+    }
+    for (const Signal& signal : element.signals) nature.drive = std::max(nature.drive, fastest(signal));
+    const Values one{law.values};
+    switch (law.component->role) {
+      case Role::slip:
+        nature.switches = nature.may_fail = true;
+        break;
+      case Role::deflection: {
+        const auto batch = law.component->deflection(one);
+        nature.switches = nature.switches || batch->events(0) > 0;
+        // What gives way may be asked for more than it can take; what comes later may drive what it should damp.
+        nature.may_fail = nature.may_fail || batch->events(0) > 0 || batch->delay(0) > 0;
+        nature.delays = nature.delays || batch->delay(0) > 0;
+        break;
+      }
+      case Role::rate:
+        nature.may_fail = nature.may_fail || law.component->rate(one)->growth(0).exponent != 1;
+        break;
+      case Role::block:
+        nature.may_fail = true;
+        nature.switches = nature.switches || law.component->block(law.values).limits();
+        nature.delays = nature.delays || law.component->block(law.values).delay > 0;
+        break;
+      case Role::motion:
+      case Role::force:
+      case Role::mass:
+      case Role::nothing:
+        break;
+    }
+  }
+
+  /// Which parts go together; false if there is nothing to gain.
+  bool number_jobs() {
+    for (int part = 0; part < parts_.count; ++part) nature_[joined_.find(part)];
+    if (nature_.empty() || (nature_.size() < 2 && !any_idle())) return false;
+    look_at_elements();
+    // No error test looks at what is remembered where nothing has a mass: there the steps of other parts make it as accurate as it is.
+    if (std::any_of(nature_.begin(), nature_.end(), [](const auto& part) { return part.second.delays; })) return false;
+    std::map<int, int> of_decade;
+    for (const auto& [part, nature] : nature_) {
+      if (wishes_.drop && !nature.asked && !nature.may_fail) {
+        unasked_.push_back(part);
+      } else if (!wishes_.apart) {
+        job_[part] = 0;
+        jobs_ = 1;
+      } else if (nature.switches) {
+        job_[part] = jobs_++;
+      } else {
+        const auto [found, fresh] = of_decade.try_emplace(nature.decade(), jobs_);
+        if (fresh) ++jobs_;
+        job_[part] = found->second;
+      }
+    }
+    if (jobs_ == 0) {  // only given motions are recorded: something has to run
+      job_[unasked_.front()] = jobs_++;
+      unasked_.erase(unasked_.begin());
+    }
+    return jobs_ > 1 || !unasked_.empty() || any_idle();
+  }
+
+  Division cut_up() {
+    Division division;
+    std::vector<int> job_of(static_cast<std::size_t>(parts_.count), -1);
+    for (int part = 0; part < parts_.count; ++part) {
+      const auto job = job_.find(joined_.find(part));
+      job_of[at(part)] = job == job_.end() ? jobs_ : job->second;
+    }
+    const std::vector<Excerpt> excerpts = cut(scene_, parts_, job_of, unasked_.empty() ? jobs_ : jobs_ + 1, unasked_.empty() ? -1 : jobs_);
+    for (int job = 0; job < jobs_; ++job) division.excerpts.push_back(excerpts[at(job)]);
+    if (!unasked_.empty()) division.unasked.push_back(excerpts.back());
+    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
+      const int part = parts_.of_element[e];
+      if (part >= 0 && job_of[at(part)] == jobs_) division.left_out.push_back(scene_.elements[e].name);
+    }
+    for (std::size_t b = 0; b < idle_.size(); ++b) {
+      if (idle_[b]) division.left_out.push_back(scene_.elements[at(scene_.blocks[b].element)].name);
+    }
+    return division;
+  }
+
+  const Scene& scene_;
+  const DivisionWishes wishes_;
+  const std::vector<char> idle_;  ///< of each block; empty: all are kept
+  const Parts parts_;
+  Sets joined_;
+  std::map<int, Nature> nature_;  ///< of each part, by the one that stands for it
+  std::map<int, int> job_;
+  std::vector<int> unasked_;
+  std::vector<std::set<int>> at_node_;
+  int jobs_ = 0;
+};
+
+}  // namespace
+
+Division divide(const Scene& scene, const DivisionWishes& asked) {
+  const DivisionWishes wishes{.apart = asked.apart && !kept(scene, Reduction::parts), .drop = asked.drop && !kept(scene, Reduction::unasked)};
+  if (!wishes.apart && !wishes.drop) return {};
+  return Divider(scene, wishes).divide();
+}
+
+}  // namespace rheonet

@@ -1,0 +1,392 @@
+#include "core/result/explain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/network/effects.hpp"
+#include "core/network/index.hpp"
+#include "core/network/limits.hpp"
+#include "core/network/listed.hpp"
+#include "core/network/merge.hpp"
+#include "core/network/network.hpp"
+#include "core/network/parts.hpp"
+#include "core/network/reductions.hpp"
+#include "core/network/resolved.hpp"
+#include "core/result/channels.hpp"
+#include "core/result/cpu_time.hpp"
+#include "core/result/division.hpp"
+#include "core/result/grouped.hpp"
+#include "core/result/run.hpp"
+#include "core/solve/simulation.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// The run is begun, to see how it goes: for this time [s], and for a few steps in any case.
+constexpr double tried_seconds = 0.1;
+constexpr std::size_t least_steps = 4;
+
+class Explainer {
+ public:
+  explicit Explainer(const Scene& whole)
+      : whole_(whole), asked_(divide(whole, {.apart = false})), unmerged_(asked_.excerpts.empty() ? whole : asked_.excerpts.front().scene),
+        merging_(merge(unmerged_)), scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
+
+  Explanation explain() {
+    find_effects();
+    find_merged();
+    find_limits();
+    find_pairs();
+    find_parts_of_it();
+    Observed observed(*this);
+    const SimulationSettings settings{.stop = scene_.stop - scene_.start, .accuracy = scene_.accuracy, .interrupt = nullptr,
+                                      .progress = {}, .profile = nullptr};
+    const SimulationStatistics statistics = check_start(network_, needed_positions(network_), settings, observed);
+    result_.notes = network_.notes;
+    result_.notes.insert(result_.notes.end(), statistics.notes.begin(), statistics.notes.end());
+    find_events();
+    predict();
+    result_.left_out = omissions_.take();
+    result_.events = events_.take();
+    return std::move(result_);
+  }
+
+ private:
+  /// Looks at the equations of the start.
+  class Observed final : public Observer {
+   public:
+    explicit Observed(Explainer& explainer) : explainer_(explainer) {}
+    void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp,
+               double) override {
+      explainer_.find_unknowns(dae);
+      explainer_.find_followers(dae);
+      explainer_.find_structure(dae);
+      explainer_.find_rates(dae, consistency, t, y, yp);
+    }
+    void step(const Integrator&) override {}
+    void event(const Event&) override {}
+    void end(double) override {}
+
+   private:
+    Explainer& explainer_;
+  };
+
+  const std::string& element(int e) const { return scene_.elements[at(e)].name; }
+
+  void leave_out(Explanation::Omission line, const std::string& name) {
+    omissions_.add(line.reduction + '\n' + line.what + '\n' + line.reason, line, name);
+  }
+
+  void find_parts_of_it() {
+    result_.structure.parts = find_parts(whole_).count;
+    const Division division = divide(whole_, {.apart = !whole_.output_events});
+    result_.structure.integrations = static_cast<int>(std::max<std::size_t>(division.excerpts.size(), 1));
+    for (const std::string& name : division.left_out) {
+      leave_out({.reduction = name_of(Reduction::unasked), .what = "element", .reason = "nothing that is recorded or claimed depends on its part of the network"},
+                name);
+    }
+  }
+
+  void find_merged() {
+    if (!merging_) return;
+    const std::string& chains = name_of(Reduction::chains);
+    for (const int e : merging_->elements) {
+      const SceneElement& element = unmerged_.elements[at(e)];
+      leave_out({.reduction = chains,
+                 .what = components()[at(element.declaration)]->declaration.type,
+                 .reason = "another one stands for all that are in series or side by side with it"},
+                element.name);
+    }
+    for (const NodeId node : merging_->nodes) {
+      leave_out({.reduction = chains, .what = "node", .reason = "it lies between elements for which one stands", .of_nodes = true},
+                unmerged_.nodes[at(node)].name);
+    }
+  }
+
+  void find_effects() {
+    std::map<Effect, Explanation::EffectFound> found;
+    for (const SceneElement& e : whole_.elements) {
+      const std::vector<Effect> out = left_out_of(whole_, e);
+      for (const Effect effect : brought_by(e)) {
+        const bool absent = std::find(out.begin(), out.end(), effect) != out.end();
+        (absent ? found[effect].left_out : found[effect].by).push_back(e.name);
+      }
+    }
+    for (const int e : feedback_of(network_)) found[Effect::feedback].by.push_back(element(e));
+    find_open_loops(found[Effect::feedback]);
+    for (const Effect effect : effects()) {
+      found[effect].effect = effect;
+      result_.effects.push_back(found[effect]);
+    }
+  }
+
+  /// What would be feedback if the scene did not leave it out.
+  void find_open_loops(Explanation::EffectFound& feedback) {
+    Scene closed = scene_;
+    const auto left_out = std::erase_if(closed.without, [](const EffectLeftOut& e) { return e.effect == Effect::feedback; });
+    if (left_out == 0) return;
+    for (const int e : feedback_of(build_network(closed))) {
+      if (std::find(feedback.by.begin(), feedback.by.end(), element(e)) == feedback.by.end()) feedback.left_out.push_back(element(e));
+    }
+  }
+
+  static std::string what_is_left(const Reduced& law) {
+    if (!law.component) return "carries no force";
+    if (law.component->slip && std::isinf(law.component->slip(law.values).coulomb)) return "is a rigid link";
+    return "is a `" + law.component->declaration.type + "`";
+  }
+
+  void find_limits() {
+    for (const SceneElement& e : scene_.elements) {
+      std::vector<const Limit*> taken;
+      const Reduced law = take_limits(components()[at(e.declaration)], resolved_values(scene_, e), &taken);
+      if (taken.empty()) continue;
+      const std::vector<Effect> out = left_out_of(scene_, e);
+      const std::string type = components()[at(e.declaration)]->declaration.type;
+      std::string reason = taken.front()->when;
+      if (!out.empty()) {
+        std::vector<std::string> words;
+        for (const Effect effect : out) words.push_back(in_words(effect));
+        reason = fmt::format("the scene leaves out {}", fmt::join(words, ", "));
+      }
+      leave_out({.what = type, .reason = reason + ", so that it " + what_is_left(law)}, e.name);
+    }
+  }
+
+  void find_pairs() {
+    const std::string& name = name_of(Reduction::bundles);
+    for (const Pair& pair : network_.pairs) {
+      leave_out({.reduction = name,
+                 .what = "node",
+                 .reason = "nothing but a spring and a slider touch it: they are one element, whose force is a closed form of its displacement",
+                 .of_nodes = true},
+                scene_.nodes[at(pair.node)].name);
+    }
+    std::map<int, std::vector<std::string>> bundles;
+    for (const Pair& pair : network_.pairs) bundles[pair.bundle].push_back(element(pair.slider));
+    for (const auto& [bundle, sliders] : bundles) {
+      if (sliders.size() < 2) continue;
+      leave_out({.reduction = name,
+                 .what = fmt::format("deflections of {} spring-slider pairs but", sliders.size()),
+                 .reason = "all stand between the same two nodes: a bundle has one unknown, and no event at each yield"},
+                sliders.front());
+    }
+  }
+
+  void find_unknowns(const Dae& dae) {
+    Grouped<Explanation::Unknowns> unknowns;
+    const auto add = [&](int unknown, Explanation::Unknowns line, const std::string& name) {
+      if (unknown < 0) return;
+      line.differential = dae.differential(unknown);
+      unknowns.add(line.quantity + line.equation + (line.differential ? "'" : ""), line, name);
+      ++(line.differential ? result_.structure.differential : result_.structure.algebraic);
+    };
+    const auto unit = [&](Quantity quantity) { return unit_of(quantity, scene_.domain); };
+    const Structure& structure = dae.structure();
+    for (const NodeId node : network_.node_order) {
+      const bool massive = structure.kind[at(node)] == Kind::massive;
+      add(dae.velocity_unknown(node),
+          {.quantity = "velocity", .unit = unit(Quantity::velocity),
+           .equation = massive ? "mass times acceleration is the sum of forces" : "the forces at the node balance", .of_nodes = true},
+          network_.node_name(node));
+      add(dae.position_unknown(node),
+          {.quantity = "position", .unit = unit(Quantity::position), .equation = "its rate is the velocity", .of_nodes = true},
+          network_.node_name(node));
+    }
+    std::vector<char> in_tree(network_.deflections.size(), 0);
+    for (const Structure::Group& group : structure.groups) {
+      if (group.tree_branch >= 0) in_tree[at(group.tree_branch)] = 1;
+    }
+    for (std::size_t j = 0; j < network_.deflections.size(); ++j) {
+      const int branch = static_cast<int>(j);
+      std::size_t i = 0;
+      const bool creeps = dae.batch_of(branch, i).creeps(i);
+      const std::string rate = creeps ? "its rate is the velocity of its ends, less what flows" : "its rate is the velocity of its ends";
+      add(dae.deflection_unknown(branch),
+          {.quantity = "deflection", .unit = unit(Quantity::position), .equation = in_tree[j] ? "the forces at its end balance" : rate},
+          network_.name_of(network_.deflections[j]));
+    }
+    for (std::size_t r = 0; r < network_.rates.size(); ++r) {
+      add(dae.force_unknown(static_cast<int>(r)), {.quantity = "force", .unit = unit(Quantity::force), .equation = "its law"},
+          network_.name_of(network_.rates[r]));
+    }
+    const BlockSignals& blocks = const_cast<Dae&>(dae).drive().blocks();
+    for (std::size_t k = 0; k < blocks.states(); ++k) {
+      add(dae.block_unknown(k), {.quantity = "state", .equation = "its rate follows from what it takes in"},
+          element(network_.blocks.blocks[at(blocks.block_of_state(k))].element));
+    }
+    result_.unknowns = unknowns.take();
+  }
+
+  /// What follows from something else, and is no unknown.
+  void find_followers(const Dae& dae) {
+    const Structure& structure = dae.structure();
+    const std::string& given = name_of(Reduction::given);
+    for (std::size_t j = 0; j < network_.deflections.size(); ++j) {
+      if (!structure.driven[j]) continue;
+      const bool joined = structure.deflections[j].a == structure.deflections[j].b;
+      leave_out({.reduction = joined ? "" : given,
+                 .what = "deflection of",
+                 .reason = joined ? "sliders that stick hold its ends together" : "both its ends have given motions"},
+                network_.name_of(network_.deflections[j]));
+    }
+    for (std::size_t r = 0; r < network_.rates.size(); ++r) {
+      const Branch& b = structure.rates[r];
+      if (structure.of_time[at(b.a)] && structure.of_time[at(b.b)]) {
+        leave_out({.what = "velocity of", .reason = "both its ends have given motions"}, network_.name_of(network_.rates[r]));
+      }
+    }
+    for (const NodeId node : network_.node_order) {
+      if (node == ground) continue;
+      const Kind kind = structure.kind[at(node)];
+      if (kind == Kind::joined) {
+        leave_out({.what = "velocity of", .reason = "a slider that sticks joins the node to another, as long as it does", .of_nodes = true},
+                  network_.node_name(node));
+      }
+      if (kind == Kind::known && structure.of_time[at(node)] && structure.motion[at(node)] >= 0) {
+        leave_out({.what = "motion of", .reason = "it is given as a function of time", .of_nodes = true}, network_.node_name(node));
+      }
+    }
+    find_positions(dae);
+  }
+
+  void find_positions(const Dae& dae) {
+    std::vector<char> followed(network_.nodes(), 0);
+    for (const NodeId node : dae.positioned()) followed[at(node)] = 1;
+    for (const NodeId node : network_.node_order) {
+      if (node == ground || dae.structure().of_time[at(node)] || dae.position_unknown(node) >= 0) continue;
+      const bool wanted = followed[at(node)] != 0;
+      leave_out({.reduction = wanted ? "" : name_of(Reduction::positions),
+                 .what = "position of",
+                 .reason = wanted ? "it follows from the deflections of elements" : "nothing needs it",
+                 .of_nodes = true},
+                network_.node_name(node));
+    }
+  }
+
+  /// The index of the equations as written at the nodes (Estevez Schwarz and Tischendorf, Int. J. Circ. Theor. Appl. 28 (2000)
+  /// 131), and of those that are solved.
+  void find_structure(const Dae& dae) {
+    const Structure& structure = dae.structure();
+    Explanation::Structure& s = result_.structure;
+    s.loops = static_cast<int>(structure.loops.size());
+    s.index = s.algebraic > 0 ? 1 : 0;
+    std::vector<std::string> floating, carried;
+    for (const Structure::Group& group : structure.groups) {
+      for (const NodeId node : group.nodes) floating.push_back(network_.node_name(node));
+    }
+    for (const Network::Mass& mass : network_.masses) {
+      if (structure.kind[at(mass.node)] == Kind::known && mass.node != ground) carried.push_back(element(mass.element));
+    }
+    const bool viscous = std::find(structure.kind.begin(), structure.kind.end(), Kind::viscous) != structure.kind.end();
+    if (!floating.empty()) {
+      s.index_as_wired = 2;
+      s.because = "springs and friction alone hold " + listed(floating) + ": the balance of forces there says nothing of the velocity";
+    } else if (!carried.empty()) {
+      s.index_as_wired = 2;
+      s.because = "a given motion carries " + listed(carried) + ": its force needs the rate of what is given";
+    } else if (viscous || !network_.motions.empty()) {
+      s.index_as_wired = 1;
+      s.because = viscous ? "forces balance at nodes without mass" : "the forces of given motions follow from the others";
+    }
+  }
+
+  void find_rates(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp) {
+    Explanation::Cost& cost = result_.cost;
+    cost.unknowns = dae.unknowns();
+    cost.entries = dae.unknowns() > 0 ? dae.pattern().entries() : 0;
+    cost.sparse = dae.unknowns() > Integrator::dense_limit;
+    const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;
+    cost.fastest_rate = std::isfinite(rate) ? rate : 0;
+    cost.fastest_drive = dae.drive().fastest();
+  }
+
+  void find_events() {
+    for (const Network::Slider& slider : network_.sliders) add_slider(slider.law, slider.branch.element);
+    for (const Pair& pair : network_.pairs) add_event("stick, slip, reversal", pair.slider);
+    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        if (laws.batch->events(i) == 0 || laws.component == nullptr) continue;
+        std::string kinds = "reversal";
+        if (laws.batch->can_hold(i)) kinds += ", stop, start";
+        if (laws.batch->events(i) > 1) kinds += ", yield, release";
+        add_event(kinds, network_.deflections[at(laws.first) + i].element);
+      }
+    }
+    for (const Blocks::Block& block : network_.blocks.blocks) {
+      if (block.law.limits()) add_event("limit, release", block.element);
+    }
+    for (const Network::Motion& motion : network_.motions) add_breaks(motion.signal, motion.element, motion.block);
+    for (const Network::Force& force : network_.forces) add_breaks(force.signal, force.element, force.block);
+    for (const Blocks::Block& block : network_.blocks.blocks) {
+      if (block.generates) add_breaks(block.signal, block.element, -1);
+    }
+  }
+
+  void add_event(const std::string& kinds, int e) { events_.add(kinds, {.kinds = kinds}, element(e)); }
+
+  void add_slider(const Slip& law, int e) {
+    if (!std::isfinite(law.breakaway)) return;  // a rigid link never slips
+    add_event(law.breakaway > law.coulomb ? "stick, slip, breakaway, reversal" : "stick, slip, reversal", e);
+  }
+
+  /// Instants at which a signal jumps or has a corner are known; so many are counted.
+  void add_breaks(const Signal& signal, int e, int block) {
+    if (block >= 0) return;
+    constexpr long most = 1000000;
+    long count = 0;
+    const double length = scene_.stop - scene_.start;
+    for (double t = signal.piece(0).end; t < length && count < most; t = signal.piece(t).end) ++count;
+    result_.cost.known_instants += count;
+    if (count > 0) add_event("jumps or corners at known times", e);
+  }
+
+  /// Begins the run, and supposes that it goes on as in the second half of what has been tried.
+  void predict() {
+    Explanation::Cost& cost = result_.cost;
+    std::atomic<bool> enough = false;
+    std::vector<double> fractions;
+    const double begin = cpu_seconds();
+    double spent = 0;
+    const auto tried = [&](double fraction) {
+      fractions.push_back(fraction);
+      spent = cpu_seconds() - begin;
+      enough = spent > tried_seconds && fractions.size() >= least_steps;
+    };
+    try {
+      run(whole_, {.interrupt = &enough, .progress = tried});
+    } catch (const SimulationError& error) {
+      if (!enough) result_.notes.push_back(std::string("the run will not come to its end: ") + error.what());
+    }
+    if (fractions.empty()) return;
+    const std::size_t count = fractions.size(), half = count / 2;
+    cost.tried_steps = static_cast<long>(count);
+    cost.tried = fractions.back();
+    cost.seconds_a_step = spent / static_cast<double>(count);
+    cost.steps = static_cast<double>(count);
+    const double later = fractions.back() - fractions[half];
+    if (enough && later > 0) cost.steps += (1 - fractions.back()) * static_cast<double>(count - 1 - half) / later;
+  }
+
+  const Scene& whole_;
+  const Division asked_;
+  const Scene& unmerged_;  ///< what is asked for of it
+  const std::optional<Merging> merging_;
+  const Scene& scene_;     ///< what is integrated
+  const Network network_;
+  Explanation result_;
+  Grouped<Explanation::Omission> omissions_;
+  Grouped<Explanation::Events> events_;
+};
+
+}  // namespace
+
+Explanation explain(const Scene& scene) { return Explainer(scene).explain(); }
+
+}  // namespace rheonet

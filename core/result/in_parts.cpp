@@ -1,0 +1,241 @@
+#include "core/result/in_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "core/network/listed.hpp"
+#include "core/network/network.hpp"
+#include "core/result/csv.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// A file in memory.
+class Text {
+ public:
+  Text() : file_(open_memstream(&text_, &size_)) {
+    if (!file_) throw std::system_error(errno, std::generic_category(), "a list of events");
+  }
+  ~Text() {
+    std::fclose(file_);
+    std::free(text_);
+  }
+  Text(const Text&) = delete;
+  Text& operator=(const Text&) = delete;
+  std::FILE* file() { return file_; }
+  /// Its lines, without the first.
+  std::vector<std::string> lines() {
+    std::fflush(file_);
+    std::vector<std::string> result;
+    const std::string_view all(text_, size_);
+    for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end + 1) {
+      end = std::min(all.find('\n', begin), all.size());
+      if (begin > 0) result.emplace_back(all.substr(begin, end - begin));
+    }
+    return result;
+  }
+
+ private:
+  char* text_ = nullptr;
+  std::size_t size_ = 0;
+  std::FILE* file_;
+};
+
+/// What has come of an excerpt.
+struct Outcome {
+  std::vector<double> times;
+  std::vector<std::vector<double>> rows;
+  std::unique_ptr<Text> events;
+  Summary summary;
+  std::exception_ptr failure;
+  double reached = 0;   ///< the same, for this thread alone
+  double fraction = 0;  ///< of the run that is done
+};
+
+class SideBySide {
+ public:
+  SideBySide(const Scene& scene, const Division& division, const RunSettings& settings)
+      : scene_(scene), division_(division), settings_(settings), outcomes_(division.excerpts.size()) {}
+
+  Summary go() {
+    std::vector<std::string> notes;
+    check_unasked(notes);
+    if (outcomes_.size() == 1) {  // all records and claims are its own, in their order
+      Summary sum = run_whole(division_.excerpts.front().scene, settings_);
+      sum.notes.insert(sum.notes.begin(), notes.begin(), notes.end());
+      return sum;
+    }
+    const std::size_t threads = std::min<std::size_t>(static_cast<std::size_t>(std::max(settings_.threads, 1)), outcomes_.size());
+    std::vector<std::thread> others;
+    for (std::size_t k = 1; k < threads; ++k) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& thread : others) thread.join();
+    const Outcome* const failed = first_failed();
+    write_rows(failed ? failed->rows.size() : outcomes_.front().rows.size());
+    write_events(failed);
+    if (failed) std::rethrow_exception(failed->failure);
+    return summary(std::move(notes));
+  }
+
+ private:
+  /// Their structure and start are looked at all the same.
+  void check_unasked(std::vector<std::string>& notes) const {
+    if (division_.left_out.empty()) return;
+    for (const Excerpt& excerpt : division_.unasked) check(excerpt.scene);
+    if (!scene_.blocks.empty()) build_network(scene_);  // blocks that are left out may wait for each other
+    notes.push_back(fmt::format("not integrated, since nothing asks for what happens there: {}; the energy account is without it",
+                                listed(division_.left_out)));
+  }
+
+  void work() {
+    for (std::size_t k = next_++; k < outcomes_.size(); k = next_++) integrate(k);
+  }
+
+  void integrate(std::size_t k) {
+    Outcome& outcome = outcomes_[k];
+    RunSettings settings = settings_;
+    settings.csv = settings.events = nullptr;
+    settings.state = {};
+    settings.profile = false;
+    settings.row = [&outcome](double time, const std::vector<double>& values) {
+      outcome.times.push_back(time);
+      outcome.rows.push_back(values);
+    };
+    settings.progress = [this, &outcome](double fraction) {
+      outcome.reached = fraction;
+      if (settings_.progress) {
+        const std::lock_guard lock(told_);
+        outcome.fraction = fraction;
+        double sum = 0;
+        for (const Outcome& other : outcomes_) sum += other.fraction;
+        settings_.progress(sum / static_cast<double>(outcomes_.size()));
+      }
+    };
+    try {
+      if (settings_.events) {
+        outcome.events = std::make_unique<Text>();
+        settings.events = outcome.events->file();
+      }
+      outcome.summary = run_whole(division_.excerpts[k].scene, settings);
+    } catch (...) {
+      outcome.failure = std::current_exception();
+    }
+  }
+
+  /// Whose rows end first.
+  const Outcome* first_failed() const {
+    const Outcome* first = nullptr;
+    for (const Outcome& outcome : outcomes_) {
+      if (outcome.failure && (!first || outcome.rows.size() < first->rows.size())) first = &outcome;
+    }
+    return first;
+  }
+
+  void write_rows(std::size_t count) const {
+    if (count == 0) return;
+    std::vector<std::string> names;
+    for (const Record& record : scene_.records) names.push_back(record.path);
+    CsvWriter csv(settings_.csv, "the results");
+    csv.header(names);
+    std::vector<double> values(scene_.records.size());
+    for (std::size_t row = 0; row < count; ++row) {
+      std::fill(values.begin(), values.end(), 0.0);
+      for (std::size_t k = 0; k < outcomes_.size(); ++k) {
+        const std::vector<std::size_t>& records = division_.excerpts[k].records;
+        for (std::size_t r = 0; r < records.size(); ++r) values[records[r]] += outcomes_[k].rows[row][r];
+      }
+      const double time = outcomes_.front().times[row];
+      csv.row(time, values);
+      if (settings_.row) settings_.row(time, values);
+    }
+    csv.flush();
+  }
+
+  /// In the order of time. What a motion does that several excerpts have is told once. Up to the end of what has been written.
+  void write_events(const Outcome* failed) const {
+    if (!settings_.events) return;
+    std::vector<std::pair<double, std::string>> lines;
+    std::set<std::string> told;
+    double last = scene_.stop;
+    if (failed) last = scene_.start + failed->reached * (scene_.stop - scene_.start) * (1 + time_rounding);
+    for (const Outcome& outcome : outcomes_) {
+      if (!outcome.events) continue;
+      for (std::string& line : outcome.events->lines()) {
+        const double time = std::strtod(line.c_str(), nullptr);
+        if ((!failed || &outcome == failed || time <= last) && told.insert(line).second) lines.emplace_back(time, std::move(line));
+      }
+    }
+    std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::string text = "time,element,event,direction\n";
+    for (const auto& [time, line] : lines) text += line + '\n';
+    if (std::fwrite(text.data(), 1, text.size(), settings_.events) != text.size() || std::fflush(settings_.events) != 0)
+      throw WriteError("the events cannot be written");
+  }
+
+  Summary summary(std::vector<std::string> notes) {
+    Summary sum;
+    sum.parts = static_cast<int>(outcomes_.size());
+    sum.findings.resize(scene_.claims.size());
+    std::map<std::string, long> switched;
+    for (std::size_t k = 0; k < outcomes_.size(); ++k) {
+      const Summary& s = outcomes_[k].summary;
+      sum.unknowns += s.unknowns;
+      sum.sparse = sum.sparse || s.sparse;
+      sum.steps += s.steps;
+      sum.rejected_steps += s.rejected_steps;
+      sum.residual_evaluations += s.residual_evaluations;
+      sum.jacobian_evaluations += s.jacobian_evaluations;
+      sum.restarts += s.restarts;
+      // A motion that several excerpts have switches in each.
+      for (const Summary::Switched& one : s.switched) switched[one.element] = std::max(switched[one.element], one.times);
+      sum.supplied += s.supplied;
+      sum.stored += s.stored;
+      sum.dissipated += s.dissipated;
+      sum.missing += s.missing;
+      sum.largest += s.largest;
+      sum.cpu_seconds += s.cpu_seconds;
+      for (std::size_t c = 0; c < s.findings.size(); ++c) sum.findings[division_.excerpts[k].claims[c]] = s.findings[c];
+      for (const std::string& note : s.notes) {
+        if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+      }
+    }
+    for (const SceneElement& element : scene_.elements) {
+      const auto found = switched.find(element.name);
+      if (found == switched.end()) continue;
+      sum.switched.push_back({element.name, found->second});
+      sum.events += found->second;
+    }
+    std::stable_sort(sum.switched.begin(), sum.switched.end(), [](const auto& p, const auto& q) { return p.times > q.times; });
+    sum.notes = std::move(notes);
+    return sum;
+  }
+
+  const Scene& scene_;
+  const Division& division_;
+  const RunSettings& settings_;
+  std::vector<Outcome> outcomes_;
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex told_;
+};
+
+}  // namespace
+
+Summary run_in_parts(const Scene& scene, const Division& division, const RunSettings& settings) {
+  return SideBySide(scene, division, settings).go();
+}
+
+}  // namespace rheonet

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <functional>
+
+#include "core/network/merge.hpp"
+#include "core/result/run.hpp"
+
+namespace rheonet {
+
+/// Runs the reduced scene of a merging by `go`, and makes of its rows those of the whole.
+Summary run_merged(const Scene& whole, const Merging& merging, const RunSettings& settings,
+                   const std::function<Summary(const Scene&, const RunSettings&)>& go);
+
+}  // namespace rheonet

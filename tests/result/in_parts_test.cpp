@@ -1,0 +1,176 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/network/error.hpp"
+#include "core/result/division.hpp"
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet;
+using namespace rheonet::test;
+
+namespace {
+
+// Three parts on one shaft: a slow Maxwell element; a block that sticks and slips; a fast oscillator with a carried mass beside.
+const std::string shaft = R"([elements]
+drive = { type = "motion", at = "shaft", velocity = { sine = "0.4 m/s", frequency = "1.5 Hz" } }
+rotor = { type = "mass", at = "shaft", mass = 0.3 }
+oil = { between = ["shaft", "ground"], series = [ { name = "k", type = "spring", stiffness = 60 }, { name = "c", type = "dashpot", damping = 9 } ] }
+band = { type = "spring", between = ["shaft", "block"], stiffness = 70 }
+block = { type = "mass", at = "block", mass = 0.8 }
+rub = { type = "slider", between = ["block", "ground"], coulomb = 1.3 }
+fork = { type = "spring", between = ["shaft", "tip"], stiffness = 9000 }
+tip = { type = "mass", at = "tip", mass = 0.1 }
+air = { type = "dashpot", between = ["tip", "ground"], damping = 0.7 }
+[simulate]
+stop = 1.6
+output = { points = 33 }
+)";
+const std::string all = "record = [\"shaft.position\", \"drive.force\", \"oil.force\", \"oil.k.displacement\", \"block.position\", \"rub.force\", "
+                        "\"tip.velocity\", \"rotor.force\", \"fork.force\"]\n";
+
+Scene whole(Scene scene) {
+  scene.keep = {"parts", "unasked"};
+  return scene;
+}
+
+/// The same records to within the accuracy asked of both runs.
+void check_same(const Scene& scene, const Scene& other) {
+  const Trajectory a = simulate(scene), b = simulate(other);
+  REQUIRE(a.header == b.header);
+  for (const std::string& column : a.header) {
+    CAPTURE(column);
+    const double scale = b.scale(column);
+    for (std::size_t k = 0; k < a.time().size(); ++k) CHECK(std::abs(a[column][k] - b[column][k]) <= 2 * scene.accuracy * scale);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("parts by themselves give what they give together; a force is the sum over them") {
+  const Scene scene = scene_of(shaft + all);
+  CHECK_EQ(divide(scene, {}).excerpts.size(), 3);
+  Summary apart, together;
+  simulate(scene, &apart);
+  simulate(whole(scene), &together);
+  check_same(scene, whole(scene));
+  CHECK_EQ(apart.parts, 3);
+  CHECK_EQ(together.parts, 1);
+  CHECK_EQ(apart.unknowns, together.unknowns);
+  CHECK_EQ(apart.events, together.events);
+  for (double Summary::*energy : {&Summary::supplied, &Summary::stored, &Summary::dissipated}) {
+    CHECK(std::abs(apart.*energy - together.*energy) < 1e-5 * together.largest);
+  }
+}
+
+TEST_CASE("threads change no digit") {
+  const Scene scene = scene_of(shaft + all);
+  std::vector<std::vector<double>> rows[2];
+  for (const int threads : {1, 3}) {
+    RunSettings settings;
+    settings.threads = threads;
+    settings.row = [&](double, const std::vector<double>& values) { rows[threads == 1 ? 0 : 1].push_back(values); };
+    run(scene, settings);
+  }
+  CHECK_EQ(rows[0].size(), 33);
+  CHECK(rows[0] == rows[1]);
+}
+
+TEST_CASE("claims hold of parts as of the whole, and one on a sum keeps its parts together") {
+  const std::string expect = "[expect]\n\"oil.force\" = { max = [0, 10] }\n\"tip.velocity\" = { rms = [0, 10] }\n\"drive.force\" = { final = [-100, 100] }\n";
+  const Scene scene = scene_of(shaft + "record = [\"oil.force\"]\n" + expect);
+  CHECK(divide(scene, {}).excerpts.empty());  // the force of the drive is that of all
+  const std::string apart = "[expect]\n\"oil.force\" = { max = [0, 10] }\n\"tip.velocity\" = { rms = [0, 10] }\n\"rub.force\" = { max = \"1.3 N\" }\n"
+                            "\"block.position\" = { final = [-1, 1], per = \"shaft.position\" }\n";
+  const Scene parts = scene_of(shaft + "record = [\"oil.force\"]\n" + apart);
+  REQUIRE_EQ(divide(parts, {}).excerpts.size(), 3);
+  Summary one, other;
+  simulate(parts, &one);
+  simulate(whole(parts), &other);
+  REQUIRE_EQ(one.findings.size(), 4);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(one.findings[k].holds);
+    CHECK(std::abs(one.findings[k].found - other.findings[k].found) < 1e-5 * std::abs(other.findings[k].found));
+  }
+}
+
+TEST_CASE("a part that nothing asks for is not integrated, unless something in it can go wrong") {
+  const Scene scene = scene_of(shaft + "record = [\"oil.force\"]\n");
+  const Division division = divide(scene, {});
+  CHECK(division.left_out == std::vector<std::string>{"fork", "tip", "air"});
+  CHECK_EQ(division.excerpts.size(), 2);  // the slider may be asked for more than it can take
+  check_same(scene, whole(scene));
+  Summary summary;
+  simulate(scene, &summary);
+  CHECK(std::any_of(summary.notes.begin(), summary.notes.end(), [](const std::string& note) {
+    return note.find("not integrated, since nothing asks for what happens there: `fork`, `tip`, `air`") == 0;
+  }));
+  Scene kept = scene;
+  kept.keep = {"unasked"};
+  CHECK(divide(kept, {}).left_out.empty());
+  // With a list of events everything is asked for.
+  CHECK(divide(scene, {.drop = false}).left_out.empty());
+}
+
+TEST_CASE("what is wrong in a part that nothing asks for is told all the same") {
+  const std::string loose = R"([elements]
+drive = { type = "motion", at = "shaft", velocity = 1 }
+c1 = { type = "dashpot", between = ["shaft", "ground"], damping = 1 }
+push = { type = "force", at = "lost", force = 1 }
+[simulate]
+stop = 1
+record = ["c1.force"]
+)";
+  CHECK(refusal(loose).find("nothing determines the motion of node `lost`") != std::string::npos);
+  const std::string overloaded = R"([elements]
+drive = { type = "motion", at = "shaft", velocity = 1 }
+c1 = { type = "dashpot", between = ["shaft", "ground"], damping = 1 }
+push = { type = "force", at = "sled", force = { ramp = "2 N/s" } }
+rub = { type = "slider", between = ["sled", "ground"], coulomb = 1 }
+[simulate]
+stop = 1
+output = { points = 11 }
+record = ["c1.force"]
+)";
+  const Attempt tried = attempt(scene_of(overloaded));
+  CHECK(tried.refusal.find("at t = 0.5 s nothing resists the force at node `sled`") == 0);
+  CHECK_EQ(tried.rows.time().size(), 5);  // up to there
+  CHECK(tried.rows["c1.force"] == std::vector<double>(5, 1.0));
+}
+
+TEST_CASE("a block whose output comes to nothing is not evaluated") {
+  const std::string looked_at = shaft.substr(0, shaft.find("[simulate]")) +
+                                "look = { type = \"gain\", in = \"tip.velocity\", gain = 3 }\nmean = { type = \"lag\", in = \"look\", time_constant = 1 }\n" +
+                                shaft.substr(shaft.find("[simulate]"));
+  CHECK(divide(scene_of(looked_at + "record = [\"fork.force\"]\n"), {}).left_out == std::vector<std::string>{"oil.k", "oil.c", "look", "mean"});
+  check_same(scene_of(looked_at + "record = [\"fork.force\"]\n"), whole(scene_of(looked_at + "record = [\"fork.force\"]\n")));
+  const Scene asked = scene_of(looked_at + "record = [\"look.out\", \"drive.force\"]\n");
+  CHECK(divide(asked, {}).left_out == std::vector<std::string>{"mean"});
+  check_same(asked, whole(asked));
+  const std::string circle = "[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\np = { type = \"gain\", in = \"q\", gain = 1 }\n"
+                             "q = { type = \"gain\", in = \"p\", gain = 1 }\n[simulate]\nstop = 1\nrecord = [\"a.velocity\"]\n";
+  CHECK(refusal(circle).find("make a loop") != std::string::npos);
+}
+
+TEST_CASE("only given motions are asked for") {
+  check_same(scene_of(shaft + "record = [\"shaft.velocity\"]\n"), whole(scene_of(shaft + "record = [\"shaft.velocity\"]\n")));
+  const std::string linear = R"([elements]
+drive = { type = "motion", at = "shaft", velocity = { sine = "0.4 m/s", frequency = "1.5 Hz" } }
+other = { type = "motion", at = "wheel", velocity = { step = "1 m/s", time = 0.5 } }
+oil = { type = "dashpot", between = ["shaft", "ground"], damping = 9 }
+gum = { type = "spring", between = ["wheel", "ground"], stiffness = 9 }
+[simulate]
+stop = 1
+record = ["shaft.velocity", "wheel.position"]
+)";
+  check_same(scene_of(linear), whole(scene_of(linear)));
+}
+
+TEST_CASE("rows at events and steps are those of the whole") {
+  Scene scene = scene_of(shaft + all);
+  scene.output_events = true;
+  Summary summary;
+  simulate(scene, &summary);
+  CHECK_EQ(summary.parts, 1);
+}

@@ -1,0 +1,45 @@
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
+
+using namespace rheonet::test;
+
+TEST_CASE("explain says what is solved, what is left out and why") {
+  const Folder folder(pulled_slider + short_run);
+  const std::string text = folder.shell("rheonet explain scene.toml", 0).out;
+  CHECK(contains(text, "  dry friction `s1`\n"));
+  CHECK(contains(text, "nothing here brings inertia, viscosity, delay, feedback\n"));
+  CHECK(contains(text, "node `mid`: nothing but a spring and a slider touch it"));
+  CHECK(contains(text, "(--keep bundles)"));
+  CHECK(contains(text, "  `s1`: stick, slip, reversal\n"));
+  const std::string kept = folder.shell("rheonet explain scene.toml --keep bundles", 0).out;
+  CHECK(contains(kept, "deflection of `k1`"));
+  CHECK_FALSE(contains(kept, "node `mid`: nothing but"));
+}
+
+TEST_CASE("explain --json has the same for a program") {
+  const Folder folder(oscillator);
+  const nlohmann::json json = nlohmann::json::parse(folder.shell("rheonet explain scene.toml --json --without elasticity", 0).out);
+  CHECK_EQ(json["title"], "let go");
+  CHECK_EQ(json["effects"][0]["effect"], "inertia");
+  CHECK_EQ(json["effects"][0]["brought_by"], nlohmann::json{"block_mass"});
+  CHECK_EQ(json["effects"][1]["left_out_of"], nlohmann::json{"k1"});
+  CHECK_EQ(json["structure"]["parts"], 1);
+  CHECK_EQ(json["cost"]["unknowns"], 0);
+}
+
+TEST_CASE("effects and reductions on the command line") {
+  const Folder folder(oscillator);
+  // Without inertia the spring comes to its length at once.
+  CHECK(contains(folder.shell("rheonet run scene.toml -q --without inertia", 0).out, "\n1,0,0\n"));
+  CHECK(contains(folder.shell("rheonet run scene.toml -q --only elasticity", 0).out, "\n1,0,0\n"));
+  const Finished none = folder.shell("rheonet run scene.toml --only none");
+  CHECK_EQ(none.status, 0);
+  const Finished wrong = folder.shell("rheonet run scene.toml --keep postions", 2);
+  CHECK(contains(wrong.err, "`--keep`: there is no reduction `postions`\n  did you mean `positions`?"));
+  CHECK(contains(folder.shell("rheonet run scene.toml --without inertai", 2).err, "did you mean `inertia`?"));
+  CHECK(contains(folder.shell("rheonet run scene.toml --without inertia:k9", 2).err, "nothing is called `k9`"));
+}

@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/effects_report.hpp"
+#include "tools/rheonet/interrupt.hpp"
+#include "tools/rheonet/output.hpp"
+#include "tools/rheonet/progress.hpp"
+#include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/say.hpp"
+
+namespace rheonet::tool {
+
+ExitStatus weigh_effects(const Arguments& arguments) {
+  ReadOptions options = options_of(arguments);
+  options.claims = false;  // they are about the full model
+  const ReadResult read = read_and_report(arguments.scene, options);
+  if (!read.scene) return wrong_input;
+  Scene scene = *read.scene;
+  scene.output_events = false;  // models are compared at the same times
+  if (is_source(arguments.overlay, "--output", read.sources)) return wrong_input;
+  std::unique_ptr<Output> output;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
+
+  Progress progress(true);
+  Ladder ladder;
+  try {
+    ladder = ladder_of(scene, {.runs = arguments.runs,
+                               .interrupt = &end_on_signals(),
+                               .progress = [&progress](double fraction) { progress.update(fraction); }});
+  } catch (const SimulationError& error) {
+    progress.erase();
+    report(error, read.sources);
+    return not_simulated;
+  }
+  progress.erase();
+  const std::string text = describe(scene, arguments.scene, ladder, arguments.within.value_or(default_within));
+  // Data on standard output are for a program to read: the report is then a message beside them.
+  arguments.overlay == "-" ? say("{}", text) : fmt::print("{}", text);
+  return output && !write_all(*output, table(scene, ladder), "row") ? not_simulated : done;
+}
+
+}  // namespace rheonet::tool

@@ -1,0 +1,154 @@
+#include "tools/rheonet/explanation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/netlist/characters.hpp"
+#include "core/network/listed.hpp"
+#include "core/network/reductions.hpp"
+#include "tools/rheonet/words.hpp"
+
+namespace rheonet::tool {
+namespace {
+
+constexpr std::size_t names_shown = 6;
+
+std::string plural(std::size_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// "2.3 ms": three digits are more than a prediction has.
+std::string duration(double seconds) {
+  const std::pair<double, const char*> units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}};
+  for (const auto& [size, name] : units) {
+    if (seconds >= size) return fmt::format("{:.2g} {}", seconds / size, name);
+  }
+  return fmt::format("{:.2g} us", seconds / 1e-6);
+}
+
+/// A line that hangs below its first word.
+std::string item(const std::string& text) { return "  " + wrapped(text, 4) + "\n"; }
+
+std::string effects_of(const Explanation& e) {
+  std::string text = "effects\n";
+  std::string absent;
+  for (const Explanation::EffectFound& effect : e.effects) {
+    const std::string name = in_words(effect.effect);
+    if (effect.by.empty() && effect.left_out.empty()) absent += (absent.empty() ? "" : ", ") + name;
+    if (!effect.by.empty()) text += "  " + fmt::format("{:<13}", name) + wrapped(listed(effect.by, names_shown), 15) + "\n";
+    if (!effect.left_out.empty())
+      text += "  " + fmt::format("{:<13}", name) + wrapped("left out of " + listed(effect.left_out, names_shown), 15) + "\n";
+  }
+  if (!absent.empty()) text += "  nothing here brings " + absent + "\n";
+  return text;
+}
+
+std::string unknowns_of(const Explanation& e) {
+  const Explanation::Structure& s = e.structure;
+  std::string text = fmt::format("\nunknowns: {} at the start, {} integrated and {} that follow at every instant\n", e.cost.unknowns,
+                                 s.differential, s.algebraic);
+  for (const Explanation::Unknowns& u : e.unknowns) {
+    text += item(fmt::format("{} of {}{}: {}", u.quantity, listed(u.names, names_shown), u.unit.empty() ? "" : " [" + u.unit + "]", u.equation));
+  }
+  if (e.cost.unknowns == 0) text += "  none: every motion is given, and each force follows from it\n";
+  return text;
+}
+
+std::string omissions_of(const Explanation& e) {
+  std::string text = "\nleft out\n";
+  for (const Explanation::Omission& o : e.left_out) {
+    const std::string keep = o.reduction.empty() ? "" : fmt::format(" (--keep {})", o.reduction);
+    text += item(fmt::format("{} {}: {}{}", o.what, listed(o.names, names_shown), o.reason, keep));
+  }
+  return e.left_out.empty() ? text + "  nothing\n" : text;
+}
+
+std::string integrations_of(const Explanation::Structure& s) {
+  if (s.integrations < 2) return "";
+  return fmt::format("; {} are integrated with steps of their own (--keep {})",
+                     s.integrations == s.parts ? "they" : fmt::format("{} groups of them", s.integrations), name_of(Reduction::parts));
+}
+
+std::string structure_of(const Explanation& e) {
+  const Explanation::Structure& s = e.structure;
+  std::string text = "\nstructure\n";
+  text += item(fmt::format("index {} as wired, {} as solved{}", s.index_as_wired, s.index, s.because.empty() ? "" : "; " + s.because));
+  if (s.loops > 0) text += item(fmt::format("{} through which deflections depend on each other", plural(static_cast<std::size_t>(s.loops), "loop")));
+  text += item(s.parts == 1 ? "one part: everything in it may feel everything else"
+                            : fmt::format("{} independent parts: what happens in one is not felt in another{}", s.parts, integrations_of(s)));
+  return text;
+}
+
+std::string events_of(const Explanation& e) {
+  if (e.events.empty()) return "\nevents: none can occur, and none is looked for\n";
+  std::string text = "\nevents that can occur\n";
+  for (const Explanation::Events& event : e.events) text += item(fmt::format("{}: {}", listed(event.names, names_shown), event.kinds));
+  return text;
+}
+
+std::string cost_of(const Scene& scene, const Explanation& e) {
+  const Explanation::Cost& c = e.cost;
+  std::string text = "\ncost\n";
+  if (c.unknowns > 0) {
+    text += item(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries,
+                             c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
+  }
+  std::vector<std::string> times;
+  if (c.fastest_rate > 0) times.push_back(fmt::format("the network by itself: {}", duration(1 / c.fastest_rate)));
+  if (c.fastest_drive > 0) times.push_back(fmt::format("the drives: {}", duration(1 / c.fastest_drive)));
+  if (!times.empty()) text += item(fmt::format("the fastest that changes takes a time of 1/omega: {}", fmt::join(times, "; ")));
+  if (c.known_instants > 0) text += item(plural(static_cast<std::size_t>(c.known_instants), "start") + " of the integrator at jumps and corners of signals");
+  if (c.tried >= 1) {
+    text += item(fmt::format("{} to accuracy {:g}: {} of CPU time", plural(static_cast<std::size_t>(c.steps), "step"), scene.accuracy, duration(c.seconds())));
+  } else if (c.tried_steps > 0) {
+    text += item(fmt::format("about {:.2g} steps to accuracy {:g}, {} each: {} of CPU time, if all goes on as the first {} steps do, "
+                             "which come to {:.2g} % of the run",
+                             c.steps, scene.accuracy, duration(c.seconds_a_step), duration(c.seconds()), c.tried_steps, 100 * c.tried));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene, const std::string& file, const Explanation& e) {
+  std::string text = fmt::format("{}: {}\n\n", printable(file), scene.title.empty() ? "untitled" : printable(scene.title));
+  text += effects_of(e) + unknowns_of(e) + omissions_of(e) + structure_of(e) + events_of(e) + cost_of(scene, e);
+  if (!e.notes.empty()) text += "\nnotes\n";
+  for (const std::string& note : e.notes) text += item(note);
+  return text;
+}
+
+std::string to_json(const Scene& scene, const Explanation& e) {
+  using Json = nlohmann::ordered_json;
+  Json json{{"title", scene.title}};
+  for (const Explanation::EffectFound& effect : e.effects)
+    json["effects"].push_back({{"effect", name_of(effect.effect)}, {"brought_by", effect.by}, {"left_out_of", effect.left_out}});
+  json["unknowns"] = Json::array();
+  for (const Explanation::Unknowns& u : e.unknowns)
+    json["unknowns"].push_back({{"quantity", u.quantity}, {"unit", u.unit}, {"determined_by", u.equation}, {"integrated", u.differential},
+                                {u.of_nodes ? "nodes" : "elements", u.names}});
+  json["left_out"] = Json::array();
+  for (const Explanation::Omission& o : e.left_out)
+    json["left_out"].push_back({{"reduction", o.reduction}, {"what", o.what}, {"reason", o.reason}, {o.of_nodes ? "nodes" : "elements", o.names}});
+  const Explanation::Structure& s = e.structure;
+  json["structure"] = {{"index_as_wired", s.index_as_wired}, {"because", s.because},   {"index", s.index}, {"integrated", s.differential},
+                       {"algebraic", s.algebraic},           {"loops", s.loops},       {"parts", s.parts},
+                       {"integrations", s.integrations}};
+  json["events"] = Json::array();
+  for (const Explanation::Events& event : e.events) json["events"].push_back({{"kinds", event.kinds}, {"elements", event.names}});
+  const Explanation::Cost& c = e.cost;
+  json["cost"] = {{"unknowns", c.unknowns},           {"entries", c.entries},
+                  {"sparse", c.sparse},               {"fastest_rate", c.fastest_rate},
+                  {"fastest_drive", c.fastest_drive}, {"known_instants", c.known_instants},
+                  {"tried_steps", c.tried_steps},     {"tried", c.tried},
+                  {"steps", c.steps},                 {"seconds_a_step", c.seconds_a_step},
+                  {"seconds", c.seconds()}};
+  json["notes"] = e.notes;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rheonet::tool
