@@ -13,7 +13,7 @@ namespace {
 
 // The tolerance of a step against the accuracy of the result where errors are forgotten: within the time that they take for
 // that they add up, and records are not the unknowns themselves.
-constexpr double forgetful_share = 6.4e-4;
+constexpr double forgetful_share = 1e-3;
 // Where they are not, each step adds up to so much of its tolerance. (IDA at order 5, 30 to 1000 cycles of an undamped
 // oscillator, free and at resonance: 0.05 at an accuracy of 1e-6, 0.5 at 1e-9.)
 constexpr double added = 1;
