@@ -35,6 +35,8 @@ std::variant<Left, NoVariation> what_is_left(const std::string& file, const std:
   long run = 0, count = 0;  // of the run whose rows are read: its number, and how many
   std::string begin = runs > 0 ? key(0) : "";
   while (next(line)) {
+    // What is cut short before its values could be a row of this run or of the next.
+    if (count > 0 && line.back() != '\n' && begin.starts_with(line)) break;
     const long number = left.lines + count + 1;
     if (!line.starts_with(begin) && !begin.starts_with(line)) {
       if (count == 0 || ++run >= runs) return other(number, fmt::format("does not begin with `{}`", begin));
