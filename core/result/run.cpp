@@ -248,7 +248,7 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
   // Who looks between the rows, or asks for rows at events, looks at the whole at once. Rows of parts are held in memory.
   const bool whole = scene.output_events || settings.state || settings.event || settings.profile ||
                      static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > most_held;
-  const Division division = divide(scene, {.apart = !whole, .drop = settings.events == nullptr});
+  const Division division = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
   if (division.excerpts.empty()) return run_whole(scene, settings);
   Summary summary = run_in_parts(scene, division, settings);
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
