@@ -35,11 +35,13 @@ cat >CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
 project(user LANGUAGES CXX)
 find_package(rheonet 0.1 REQUIRED)
-add_executable(user user.cpp cubic.cpp)
+add_executable(user user.cpp cubic.cpp headers.cpp)
 target_link_libraries(user PRIVATE rheonet::rheonet)
 CMAKE
 # The component is the example of components/README.md.
 sed -n '/^```cpp$/,/^```$/p' "$source/components/README.md" | sed '/^```/d' >cubic.cpp
+# Every header that is installed must find those that it needs.
+(cd "$folder/prefix/include/rheonet" && find . -name '*.hpp' -printf '#include "%P"\n') | sort >headers.cpp
 cat >user.cpp <<'CPP'
 #include <cstdio>
 

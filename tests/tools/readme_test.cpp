@@ -52,7 +52,7 @@ TEST_CASE("every example of README.md does what it says") {
       for (std::string line; std::getline(lines, line);) {
         // These two build and test everything, this test included.
         if (line.starts_with("rheonet serve")) {  // which goes on until it is told to end
-          script += "timeout -s INT --preserve-status 3 " + line.substr(0, std::min(line.find(" --open"), line.find(" #"))) + " --port 0 >served\n";
+          script += "timeout --foreground -s INT --preserve-status 3 " + line.substr(0, std::min(line.find(" --open"), line.find(" #"))) + " --port 0 >served\n";
           script += "grep -q http://127.0.0.1: served\n";
           continue;
         }
