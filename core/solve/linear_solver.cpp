@@ -64,7 +64,7 @@ void LinearSolver::filled() {
   };
   for_each_entry([&](int row, int column, double& value) {
     value *= column_scale_[at(column)];
-    row_scale_[at(row)] = std::max(row_scale_[at(row)], std::abs(value));
+    row_scale_[at(row)] += std::abs(value);
   });
   // A row of zeros is left for the solver to find.
   for (double& s : row_scale_) s = s > 0 && std::isfinite(s) ? 1 / s : 1;

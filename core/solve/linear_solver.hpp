@@ -13,7 +13,8 @@ namespace rheonet {
 
 /// The direct solver of linear equations that the integrator calls: KLU, or dense elimination for a few unknowns. Newtons
 /// stand beside metres a second in the matrix: so that pivots can be compared, and so that they are the same in whatever
-/// units, each unknown counts in multiples of its tolerance, and each equation is divided by its largest coefficient.
+/// units, each unknown counts in multiples of its tolerance, and each equation is divided by the sum of its coefficients. An
+/// equation for a single unknown is then the pivot of that: what rests has a velocity of 0 exactly.
 class LinearSolver {
  public:
   /// `tolerance` (of each unknown, > 0) is read whenever there is a new matrix.
