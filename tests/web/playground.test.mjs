@@ -367,6 +367,18 @@ test('every demo asks its question, and moves what it says', async () => {
   await other.stop();
 });
 
+test('what is simulated, and why, is said of the netlist as it is', async () => {
+  const { page, close } = await open();
+  await page.locator('summary', { hasText: 'What is simulated' }).click();
+  const explained = page.locator('.explanation');
+  await explained.waitFor();
+  assert.match(await explained.textContent(), /dry friction s1/);
+  await number(page, 'parameters.Tc').fill('0');
+  await number(page, 'parameters.Tc').press('Enter');
+  await page.waitForFunction(() => /slider s1: .*carries no force/.test(document.querySelector('.explanation').textContent));
+  await close();
+});
+
 test('a run that fails says why, at its place', async () => {
   const { page, close } = await open();
   await page.locator('.cm-content').focus();

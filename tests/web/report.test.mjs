@@ -44,6 +44,11 @@ test('a report of one scene shows all there is, offline', async () => {
   for (const heading of ['Schematic', 'Plots', 'What is simulated, and why', 'Elements', 'Equations', 'Energy account', 'Events', 'Accuracy and its price', 'Statistics', 'Netlist'])
     assert.ok(headings.includes(heading), heading);
   for (const name of ['drive', 'k1', 'c1', 's1']) assert.equal(await page.locator(`.schematic [data-element="${name}"]`).count(), 1, name);
+  const explained = await page.locator('.explanation').innerText();
+  const { stdout } = await rheonet(['explain', 'stiff.toml'], { cwd: folder });
+  for (const line of stdout.split('cost\n')[0].split('\n').slice(2).filter(Boolean))
+    assert.ok(explained.toLowerCase().replace(/\s+/g, ' ').includes(line.trim().replaceAll('`', '').toLowerCase().replace(/\s+/g, ' ')), line);
+  assert.ok((await page.locator('.explanation li code').allTextContents()).includes('s1'));
   // KaTeX has set the laws of the four types, and says them to who cannot see.
   assert.equal(await page.locator('.equation .katex-html').count(), 4);
   assert.ok((await page.locator('.equation math').count()) === 4);

@@ -14,22 +14,24 @@ namespace rheonet::report {
 /// What a page shows is told in messages: a line of JSON each, whose `kind` says what it holds. A report is made of
 /// those of its scenes; the playground gets them as they come.
 ///
-///     mistakes  what is wrong with a netlist, or doubtful: severity, line and column, message, hint
-///     scene     what was read: title, records, elements, schematic, equations, sliders, what is simulated
-///     rows      a part of the rows, by column
-///     energy    the energy account over time
-///     events    what switched, and when
-///     done      what the run took, notes, claims
-///     failed    why it did not come to its end
+///     mistakes     what is wrong with a netlist, or doubtful: severity, line and column, message, hint
+///     scene        what was read: title, records, elements, schematic, equations, sliders
+///     explanation  what is simulated, and why: passages in words; or why it cannot be
+///     rows         a part of the rows, by column
+///     energy       the energy account over time
+///     events       what switched, and when
+///     done         what the run took, notes, claims
+///     failed       why it did not come to its end
 using Tell = std::function<void(const std::string& message)>;
 
 /// The mistakes of a netlist; only those of its own file have a line and a column.
 std::string mistakes_message(const ReadResult& read);
 
-/// What the scene is; the first `own_records` of its records are those that it asks for itself. `explanation`: what there
-/// is to say of it before it is simulated.
-std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records,
-                          const std::string& explanation);
+/// What the scene is; the first `own_records` of its records are those that it asks for itself.
+std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records);
+
+/// What `rheonet explain` says of a scene; the run is begun for that.
+std::string explanation_message(const Scene& scene);
 
 struct RunWanted {
   std::size_t most_values = 200'000;  ///< rows times records, about; of more rows peaks are kept

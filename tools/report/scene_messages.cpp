@@ -4,12 +4,14 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/network/component.hpp"
+#include "core/result/explain.hpp"
 #include "tools/draw/caption.hpp"
 #include "tools/draw/schematic.hpp"
 #include "tools/plot/mistake.hpp"
 #include "tools/plot/units.hpp"
 #include "tools/report/knobs.hpp"
 #include "tools/report/messages.hpp"
+#include "tools/rheonet/explanation.hpp"
 #include "tools/rheonet/network_text.hpp"
 
 namespace rheonet::report {
@@ -168,8 +170,21 @@ std::string mistakes_message(const ReadResult& read) {
   return to_line({{"kind", "mistakes"}, {"items", items}});
 }
 
-std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records,
-                          const std::string& explanation) {
+std::string explanation_message(const Scene& scene) {
+  try {
+    json list = json::array();
+    for (const tool::Passage& passage : tool::passages(scene, explain(scene))) {
+      json lines = json::array();
+      for (const auto& [label, text] : passage.lines) lines.push_back({{"label", label}, {"text", text}});
+      list.push_back({{"heading", passage.heading}, {"lines", lines}});
+    }
+    return to_line({{"kind", "explanation"}, {"passages", list}, {"why_not", ""}});
+  } catch (const SimulationError& error) {
+    return to_line({{"kind", "explanation"}, {"passages", json::array()}, {"why_not", error.what()}});
+  }
+}
+
+std::string scene_message(const ReadResult& read, const std::string& file, std::size_t own_records) {
   const Scene& scene = *read.scene;
   json sources = json::array();
   for (const Sources::File& source : read.sources.files) {
@@ -197,7 +212,6 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
                   {"schematic", drawing.at("svg")},
                   {"ends", drawing.at("ends")},
                   {"no_schematic", drawing.at("why_not")},
-                  {"explanation", explanation},
                   {"sources", sources}});
 }
 

@@ -30,41 +30,41 @@ std::string duration(double seconds) {
   return fmt::format("{:.2g} us", seconds / 1e-6);
 }
 
-/// A line that hangs below its first word.
-std::string item(const std::string& text) { return "  " + wrapped(text, 4) + "\n"; }
+Passage::Line plain(std::string text) { return {.label = "", .text = std::move(text)}; }
 
-std::string effects_of(const Explanation& e) {
-  std::string text = "effects\n";
+Passage effects_of(const Explanation& e) {
+  Passage passage{.heading = "effects"};
   std::string absent;
   for (const Explanation::EffectFound& effect : e.effects) {
     const std::string name = in_words(effect.effect);
     if (effect.by.empty() && effect.left_out.empty()) absent += (absent.empty() ? "" : ", ") + name;
-    if (!effect.by.empty()) text += "  " + fmt::format("{:<13}", name) + wrapped(listed(effect.by, names_shown), 15) + "\n";
-    if (!effect.left_out.empty())
-      text += "  " + fmt::format("{:<13}", name) + wrapped("left out of " + listed(effect.left_out, names_shown), 15) + "\n";
+    if (!effect.by.empty()) passage.lines.push_back({.label = name, .text = listed(effect.by, names_shown)});
+    if (!effect.left_out.empty()) passage.lines.push_back({.label = name, .text = "left out of " + listed(effect.left_out, names_shown)});
   }
-  if (!absent.empty()) text += "  nothing here brings " + absent + "\n";
-  return text;
+  if (!absent.empty()) passage.lines.push_back(plain("nothing here brings " + absent));
+  return passage;
 }
 
-std::string unknowns_of(const Explanation& e) {
+Passage unknowns_of(const Explanation& e) {
   const Explanation::Structure& s = e.structure;
-  std::string text = fmt::format("\nunknowns: {} at the start, {} integrated and {} that follow at every instant\n", e.cost.unknowns,
-                                 s.differential, s.algebraic);
+  Passage passage{.heading = fmt::format("unknowns: {} at the start, {} integrated and {} that follow at every instant", e.cost.unknowns,
+                                         s.differential, s.algebraic)};
   for (const Explanation::Unknowns& u : e.unknowns) {
-    text += item(fmt::format("{} of {}{}: {}", u.quantity, listed(u.names, names_shown), u.unit.empty() ? "" : " [" + u.unit + "]", u.equation));
+    passage.lines.push_back(plain(fmt::format("{} of {}{}: {}", u.quantity, listed(u.names, names_shown),
+                                              u.unit.empty() ? "" : " [" + u.unit + "]", u.equation)));
   }
-  if (e.cost.unknowns == 0) text += "  none: every motion is given, and each force follows from it\n";
-  return text;
+  if (e.cost.unknowns == 0) passage.lines.push_back(plain("none: every motion is given, and each force follows from it"));
+  return passage;
 }
 
-std::string omissions_of(const Explanation& e) {
-  std::string text = "\nleft out\n";
+Passage omissions_of(const Explanation& e) {
+  Passage passage{.heading = "left out"};
   for (const Explanation::Omission& o : e.left_out) {
     const std::string keep = o.reduction.empty() ? "" : fmt::format(" (--keep {})", o.reduction);
-    text += item(fmt::format("{} {}: {}{}", o.what, listed(o.names, names_shown), o.reason, keep));
+    passage.lines.push_back(plain(fmt::format("{} {}: {}{}", o.what, listed(o.names, names_shown), o.reason, keep)));
   }
-  return e.left_out.empty() ? text + "  nothing\n" : text;
+  if (e.left_out.empty()) passage.lines.push_back(plain("nothing"));
+  return passage;
 }
 
 std::string integrations_of(const Explanation::Structure& s) {
@@ -73,52 +73,66 @@ std::string integrations_of(const Explanation::Structure& s) {
                      s.integrations == s.parts ? "they" : fmt::format("{} groups of them", s.integrations), name_of(Reduction::parts));
 }
 
-std::string structure_of(const Explanation& e) {
+Passage structure_of(const Explanation& e) {
   const Explanation::Structure& s = e.structure;
-  std::string text = "\nstructure\n";
-  text += item(fmt::format("index {} as wired, {} as solved{}", s.index_as_wired, s.index, s.because.empty() ? "" : "; " + s.because));
-  if (s.loops > 0) text += item(fmt::format("{} through which deflections depend on each other", plural(static_cast<std::size_t>(s.loops), "loop")));
-  text += item(s.parts == 1 ? "one part: everything in it may feel everything else"
-                            : fmt::format("{} independent parts: what happens in one is not felt in another{}", s.parts, integrations_of(s)));
-  return text;
+  Passage passage{.heading = "structure"};
+  const auto add = [&passage](std::string text) { passage.lines.push_back(plain(std::move(text))); };
+  add(fmt::format("index {} as wired, {} as solved{}", s.index_as_wired, s.index, s.because.empty() ? "" : "; " + s.because));
+  if (s.loops > 0) add(fmt::format("{} through which deflections depend on each other", plural(static_cast<std::size_t>(s.loops), "loop")));
+  add(s.parts == 1 ? "one part: everything in it may feel everything else"
+                   : fmt::format("{} independent parts: what happens in one is not felt in another{}", s.parts, integrations_of(s)));
+  return passage;
 }
 
-std::string events_of(const Explanation& e) {
-  if (e.events.empty()) return "\nevents: none can occur, and none is looked for\n";
-  std::string text = "\nevents that can occur\n";
-  for (const Explanation::Events& event : e.events) text += item(fmt::format("{}: {}", listed(event.names, names_shown), event.kinds));
-  return text;
+Passage events_of(const Explanation& e) {
+  if (e.events.empty()) return {.heading = "events: none can occur, and none is looked for"};
+  Passage passage{.heading = "events that can occur"};
+  for (const Explanation::Events& event : e.events)
+    passage.lines.push_back(plain(fmt::format("{}: {}", listed(event.names, names_shown), event.kinds)));
+  return passage;
 }
 
-std::string cost_of(const Scene& scene, const Explanation& e) {
+Passage cost_of(const Scene& scene, const Explanation& e) {
   const Explanation::Cost& c = e.cost;
-  std::string text = "\ncost\n";
-  if (c.unknowns > 0) {
-    text += item(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries,
-                             c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
-  }
+  Passage passage{.heading = "cost"};
+  const auto add = [&passage](std::string text) { passage.lines.push_back(plain(std::move(text))); };
+  if (c.unknowns > 0)
+    add(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries, c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
   std::vector<std::string> times;
   if (c.fastest_rate > 0) times.push_back(fmt::format("the network by itself: {}", duration(1 / c.fastest_rate)));
   if (c.fastest_drive > 0) times.push_back(fmt::format("the drives: {}", duration(1 / c.fastest_drive)));
-  if (!times.empty()) text += item(fmt::format("the fastest that changes takes a time of 1/omega: {}", fmt::join(times, "; ")));
-  if (c.known_instants > 0) text += item(plural(static_cast<std::size_t>(c.known_instants), "start") + " of the integrator at jumps and corners of signals");
+  if (!times.empty()) add(fmt::format("the fastest that changes takes a time of 1/omega: {}", fmt::join(times, "; ")));
+  if (c.known_instants > 0) add(plural(static_cast<std::size_t>(c.known_instants), "start") + " of the integrator at jumps and corners of signals");
   if (c.tried >= 1) {
-    text += item(fmt::format("{} to accuracy {:g}: {} of CPU time", plural(static_cast<std::size_t>(c.steps), "step"), scene.accuracy, duration(c.seconds())));
+    add(fmt::format("{} to accuracy {:g}: {} of CPU time", plural(static_cast<std::size_t>(c.steps), "step"), scene.accuracy, duration(c.seconds())));
   } else if (c.tried_steps > 0) {
-    text += item(fmt::format("about {:.2g} steps to accuracy {:g}, {} each: {} of CPU time, if all goes on as the first {} steps do, "
-                             "which come to {:.2g} % of the run",
-                             c.steps, scene.accuracy, duration(c.seconds_a_step), duration(c.seconds()), c.tried_steps, 100 * c.tried));
+    add(fmt::format("about {:.2g} steps to accuracy {:g}, {} each: {} of CPU time, if all goes on as the first {} steps do, "
+                    "which come to {:.2g} % of the run",
+                    c.steps, scene.accuracy, duration(c.seconds_a_step), duration(c.seconds()), c.tried_steps, 100 * c.tried));
   }
-  return text;
+  return passage;
 }
 
 }  // namespace
 
+std::vector<Passage> passages(const Scene& scene, const Explanation& e) {
+  std::vector<Passage> all{effects_of(e), unknowns_of(e), omissions_of(e), structure_of(e), events_of(e), cost_of(scene, e)};
+  if (e.notes.empty()) return all;
+  Passage& notes = all.emplace_back(Passage{.heading = "notes"});
+  for (const std::string& note : e.notes) notes.lines.push_back(plain(note));
+  return all;
+}
+
 std::string describe(const Scene& scene, const std::string& file, const Explanation& e) {
-  std::string text = fmt::format("{}: {}\n\n", printable(file), scene.title.empty() ? "untitled" : printable(scene.title));
-  text += effects_of(e) + unknowns_of(e) + omissions_of(e) + structure_of(e) + events_of(e) + cost_of(scene, e);
-  if (!e.notes.empty()) text += "\nnotes\n";
-  for (const std::string& note : e.notes) text += item(note);
+  std::string text = fmt::format("{}: {}\n", printable(file), scene.title.empty() ? "untitled" : printable(scene.title));
+  for (const Passage& passage : passages(scene, e)) {
+    text += "\n" + passage.heading + "\n";
+    for (const auto& [label, words] : passage.lines) {
+      // A line hangs below its first word, or below what stands beside its label.
+      text += label.empty() ? "  " + wrapped(words, 4) : fmt::format("  {:<13}", label) + wrapped(words, 15);
+      text += "\n";
+    }
+  }
   return text;
 }
 

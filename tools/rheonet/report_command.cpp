@@ -13,7 +13,6 @@
 #include "tools/rheonet/certificate.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/interrupt.hpp"
-#include "tools/rheonet/network_text.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/precision_report.hpp"
 #include "tools/rheonet/progress.hpp"
@@ -75,9 +74,9 @@ class Reporter {
     std::optional<std::string> priced;
     if (arguments_.report.precision) priced = price_scene(file, read, all_well);
 
-    const std::string explanation = describe_network(*read.scene);
+    keep(report::explanation_message(*read.scene));
     const std::size_t own = report::record_what_pages_show(*read.scene);
-    keep(report::scene_message(read, file, own, explanation));
+    keep(report::scene_message(read, file, own));
     bool claims_hold = true;
     const bool ended = report::tell_run(read, wanted, [&](const std::string& message) {
       keep(message);

@@ -58,7 +58,7 @@ std::optional<json> scene_of(const json& value, const Folder& folder) {
 /// The task that a request asks for, with nothing in it but what is known; absent if it asks for none.
 std::optional<json> task_of(const json& request, const Folder& folder) {
   const std::string kind = word(request, "task");
-  if (kind == "show" || kind == "csv") {
+  if (kind == "show" || kind == "explain" || kind == "csv") {
     std::optional<json> task = scene_of(request, folder);
     if (!task) return {};
     (*task)["task"] = kind;

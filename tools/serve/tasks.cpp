@@ -18,7 +18,6 @@
 #include "tools/report/document.hpp"
 #include "tools/report/messages.hpp"
 #include "tools/rheonet/library.hpp"
-#include "tools/rheonet/network_text.hpp"
 #include "tools/rheonet/plot_source.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/serve/worker.hpp"
@@ -70,11 +69,16 @@ void show(const json& task) {
   ReadResult scene = read(item);
   tell(report::mistakes_message(scene));
   if (!scene.scene) return;
-  const bool drawn_only = task.value("draw", false);
-  const std::string explanation = drawn_only ? "" : tool::describe_network(*scene.scene);
   const std::size_t own = report::record_what_pages_show(*scene.scene);
-  tell(report::scene_message(scene, item.file, own, explanation));
-  if (!drawn_only) report::tell_run(scene, {.most_values = 60'000, .as_they_come = true}, tell);
+  tell(report::scene_message(scene, item.file, own));
+  if (!task.value("draw", false)) report::tell_run(scene, {.most_values = 60'000, .as_they_come = true}, tell);
+}
+
+/// What is simulated, and why. Not with what a page shows at once: the run is begun for it, which takes a moment.
+void explain_to_page(const json& task) {
+  const ReadResult scene = read(sent(task));
+  tell(report::mistakes_message(scene));
+  if (scene.scene) tell(report::explanation_message(*scene.scene));
 }
 
 /// All rows, every digit.
@@ -110,9 +114,9 @@ void report_of(const json& task) {
     if (!scene.scene) return tell(report::mistakes_message(scene));
     if (title.empty()) title = scene.scene->title.empty() ? item.file : scene.scene->title;
     std::vector<std::string> messages{report::mistakes_message(scene)};
-    const std::string explanation = tool::describe_network(*scene.scene);
+    messages.push_back(report::explanation_message(*scene.scene));
     const std::size_t own = report::record_what_pages_show(*scene.scene);
-    messages.push_back(report::scene_message(scene, item.file, own, explanation));
+    messages.push_back(report::scene_message(scene, item.file, own));
     report::tell_run(scene, {}, [&](const std::string& message) { messages.push_back(message); });
     scenes.push_back(std::move(messages));
   }
@@ -158,6 +162,7 @@ void figure(const json& task) {
 void carry_out(const json& task) {
   const std::string kind = task.at("task").get<std::string>();
   if (kind == "show") return show(task);
+  if (kind == "explain") return explain_to_page(task);
   if (kind == "csv") return csv(task);
   if (kind == "report") return report_of(task);
   if (kind == "figure") return figure(task);

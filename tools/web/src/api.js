@@ -34,15 +34,22 @@ export async function task(request, onmessage, signal) {
   }
 }
 
-// The file that a task makes; throws what is wrong.
-export async function file(request) {
+// The one message of a kind that a task is for; throws what is wrong.
+async function answer(request, kind) {
   let made = null;
   let wrong = null;
   await task(request, (message) => {
-    if (message.kind === 'file') made = message;
+    if (message.kind === kind) made = message;
     if (message.kind === 'failed') wrong = message.message;
     if (message.kind === 'mistakes') wrong ??= message.items.find((item) => item.severity === 'error')?.message;
   });
   if (!made) throw new Error(wrong ?? 'nothing came back');
-  return new Blob([made.text], { type: made.type });
+  return made;
 }
+
+export async function file(request) {
+  const { text, type } = await answer(request, 'file');
+  return new Blob([text], { type });
+}
+
+export const explain = (request) => answer({ task: 'explain', ...request }, 'explanation');

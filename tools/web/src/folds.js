@@ -1,11 +1,13 @@
 // What there is to say of a run, folded away until somebody opens it.
 import { differencesOf } from './differences.js';
 import { element } from './dom.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, notesOf, statisticsOf } from './sections.js';
+import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, notesOf, statisticsOf } from './sections.js';
 
 export class Folds {
-  constructor(host) {
+  // explain() asks for what is simulated of the netlist that is edited, and why.
+  constructor(host, explain) {
     this.host = host;
+    this.explain = explain;
     this.charts = [];
   }
 
@@ -18,7 +20,7 @@ export class Folds {
     const compared = runs.filter((run) => run.data.scene);
     this.host.replaceChildren(...[
       compared.length > 1 ? this.fold('Differences', () => differencesOf(compared)) : null,
-      this.fold('What is simulated, and why', () => element('pre', { tabindex: '0' }, scene.explanation)),
+      this.fold('What is simulated, and why', () => this.explanation()),
       this.fold('Equations', () => equationsOf(scene)),
       this.fold('Elements', () => elementsOf(scene)),
       data.energy?.time.length ? this.fold('Energy account', () => energyOf(data, this.charts)) : null,
@@ -29,6 +31,18 @@ export class Folds {
       this.fold('Accuracy', () => accuracyOf(data, this.charts) ?? element('p', { class: 'note' },
         `The scene asks for ${scene.accuracy}. \`rheonet report --certify --precision\` measures what is reached, and what it costs.`)),
     ].filter(Boolean));
+  }
+
+  // It takes a moment, in which what was said before stays.
+  explanation() {
+    const host = element('div', {}, this.explained ?? element('p', { class: 'note' }, 'Looking at it …'));
+    const asked = (this.asked = this.explain());
+    asked.then(explanationOf, (error) => element('p', { class: 'note bad' }, error.message)).then((explained) => {
+      if (asked !== this.asked) return;
+      this.explained = explained;
+      host.replaceChildren(explained);
+    });
+    return host;
   }
 
   // Its content is made when it is opened.

@@ -2,7 +2,7 @@
 import './style.css';
 import './playground.css';
 import { Animation } from './animation.js';
-import { folder, open, save } from './api.js';
+import { explain, folder, open, save } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { download, exporters } from './export.js';
@@ -45,7 +45,7 @@ class Playground {
     });
     this.sliders = new Sliders(this.parts.sliders, this.editor);
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
-    this.folds = new Folds(this.parts.sections);
+    this.folds = new Folds(this.parts.sections, () => this.explain());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
     document.addEventListener('keydown', (event) => this.key(event));
     addEventListener('hashchange', () => this.openLink());
@@ -217,6 +217,11 @@ class Playground {
     this.parts.mistakes.replaceChildren(...data.mistakes.map(({ severity, line, column, message, hint }) =>
       element('button', { type: 'button', class: `mistake ${severity}`, onclick: () => line && this.editor.go(line, column) },
         element('b', {}, line ? `${line}:${column} ` : ''), message, hint ? element('span', { class: 'hint' }, ` – ${hint}`) : null)));
+  }
+
+  explain() {
+    const { text, file, runner } = this.current;
+    return explain({ text, file, session: `${runner.session}-why` });
   }
 
   showSections() {

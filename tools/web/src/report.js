@@ -4,7 +4,7 @@ import './report.css';
 import { element, schematicOf } from './dom.js';
 import { PlotPanel } from './plot-panel.js';
 import { SceneData } from './scene-data.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, lessonOf, notesOf, sourcesOf, statisticsOf } from './sections.js';
+import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, lessonOf, notesOf, sourcesOf, statisticsOf } from './sections.js';
 import { number } from './units.js';
 import { differencesOf } from './differences.js';
 
@@ -41,7 +41,7 @@ function sceneOf(data, k) {
     section('Schematic', schematicOf(scene)),
     several ? null : section('Plots', plots([{ label: '', data }])),
     section('Claims', claimsOf(data)),
-    section('What is simulated, and why', element('pre', { class: 'explanation', tabindex: '0' }, scene.explanation)),
+    section('What is simulated, and why', explanationOf(data.explanation)),
     section('Elements', elementsOf(scene)),
     section('Equations', equationsOf(scene)),
     data.energy ? section('Energy account', energyOf(data)) : null,

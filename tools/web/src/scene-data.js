@@ -4,6 +4,7 @@ export class SceneData {
   constructor() {
     this.mistakes = [];
     this.scene = null;
+    this.explanation = null;
     this.time = [];
     this.columns = [];
     this.energy = null;

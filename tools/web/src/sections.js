@@ -16,6 +16,16 @@ export function lessonOf({ demo }, folded) {
     answer('Why', demo.why));
 }
 
+// What `rheonet explain` says; names and options in it are set as such.
+export function explanationOf({ passages, why_not: whyNot }) {
+  if (whyNot) return element('p', { class: 'note bad' }, `It cannot be simulated: ${whyNot}`);
+  const words = (text) => text.split(/(`[^`]*`|--[a-z]+ [a-z]+)/).map((part, k) => (k % 2 ? element('code', {}, part.replaceAll('`', '')) : part));
+  return element('div', { class: 'explanation' }, passages.map(({ heading, lines }) =>
+    element('section', {},
+      element('h4', {}, heading),
+      lines.length ? element('ul', {}, lines.map(({ label, text }) => element('li', {}, label ? element('b', {}, `${label} `) : null, words(text)))) : null)));
+}
+
 export function equationsOf(scene) {
   const list = element('div', { class: 'equations' });
   for (const { type, tex, law, summary, notes, source, symbols } of scene.equations) {
