@@ -24,7 +24,7 @@ export function number(value, digits = 4) {
   if (value === 0) return '0';
   const size = Math.abs(value);
   if (size >= 1e-3 && size < 1e5) return String(Number(value.toPrecision(digits)));
-  return value.toExponential(Math.max(0, digits - 2)).replace('e+', 'e');
+  return value.toExponential(Math.max(0, digits - 2)).replace(/(\.\d*?)0+e/, '$1e').replace('.e', 'e').replace('e+', 'e');
 }
 
 export function withUnit(value, unit, digits = 4) {
