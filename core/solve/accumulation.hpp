@@ -24,11 +24,13 @@ class Accumulation {
   void follow(double t, const Dae::View& view);
   /// The tolerance of a step, as a share of the accuracy of the result.
   double local_share() const;
+  /// The same where most steps go over small kinks (kinks.hpp).
+  double dense_share() const;
 
  private:
   /// A part of the network.
   struct Part {
-    bool oscillates = false;
+    long turns = 0;        ///< of the velocities of its masses, and of what accelerates them
     double power = 0;      ///< dissipated at the last step [W]
     double stored = 0;     ///< at present [J]
     double energy = 0;     ///< that was stored last and has not become heat since [J]
@@ -49,6 +51,8 @@ class Accumulation {
   };
   int part_of(const Branch& b) const;
   void account(double step, const Dae::View& view);
+  /// What it has not forgotten, in parts of what the run so far has brought [1, length/time]; 0 if it does not oscillate.
+  double remembered(const Part& part) const;
 
   const Network& network_;
   const Structure& structure_;

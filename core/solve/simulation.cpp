@@ -61,7 +61,7 @@ class Run {
         state_(begin_.state),
         instant_(network, classified_, drive_),
         accumulation_(network, classified_, settings.stop),
-        tolerances_(network, tolerance()),
+        tolerances_(network, tolerance(accumulation_.local_share())),
         systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
@@ -233,7 +233,7 @@ class Run {
       observer_.step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       accumulation_.follow(t, view);
-      tolerances_.allow(tolerance());
+      tolerances_.allow(tolerance(accumulation_.local_share()), tolerance(accumulation_.dense_share()));
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       drive_.remember(t, view.velocity, view.acceleration);
       for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
@@ -342,7 +342,7 @@ class Run {
     return std::min(longest_angle, std::pow(share * settings_.accuracy / at_middle, 1.0 / static_cast<double>(step_points)));
   }
 
-  double tolerance() const { return std::max(accumulation_.local_share() * settings_.accuracy, least_tolerance); }
+  double tolerance(double share) const { return std::max(share * settings_.accuracy, least_tolerance); }
 
   void tell_overload() const {
     const double t = std::max(left_, system_->integrator.time());

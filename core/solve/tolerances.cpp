@@ -32,19 +32,12 @@ constexpr double noise_share = 0.1;
 constexpr double time_grains = 8;
 // Roundings of a deflection that a step may be off by (its sum of two).
 constexpr double value_grains = 4;
-// Small kinks one after the other, as a bundle of many pairs makes them, upset the error test more than the solution: their
-// errors have either sign, and add up like the root of their number where those of a method add up like the number itself.
-// So they may be larger where at least one step in five goes over one; what follows each kink by itself needs every digit.
-// (Of 1000 pairs on a mass at accuracy 1e-6 that takes a seventh of the steps, with errors of 1e-8. Where a mass is not
-// there to smooth it a kink is one of a velocity or of its slope, and nothing is gained.)
-constexpr double kink_allowance = 10;
-constexpr double kink_rate = 0.2, kink_memory = 8;  // the latter in steps
 // Rounding of a velocity that is a given function of time.
 constexpr double given_noise = 1e-13;
 
 }  // namespace
 
-Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative) {
+Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), kinks_(network) {
   const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
   seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0),
            std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0),
@@ -185,31 +178,12 @@ void Tolerances::forget() {
   for (std::vector<double>& sort : foreseen_) std::fill(sort.begin(), sort.end(), 0.0);
 }
 
-void Tolerances::watch_kinks(const Dae::View& view) {
-  if (!network_.bundles) return;
-  yielded_.resize(network_.bundles->size());
-  bool crossed = false;
-  for (std::size_t b = 0; b < yielded_.size(); ++b) {
-    const Iwan& law = (*network_.bundles)[b];
-    const Branch& ends = dae_->structure().deflections[at(network_.first_bundle) + b];
-    const auto smooth = [&](NodeId node) {
-      const Kind kind = dae_->structure().kind[at(node)];
-      return kind == Kind::known || kind == Kind::massive;
-    };
-    if (!smooth(ends.a) || !smooth(ends.b)) continue;
-    const Yielded now{law.branch(), law.yielded(view.p[at(network_.first_bundle) + b])};
-    if (now.branch == yielded_[b].branch && now.pairs > yielded_[b].pairs) crossed = true;
-    yielded_[b] = now;
-  }
-  kink_pace_ += ((crossed ? 1 : 0) - kink_pace_) / kink_memory;
-}
-
 double Tolerances::force_noise(int rate) const {
   const double noise = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
   return std::max(noise, std::numeric_limits<double>::min());
 }
 
-double Tolerances::local() const { return kink_pace_ > kink_rate ? kink_allowance * relative_ : relative_; }
+double Tolerances::local() const { return kinks_.dense() ? dense_ : relative_; }
 
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
@@ -219,7 +193,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   reached_ = t;
   find_dashpot_rounding(view);
   find_rounding_now(view);
-  watch_kinks(view);
+  kinks_.follow(*dae_, view);
   update(t, yp);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dae/dae.hpp"
+#include "core/solve/kinks.hpp"
 
 namespace rheonet {
 
@@ -25,8 +26,11 @@ class Tolerances {
   /// do not foresee); they are forgotten after ten times that.
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                const std::vector<double>& coming_size);
-  /// From here on an unknown is allowed this share of its scale.
-  void allow(double relative) { relative_ = relative; }
+  /// From here on an unknown is allowed this share of its scale, and `dense` where small kinks are (kinks.hpp).
+  void allow(double relative, double dense) {
+    relative_ = relative;
+    dense_ = dense;
+  }
   /// After a step, with the view of the state that it reached.
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
@@ -55,7 +59,6 @@ class Tolerances {
   /// Its size says nothing of that of others of its sort: states of blocks have units of their own, and what a block takes
   /// in may be a small movement beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
-  void watch_kinks(const Dae::View& view);
   void find_gaps();
   double local() const;
   using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
@@ -78,7 +81,8 @@ class Tolerances {
 
   const Network& network_;
   Dae* dae_ = nullptr;
-  double relative_;
+  double relative_, dense_;
+  Kinks kinks_;
   double begin_ = not_given;  ///< of the run [s]
   double reached_ = 0;        ///< the end of the last step [s]
   double step_ = 0;           ///< its length [s]
@@ -115,10 +119,6 @@ class Tolerances {
   bool any_solved_ = false;               ///< some dashpot is solved for its force
   std::vector<double> dashpot_rounding_;  ///< of each: what the rounding of velocities leaves of its force [N]
   std::vector<double> difference_rounding_, slide_rounding_;  ///< of the velocities of deflections and sliders [m/s]
-  /// How far each bundle has yielded, and on which of its branches.
-  struct Yielded { long branch = 0; std::size_t pairs = 0; };
-  std::vector<Yielded> yielded_;
-  double kink_pace_ = 0;  ///< share of the last steps that went over such kinks
   double largest_velocity_ = 0;
   Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
