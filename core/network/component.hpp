@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/netlist/declaration.hpp"
+#include "core/netlist/signal.hpp"
 #include "core/network/dual.hpp"
 
 namespace rheonet {
@@ -204,6 +205,7 @@ struct Component {
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is one
   Symbol drawing = {};             ///< a plain box if it is empty
   Symbol rotational_drawing = {};  ///< in a rotational scene, if that is another one
+  std::function<std::string(const Signal&)> signal_drawing = {};  ///< lines besides these, of the shape of its signal
 
   const Symbol& drawn_in(Domain domain) const {
     return domain == Domain::rotation && !rotational_drawing.empty() ? rotational_drawing : drawing;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/network/component.hpp"
+#include "tests/draw/drawn.hpp"
 #include "tools/draw/caption.hpp"
 #include "tools/draw/symbol_path.hpp"
 
@@ -95,6 +96,30 @@ TEST_CASE("rotation has symbols of its own where they are declared") {
   const Component &force = *find_component("force"), &spring = *find_component("spring");
   CHECK(all_of(symbol_of(force, Domain::rotation)) != all_of(symbol_of(force, Domain::translation)));
   CHECK(&symbol_of(spring, Domain::rotation) == &symbol_of(spring, Domain::translation));
+}
+
+TEST_CASE("a generator shows what it generates, each shape as another one, within its box") {
+  std::set<std::string> seen;
+  for (const char* signal : {"2", "{ step = 1, time = 1 }", "{ ramp = 1 }", "{ sine = 1, frequency = 1 }", "{ square = 1, frequency = 1 }",
+                             "{ triangle = 1, frequency = 1 }", "{ chirp = 1, frequency = 1, end_frequency = 2, duration = 1 }",
+                             "{ pulse = 1, width = 1 }", "{ pulse = 1, width = 0.1, frequency = 1 }", "{ table = [[0, 0], [1, 2]] }"}) {
+    CAPTURE(signal);
+    const Scene scene = test::scene_from(std::string("[elements]\nsource = { type = \"generator\", signal = ") + signal +
+                                         " }\npush = { type = \"force\", at = \"a\", force = { block = \"source\" } }\n"
+                                         "c1 = { type = \"dashpot\", between = [\"a\", \"ground\"], damping = 1 }\n");
+    const Symbol symbol = symbol_of(scene, 0);
+    CHECK(seen.insert(symbol.lines).second);
+    CHECK_NOTHROW(fitted(symbol.lines, {0, 0, 1, 1}, false));
+    for (const Point& p : points_of(symbol.lines)) {
+      CHECK(p.x >= 0.14);
+      CHECK(p.x <= 0.86);
+      CHECK(p.y >= 0.1);
+      CHECK(p.y <= 0.9);
+    }
+  }
+  CHECK(symbol_of(test::scene_from("[elements]\nk1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n"
+                                   "m1 = { type = \"mass\", at = \"a\", mass = 1 }\n"),
+                  0).lines == find_component("spring")->drawing.lines);
 }
 
 TEST_CASE("a path is mapped to a box, mirrored or not; arcs turn the other way in a mirror") {

@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <sstream>
+
+#include "tests/support/figure.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/xml.hpp"
 
@@ -41,7 +44,57 @@ TEST_CASE("plot draws the records of a scene, and whatever else is named; its cl
       folder.shell("rheonet plot scene.toml -o - --decay k1 --name pull --x-range 0.2:2 --y-range 0.001:10", 0);
   CHECK(contains(decay.out, "<desc>force [N] against time [s]: pull</desc>"));
   CHECK(contains(decay.out, ">0.001<"));
-  CHECK(contains(decay.err, "note: `pull`: 17 of 501 points are not above 0 and left out of the logarithmic axis"));
+  CHECK(contains(decay.err, "note: `pull`: 18 of 503 points are not above 0 and left out of the logarithmic axis"));
+}
+
+TEST_CASE("jumps are upright and corners sharp, wherever the rows are, in a plot and in the figure of a run") {
+  // Rows at 0, 1.5 and 3 s; the jump is between two of them, or at one.
+  const Folder folder(scene + "[simulate.output]\npoints = 3\n");
+  const auto points = [](const std::string& svg) {
+    std::vector<std::vector<double>> curves;
+    for (std::string path : matches(svg, "<path d=\"([^\"]*)\" stroke=\"[^\"]*\" stroke-width=\"1.6\"")) {
+      for (char& c : path) c = c == 'M' || c == 'L' ? ' ' : c;
+      std::istringstream numbers(path);
+      curves.push_back({});
+      for (double number = 0; numbers >> number;) curves.back().push_back(number);
+    }
+    return curves;
+  };
+  folder.shell("rheonet run scene.toml -q -o rows.csv", 0);
+  for (const std::string time : {"0.75 s", "1.5 s"}) {
+    CAPTURE(time);
+    const std::string set = " --set hand.position.time='" + time + "'";
+    folder.shell("rheonet run scene.toml -q -o rows.csv --plot run.svg" + set, 0);
+    CHECK(folder.read("rows.csv") == folder.shell("rheonet run scene.toml -q -o -" + set, 0).out);
+    for (const std::string& svg : {folder.shell("rheonet plot scene.toml -o -" + set, 0).out, folder.read("run.svg")}) {
+      const auto curves = points(svg);
+      REQUIRE(curves.size() == 2);
+      // Along the bottom, up, along the top; the width is that of 3 s.
+      const std::vector<double>& hand = curves[0];
+      REQUIRE(hand.size() == 8);
+      CHECK(hand[2] == hand[4]);
+      CHECK(hand[2] / hand[6] == doctest::Approx(std::stod(time) / 3).epsilon(1e-4));
+      CHECK(hand[1] == hand[3]);
+      CHECK(hand[5] == hand[7]);
+      CHECK(hand[5] < hand[3]);
+      // The force jumps with it, and falls from there.
+      const std::vector<double>& force = curves[1];
+      REQUIRE(force.size() >= 8);
+      CHECK(force[2] == force[4]);
+      CHECK(force[5] < force[3]);
+      CHECK(force[7] > force[5]);
+    }
+  }
+}
+
+TEST_CASE("of several scenes each says once what is doubtful") {
+  const Folder folder(scene);
+  std::string loose = scene;
+  loose.replace(loose.find("\"ground\""), 8, "\"grund\"");
+  folder.write("loose.toml", loose);
+  const std::string said = folder.shell("rheonet plot scene.toml loose.toml -y k1.force -o both.svg", 0).err;
+  CHECK(contains(said, "nothing but `c1` is at node `grund`"));
+  CHECK(said.find("warning") == said.rfind("warning"));
 }
 
 TEST_CASE("a scene says what is worth drawing, unless the command line does") {

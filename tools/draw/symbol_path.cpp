@@ -64,9 +64,12 @@ const Symbol& symbol_of(const Component& component, Domain domain) {
   return own.empty() ? plain : own;
 }
 
-const Symbol& symbol_of(const Scene& scene, int element) {
+Symbol symbol_of(const Scene& scene, int element) {
   const SceneElement& drawn = scene.elements[static_cast<std::size_t>(element)];
-  return symbol_of(*components()[static_cast<std::size_t>(drawn.declaration)], scene.domain);
+  const Component& component = *components()[static_cast<std::size_t>(drawn.declaration)];
+  Symbol symbol = symbol_of(component, scene.domain);
+  if (component.signal_drawing) symbol.lines += component.signal_drawing(drawn.signals.front());
+  return symbol;
 }
 
 Reach reach_of(const Symbol& symbol) {

@@ -9,7 +9,8 @@ namespace rheonet::draw {
 
 /// What is drawn of a component; a plain box if it declares nothing.
 const Symbol& symbol_of(const Component& component, Domain domain);
-const Symbol& symbol_of(const Scene& scene, int element);
+/// What is drawn of an element, with the shape of its signal where the component says how.
+Symbol symbol_of(const Scene& scene, int element);
 
 /// How far a symbol reaches above and below the middle of its box of 1 x 1, by the points that its paths name.
 struct Reach {

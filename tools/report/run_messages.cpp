@@ -10,6 +10,7 @@
 #include "core/result/run.hpp"
 #include "tools/report/messages.hpp"
 #include "tools/report/thinner.hpp"
+#include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/summary.hpp"
 
@@ -162,6 +163,7 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
   const std::size_t most_rows = std::clamp<std::size_t>(wanted.most_values / columns, 200, 5000);
   Thinner thinner(static_cast<std::size_t>(scene.output_intervals) + 1, most_rows,
                   [&](double time, const std::vector<double>& values) { rows.add(time, values); });
+  tool::BothSides sides([&](double t, const std::vector<double>& v) { thinner.add(t, v); }, wanted.most_events);
   EnergyCourse energy(scene.start, scene.stop);
   EventList events{.most = wanted.most_events};
   const auto finish = [&] {
@@ -171,12 +173,13 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
     tell(events.message());
   };
   try {
-    const Summary summary = run(scene, {.row = [&](double t, const std::vector<double>& v) { thinner.add(t, v); },
-                                        .event = [&](double t, const std::string& element, const char* what,
-                                                     int direction) { events.add(t, element, what, direction); },
-                                        .energy = [&](double t, const EnergySoFar& e) { energy.add(t, e); },
-                                        .interrupt = wanted.interrupt,
-                                        .tolerance = wanted.tolerance});
+    RunSettings settings{.event = [&](double t, const std::string& element, const char* what,
+                                      int direction) { events.add(t, element, what, direction); },
+                         .energy = [&](double t, const EnergySoFar& e) { energy.add(t, e); },
+                         .interrupt = wanted.interrupt,
+                         .tolerance = wanted.tolerance};
+    sides.listen(settings);
+    const Summary summary = run(scene, settings);
     finish();
     tell(to_line({{"kind", "done"},
                   {"statistics", statistics(summary)},

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/network/component.hpp"
 #include "core/result/run.hpp"
 #include "tools/plot/mistake.hpp"
+#include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
 
@@ -46,12 +48,13 @@ class SceneSource final : public PlotSource {
     options.claims = false;  // a picture is asked for, not a verdict
     options.plotted = wanted.empty();
     if (!lenient) options.records = wanted;
-    read_ = read_and_report(file, options);
+    read_ = read_scene(file, declarations(), options);
     if (read_.scene && lenient) {
       for (const std::string& path : wanted)
         if (has(*read_.scene, path)) options.records.push_back(path);
-      if (!options.records.empty()) read_ = read_and_report(file, options);
+      if (!options.records.empty()) read_ = read_scene(file, declarations(), options);
     }
+    report_all(read_);
     if (!read_.scene) throw PlotEnded{wrong_input};
     file_ = file;
     title_ = read_.scene->title;
@@ -62,16 +65,14 @@ class SceneSource final : public PlotSource {
   std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override {
     std::vector<plot::Trace> traces(pairs.size());
     Progress progress(true);
+    BothSides drawn([&](double time, const std::vector<double>& values) {
+      const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
+      for (std::size_t k = 0; k < pairs.size(); ++k) traces[k].add({value(pairs[k].first), value(pairs[k].second)});
+    });
+    RunSettings settings{.progress = [&](double fraction) { progress.update(fraction); }};
+    drawn.listen(settings);
     try {
-      run(*read_.scene, {.row =
-                             [&](double time, const std::vector<double>& values) {
-                               const auto value = [&](std::size_t column) {
-                                 return column == 0 ? time : values[column - 1];
-                               };
-                               for (std::size_t k = 0; k < pairs.size(); ++k)
-                                 traces[k].add({value(pairs[k].first), value(pairs[k].second)});
-                             },
-                         .progress = [&](double fraction) { progress.update(fraction); }});
+      run(*read_.scene, settings);
     } catch (const SimulationError& error) {
       progress.erase();
       report(error, read_.sources);

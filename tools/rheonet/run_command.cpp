@@ -12,7 +12,9 @@
 #include "core/netlist/characters.hpp"
 #include "core/result/certify.hpp"
 #include "core/result/csv.hpp"
+#include "core/result/division.hpp"
 #include "core/result/run.hpp"
+#include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/certificate.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/commands.hpp"
@@ -67,6 +69,12 @@ struct Outputs {
   }
 };
 
+/// A figure must not change the rows of a run: parts are integrated by themselves only if nobody looks between rows.
+void listen_for_figure(BothSides& sides, const Scene& scene, bool certified, RunSettings& settings) {
+  sides.listen(settings);
+  if (certified || !divide(scene, {}).excerpts.empty()) settings.state = {};
+}
+
 }  // namespace
 
 ExitStatus run_scene(const Arguments& arguments) {
@@ -88,23 +96,20 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (write_to_one_file(arguments)) return wrong_input;
 
   std::optional<RunFigure> figure;
-  std::function<void(double, const std::vector<double>&)> on_row;
-  if (drawn) {
-    figure.emplace(*read.scene, read.presentation.plot);
-    on_row = [&figure](double time, const std::vector<double>& values) { figure->row(time, values); };
-  }
+  BothSides sides([&figure](double time, const std::vector<double>& values) { figure->row(time, values); });
+  if (drawn) figure.emplace(*read.scene, read.presentation.plot);
   // Rows that scroll by on the same terminal say enough.
   Progress progress(!arguments.quiet && !outputs.rows->is_terminal());
   const auto on_progress = [&progress](double fraction) { progress.update(fraction); };
   try {
-    const RunSettings settings{.csv = outputs.rows->file(),
-                               .events = outputs.events ? outputs.events->file() : nullptr,
-                               .row = on_row,
-                               .interrupt = &interrupted,
-                               .progress = on_progress,
-                               .order = arguments.order,
-                               .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
-                               .profile = arguments.profile};
+    RunSettings settings{.csv = outputs.rows->file(),
+                         .events = outputs.events ? outputs.events->file() : nullptr,
+                         .interrupt = &interrupted,
+                         .progress = on_progress,
+                         .order = arguments.order,
+                         .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
+                         .profile = arguments.profile};
+    if (drawn) listen_for_figure(sides, *read.scene, arguments.certify, settings);
     std::optional<Certificate> certificate;
     if (arguments.certify) certificate = certify(*read.scene, settings);
     const Summary summary = certificate ? certificate->summary : run(*read.scene, settings);

@@ -17,6 +17,7 @@
 #include "tools/plot/mistake.hpp"
 #include "tools/report/document.hpp"
 #include "tools/report/messages.hpp"
+#include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/library.hpp"
 #include "tools/rheonet/plot_source.hpp"
 #include "tools/rheonet/reading.hpp"
@@ -148,10 +149,13 @@ void figure(const json& task) {
       pairs.emplace_back(x, y);
       curves.push_back({(several ? std::string(1, letter) + " " : "") + columns[y].name, columns[x], columns[y], {}});
     }
-    run(*scene.scene, {.row = [&](double time, const std::vector<double>& values) {
-          const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
-          for (std::size_t k = 0; k < pairs.size(); ++k) curves[first + k].trace.add({value(pairs[k].first), value(pairs[k].second)});
-        }});
+    tool::BothSides drawn([&](double time, const std::vector<double>& values) {
+      const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
+      for (std::size_t k = 0; k < pairs.size(); ++k) curves[first + k].trace.add({value(pairs[k].first), value(pairs[k].second)});
+    });
+    RunSettings settings;
+    drawn.listen(settings);
+    run(*scene.scene, settings);
     ++letter;
   }
   if (curves.empty()) throw plot::Mistake("there is nothing to draw", "choose what is to be shown");

@@ -73,6 +73,18 @@ class Chart {
   }
 }
 
+// Curves of several runs over the times of all. At a jump a run has two rows of one time.
+function joined(runs) {
+  const places = runs.map(() => 0);
+  const result = [[], ...runs.map(() => [])];
+  for (;;) {
+    const time = Math.min(...runs.map(([times], k) => times[places[k]] ?? Infinity));
+    if (time === Infinity) return result;
+    result[0].push(time);
+    runs.forEach(([times, values], k) => result[k + 1].push(times[places[k]] === time ? values[places[k]++] : null));
+  }
+}
+
 // Panels that share their time axis.
 export class TimeGroup {
   constructor() {
@@ -134,7 +146,7 @@ export class TimeChart extends Chart {
     const scaled = (values) => (this.shown.factor === 1 ? values : values.map((value) => value / this.shown.factor));
     const times = new Set(this.curves.map((curve) => curve.time));
     if (times.size <= 1) return [this.curves[0]?.time ?? [], ...this.curves.map((curve) => scaled(curve.values))];
-    return uPlot.join(this.curves.map((curve) => [curve.time, scaled(curve.values)]));
+    return joined(this.curves.map((curve) => [curve.time, scaled(curve.values)]));
   }
 
   // New values in place of the old ones; the zoom stays.

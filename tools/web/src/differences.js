@@ -25,6 +25,7 @@ export function difference(first, second, path) {
   let squares = 0;
   let count = 0;
   first.time.forEach((time, k) => {
+    if (first.time[k + 1] === time) return; // of the two sides of a jump the later one, as in the other run
     const other = interpolate(second.time, b, time);
     if (Number.isNaN(other)) return;
     const off = Math.abs(a[k] - other);
