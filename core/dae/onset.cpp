@@ -8,6 +8,7 @@
 #include "core/dae/rate_law.hpp"
 #include "core/network/index.hpp"
 #include "core/network/sets.hpp"
+#include "core/network/velocity_grain.hpp"
 
 namespace rheonet {
 
@@ -17,8 +18,6 @@ namespace {
 constexpr double balance_rounding = 1e-12;
 // A law whose slope is this share of that to the other side has none.
 constexpr double flat = 1e-6;
-// Velocities that differ by this share of their magnitudes are equal.
-constexpr double velocity_rounding = 1e-14;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
 constexpr double difference_limit = 1e-6;
 // What is steeper than what is around it by this much cannot be told from a rigid link, as long as its force is no more than
@@ -272,12 +271,12 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
       const auto [low, high] = problem.bounds(index[at(j)]);
       const bool at_rest = low < high && may_stand(j)
                                ? problem.joined(slot(b.a), slot(b.b))
-                               : std::abs(w) <= velocity_rounding * (std::abs(va) + std::abs(vb));
+                               : std::abs(w) <= velocity_grain * (std::abs(va) + std::abs(vb));
       const int direction = at_rest ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
         if (may_stand(j) && relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
           laws.batch->set_direction(i, state.p[at(j)], 0, laws.batch->direction(i));
-        } else if (may_stand(j)) {
+        } else if (may_stand(j) && low < high) {
           change.standing.push_back({j, 0});
         } else if (!laws.batch->fits(i, 0)) {
           laws.batch->set_direction(i, state.p[at(j)], 0, 0);

@@ -6,6 +6,7 @@
 
 #include "core/dae/consistency.hpp"
 #include "core/network/index.hpp"
+#include "core/network/velocity_grain.hpp"
 
 namespace rheonet {
 
@@ -20,8 +21,6 @@ constexpr int most_idle = 3;  // of them in a row that do not halve what is left
 // With secants an unknown comes nearer by a power of what is left: slowly at first.
 constexpr int most_secant_steps = 300;
 constexpr int most_idle_secants = 40;
-// Of the velocities that there are: less is nothing.
-constexpr double velocity_rounding = 1e-14;
 // Damped steps. Each unknown against its own size: a change of this share is the rounding of some tens of terms.
 constexpr double change_rounding = 1e-14;
 // After a whole step, what is left of it would be lost in the last digits of the unknown.
@@ -243,7 +242,7 @@ class Consistency::Projection {
   void finish() {
     // What is left of a velocity by rounding on the way there is nothing. That of a mass is no such thing, however small.
     for (std::size_t i = 0; i < n_; ++i) {
-      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_rounding * fastest_) y_[i] = 0;
+      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_grain * fastest_) y_[i] = 0;
     }
     // Integrals that nothing moves stay as they were to the last digit.
     trial_ = y_;

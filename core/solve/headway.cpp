@@ -13,8 +13,9 @@ namespace {
 
 // So many failures of the integrator in a row: it will not get over them.
 constexpr std::size_t enough_failures = 30;
-// So many steps at one place.
+// So many steps at one place: within so many grains of time, a few units in the last place a step.
 constexpr int enough_steps = 1000;
+constexpr double grains = 64;
 
 }  // namespace
 
@@ -82,7 +83,7 @@ bool Headway::failing(double t, double within) {
 }
 
 bool Headway::standing(double t, double grain) {
-  if (std::abs(t - reached_) > grain) {
+  if (std::abs(t - reached_) > grains * grain) {
     reached_ = t;
     steps_there_ = 0;
   }

@@ -34,7 +34,8 @@ class Headway {
   /// The integrator has failed at t: true when it does so over and over within this time. It comes up to an instant at
   /// which something grows without bound.
   bool failing(double t, double within);
-  /// A step has come to t: true when step after step brings the time on by no more than `grain` in all.
+  /// A step has come to t: true when step after step brings the time on by no more than its rounding, of which `grain` [s] are
+  /// some.
   bool standing(double t, double grain);
 
  private:

@@ -4,6 +4,7 @@
 
 #include "core/network/index.hpp"
 #include "core/network/sets.hpp"
+#include "core/network/velocity_grain.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
@@ -12,8 +13,8 @@ namespace {
 
 // Roundings of forces that balance (a sum of a few).
 constexpr double force_grains = 16;
-// The same of a difference of two velocities.
-constexpr double difference_grains = 8;
+// A difference of two velocities that is larger than this share of the smaller one is told from none, with something to spare.
+constexpr double different = 2.2 * velocity_grain;
 // Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
 // slopes are of the velocities that it comes from.
 constexpr double to_and_fro = 4;
@@ -236,7 +237,7 @@ void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<do
   }
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
     double& largest = rounding_at_rest_[at(part)];
-    largest = std::max(largest, law.velocity_at(i, force_rounding_[at(part)]));
+    largest = std::max(largest, law.velocity_at(i, to_and_fro * force_rounding_[at(part)]));
   });
 }
 
@@ -267,9 +268,8 @@ void Tolerances::find_rounding_now(const Dae::View& view) {
 /// Where both ends of a branch move almost alike its own velocity is the rounding of theirs: the end of a branch hangs free, say,
 /// or a thin gel rides on thick oil.
 void Tolerances::find_difference_rounding(const Dae::View& view) {
-  constexpr double grain = difference_grains * std::numeric_limits<double>::epsilon();
   const auto rounding = [&](const Branch& b) {
-    return grain * std::min(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
+    return different * std::min(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
   };
   const Structure& structure = dae_->structure();
   for (std::size_t j = 0; j < difference_rounding_.size(); ++j) difference_rounding_[j] = rounding(structure.deflections[j]);
