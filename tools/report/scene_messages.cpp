@@ -13,6 +13,7 @@
 #include "tools/report/messages.hpp"
 #include "tools/rheonet/explanation.hpp"
 #include "tools/rheonet/network_text.hpp"
+#include "tools/rheonet/plot_source.hpp"
 
 namespace rheonet::report {
 namespace {
@@ -43,16 +44,16 @@ json shown_in(const std::vector<std::string>& wished, const std::string& unit) {
 
 json records(const ReadResult& read) {
   const Scene& scene = *read.scene;
+  const std::vector<plot::Column> columns = tool::columns_of(scene);  // the first is time
   json list = json::array();
-  for (const Record& record : scene.records) {
-    const auto quantity = quantity_of(scene, record);
-    const bool length = quantity == Quantity::position && scene.domain == Domain::translation;
+  for (std::size_t k = 0; k < scene.records.size(); ++k) {
+    const Record& record = scene.records[k];
     const std::size_t dot = record.path.rfind('.');
     list.push_back({{"path", record.path},
                     {"owner", record.path.substr(0, dot)},
                     {"channel", record.path.substr(dot + 1)},
                     {"subject", name_of(record.subject)},
-                    {"quantity", !quantity ? "signal" : length ? "position" : rheonet::name_of(*quantity, scene.domain)},
+                    {"quantity", columns[k + 1].measure.quantity},
                     {"unit", unit_text(scene, record)}});
     if (const json shown = shown_in(read.presentation.plot.units, unit_text(scene, record)); !shown.is_null())
       list.back()["shown"] = shown;

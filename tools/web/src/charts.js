@@ -120,6 +120,7 @@ export class TimeChart extends Chart {
       width: 1.6,
       dash: dashes[(curve.dash ?? Math.floor(k / 7)) % dashes.length],
       spanGaps: true,
+      pxAlign: 0,
       points: { show: false },
       value: (_, value) => (value === null || value === undefined ? '–' : `${number(value, 5)} ${this.shown.name}`),
     }));

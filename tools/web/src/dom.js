@@ -38,8 +38,8 @@ export function onTheme(changed) {
   new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
 }
 
-// The drawing of a network, in the colours of the page.
-export function schematicOf(scene) {
+// The drawing of a network, in the colours of the page; one that is to be read is never smaller than one can read.
+export function schematicOf(scene, { read = true } = {}) {
   const host = element('div', { class: 'schematic' });
   if (!scene.schematic) {
     host.append(element('p', { class: 'note' }, `It is not drawn: ${scene.no_schematic}.`));
@@ -52,6 +52,13 @@ export function schematicOf(scene) {
     .replaceAll('#666666', 'var(--faint)');
   const svg = host.querySelector('svg');
   svg.setAttribute('aria-label', `Schematic of ${scene.title || scene.file}`);
+  if (read) {
+    svg.style.minWidth = `${0.65 * svg.getAttribute('width')}px`;
+    svg.style.minHeight = `${0.65 * svg.getAttribute('height')}px`;
+    host.tabIndex = 0;
+    host.setAttribute('role', 'group');
+    host.setAttribute('aria-label', 'Schematic');
+  }
   svg.style.maxWidth = `${svg.getAttribute('width')}px`;
   svg.removeAttribute('width');
   svg.removeAttribute('height');

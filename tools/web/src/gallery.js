@@ -18,7 +18,9 @@ export class Gallery {
 
   show({ scenes }) {
     const groups = new Map();
+    this.names = new Map(); // how many scenes have a title
     for (const scene of scenes) {
+      this.names.set(scene.title, (this.names.get(scene.title) ?? 0) + 1);
       const folder = scene.file.includes('/') ? scene.file.slice(0, scene.file.lastIndexOf('/')) : '';
       if (!groups.has(folder)) groups.set(folder, []);
       groups.get(folder).push(scene);
@@ -34,7 +36,8 @@ export class Gallery {
   card(scene) {
     const picture = element('div', { class: 'card-picture', 'aria-hidden': 'true' });
     const card = element('button', { type: 'button', class: 'card', 'data-file': scene.file },
-      picture, element('span', { class: 'card-title' }, scene.title || scene.file), element('span', { class: 'card-about' }, scene.about || scene.file));
+      picture, element('span', { class: 'card-title' }, scene.title || scene.file), element('span', { class: 'card-about' }, scene.about || scene.file),
+      scene.title && scene.about && this.names.get(scene.title) > 1 ? element('code', { class: 'card-file' }, scene.file.split('/').at(-1)) : null);
     card.addEventListener('click', () => {
       this.dialog.close();
       this.onopen(scene.file);
@@ -48,7 +51,7 @@ export class Gallery {
     try {
       const text = await open(card.dataset.file);
       await task({ task: 'show', draw: true, text, file: card.dataset.file }, (message) => {
-        if (message.kind === 'scene' && message.schematic) card.querySelector('.card-picture').replaceChildren(schematicOf(message));
+        if (message.kind === 'scene' && message.schematic) card.querySelector('.card-picture').replaceChildren(schematicOf(message, { read: false }));
       });
     } catch {
       // A card without its picture still opens.

@@ -255,7 +255,7 @@ export class PlotPanel {
       }
       return null;
     };
-    const side = (channel) => ({ quantity: channel === 'displacement' ? 'displacement' : record(channel).quantity, unit: record(channel).unit, as: record(channel).shown });
+    const side = (channel) => ({ quantity: record(channel).quantity, unit: record(channel).unit, as: record(channel).shown });
     const host = element('div');
     this.body.append(host);
     this.charts.push(new LoopChart(host, { x: side(kind.x), y: side(kind.y), curves: this.loopCurves(kind) }));

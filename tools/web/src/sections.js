@@ -5,13 +5,16 @@ import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, table } from './dom.js';
 import { grouped, number, withUnit } from './units.js';
 
+// A text with what stands between backticks set as code.
+const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
+
 // What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
 export function lessonOf({ demo }, folded) {
   if (!demo) return null;
-  const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, text)) : element('p', {}, element('b', {}, `${name} `), text));
+  const answer = (name, text) => (folded ? element('details', {}, element('summary', {}, name), element('p', {}, inWords(text))) : element('p', {}, element('b', {}, `${name} `), inWords(text)));
   return element('div', { class: 'lesson' },
     element('p', { class: 'question' }, demo.question),
-    element('p', {}, element('b', {}, 'Change '), demo.change),
+    element('p', {}, element('b', {}, 'Change '), inWords(demo.change)),
     answer('See', demo.see),
     answer('Why', demo.why));
 }
@@ -19,11 +22,10 @@ export function lessonOf({ demo }, folded) {
 // What `rheonet explain` says; names and options in it are set as such.
 export function explanationOf({ passages, why_not: whyNot }) {
   if (whyNot) return element('p', { class: 'note bad' }, `It cannot be simulated: ${whyNot}`);
-  const words = (text) => text.split(/(`[^`]*`|--[a-z]+ [a-z]+)/).map((part, k) => (k % 2 ? element('code', {}, part.replaceAll('`', '')) : part));
   return element('div', { class: 'explanation' }, passages.map(({ heading, lines }) =>
     element('section', {},
       element('h4', {}, heading),
-      lines.length ? element('ul', {}, lines.map(({ label, text }) => element('li', {}, label ? element('b', {}, `${label} `) : null, words(text)))) : null)));
+      lines.length ? element('ul', {}, lines.map(({ label, text }) => element('li', {}, label ? element('b', {}, `${label} `) : null, inWords(text.replace(/(--[a-z]+ [a-z]+)/g, '`$1`'))))) : null)));
 }
 
 export function equationsOf(scene) {
