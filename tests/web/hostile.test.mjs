@@ -23,6 +23,8 @@ before(async () => {
   folder = join(outer, 'inside');
   symlinkSync(join(outer, 'secret.toml'), join(folder, 'link.toml'));
   symlinkSync(outer, join(folder, 'out'));
+  writeFileSync(join(outer, 'numbers.csv'), '0,4711\n1,4711\n');
+  symlinkSync(join(outer, 'numbers.csv'), join(folder, 'link.csv'));
   server = await serve(folder, '--time-limit', '2', '--memory-limit', '300');
 });
 after(async () => {
@@ -91,6 +93,13 @@ test('a netlist that is sent includes nothing from outside', async () => {
     assert.equal(mistakes.items[0].severity, 'error', name);
     assert.match(mistakes.items[0].message, /outside|there is no file|link/);
     assert.ok(!body.includes('secret words'));
+  }
+  // Nor numbers from a file.
+  for (const name of ['../numbers.csv', join(outer, 'numbers.csv'), 'link.csv', '/proc/self/environ', '/dev/zero']) {
+    const text = bingham.replace('{ step = "10 rad/s", time = "0 s" }', `{ table = ${JSON.stringify(name)} }`);
+    const { body } = await post({ task: 'csv', text, file: 'bingham.toml' });
+    assert.match(body, /outside|there is no file|link/, name);
+    assert.ok(!body.includes('4711'), name);
   }
   // Nor by the name that it gives itself.
   const { body } = await post({ task: 'show', text: `include = ["secret.toml"]\n${bingham}`, file: '../x.toml' });
