@@ -125,6 +125,7 @@ void NetworkEvents::report_against_force(double t, int slider) const {
 }
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
+  right_time_ = not_looked;
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
@@ -164,12 +165,25 @@ double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_
   return sudden_function(k, dae_.view(t, y_.data(), yp_.data()));
 }
 
-void NetworkEvents::all_at_time(const Integrator& integrator, double t, std::vector<double>& g) {
-  integrator.interpolate(t, 0, y_);
-  integrator.interpolate(t, 1, yp_);
-  const Dae::View& view = dae_.view(t, y_.data(), yp_.data());
+void NetworkEvents::all_at(const Dae::View& view, std::vector<double>& g) const {
   g.resize(suddens());
   for (std::size_t i = 0; i < g.size(); ++i) g[i] = sudden_function(i, view);
+}
+
+void NetworkEvents::look_at_step(const Integrator& integrator, double a, double b) {
+  const auto look = [&](double t, std::vector<double>& g) {
+    integrator.interpolate(t, 0, y_);
+    integrator.interpolate(t, 1, yp_);
+    all_at(dae_.view(t, y_.data(), yp_.data()), g);
+  };
+  // Where the step before this one ended it has been looked.
+  if (right_time_ == a)
+    left_.swap(right_);
+  else
+    look(a, left_);
+  look((a + b) / 2, middle_);
+  all_at(dae_.view(b, integrator.y().data(), integrator.yp().data()), right_);
+  right_time_ = b;
 }
 
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
@@ -178,9 +192,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
   if (!(b > a)) return first;
-  all_at_time(integrator, a, left_);
-  all_at_time(integrator, (a + b) / 2, middle_);
-  all_at_time(integrator, b, right_);
+  look_at_step(integrator, a, b);
   for (std::size_t i = 0; i < suddens(); ++i) {
     if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])]) continue;
     double left = a, middle = (a + b) / 2, right = b;

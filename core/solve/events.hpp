@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -56,7 +57,9 @@ class NetworkEvents final : public EventFunctions {
   Flow flow(const Watched& law, const Dae::View& view) const;
   void find_pseudoplastic();
   const Dae::View& resolved(double t, const double* y, const double* yp);
-  void all_at_time(const Integrator& integrator, double t, std::vector<double>& g);
+  void all_at(const Dae::View& view, std::vector<double>& g) const;
+  /// Fills left_, middle_ and right_.
+  void look_at_step(const Integrator& integrator, double a, double b);
   double at_time(const Integrator& integrator, double t, std::size_t sudden);
   double slider_function(int slider, const Dae::View& view) const;
   [[noreturn]] void report_against_force(double t, int slider) const;
@@ -74,6 +77,8 @@ class NetworkEvents final : public EventFunctions {
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
   std::vector<double> left_, middle_, right_;  ///< event functions of the sliders and limits over a step
+  static constexpr double not_looked = std::numeric_limits<double>::quiet_NaN();
+  double right_time_ = not_looked;  ///< of right_, since the last `begin`
   std::vector<double> margin_;  ///< of each slider
   std::vector<double> limit_margin_;  ///< of each limit
   std::vector<double> law_margin_, at_begin_;  ///< of each event of the laws; event functions
