@@ -13,6 +13,7 @@ EnergyAccount::EnergyAccount(double tolerance, double length) : tolerance_(toler
 void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
   consistency_ = &consistency;
+  needs_rates_ = dae.power_needs_rates();
   const Network& network = dae.network();
   const Structure& structure = dae.structure();
   // What sticks to ground is given too, but there nothing happens.
@@ -36,8 +37,8 @@ void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
 void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) {
   dae_->view(t, y.data(), yp.data());
   last_ = {dae_->supplied_power(), dae_->dissipated_power()};
-  past_[0] = {t, last_};
-  known_ = 1;
+  known_ = 0;
+  remember(t, last_);
   heat_ = dae_->heat_of_laws();
   const double stored = dae_->stored_energy();
   if (!begun_) {
@@ -57,7 +58,6 @@ bool EnergyAccount::solved_between_steps() const { return dae_->rough() || dae_-
 EnergyAccount::Power EnergyAccount::power_at_end(const Integrator& integrator) {
   if (solved_between_steps()) return power(integrator, integrator.time());
   yp_ = integrator.yp();
-  dae_->view(integrator.time(), integrator.y().data(), yp_.data());
   return {dae_->supplied_power(), dae_->dissipated_power()};
 }
 
@@ -70,6 +70,20 @@ EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t
   return {dae_->supplied_power(), dae_->dissipated_power()};
 }
 
+void EnergyAccount::remember(double t, const Power& power) {
+  std::copy_backward(times_.begin(), times_.end() - 1, times_.end());
+  times_[0] = t;
+  known_ = std::min(known_ + 1, remembered);
+  Power fresh = power;
+  for (std::size_t k = 0; k < known_; ++k) {
+    const Power old = differences_[k];
+    differences_[k] = fresh;
+    if (k + 1 == known_) break;
+    const double apart = t - times_[k + 1];
+    fresh = {(fresh.supplied - old.supplied) / apart, (fresh.dissipated - old.dissipated) / apart};
+  }
+}
+
 // Newton's polynomial through the ends of the last steps, by Gauss' rule of four points, which is exact for it. Its last term
 // is what one point less would make of it, far more than it is off itself: together no more than is allowed in the run.
 std::optional<EnergyAccount::Power> EnergyAccount::from_past(double a, double b) const {
@@ -77,29 +91,25 @@ std::optional<EnergyAccount::Power> EnergyAccount::from_past(double a, double b)
   constexpr std::array<double, 2> abscissae{0.33998104358485626, 0.86113631159405258};
   constexpr std::array<double, 2> weights{0.65214515486254614, 0.34785484513745386};
   const double middle = (a + b) / 2, half = (b - a) / 2;
-  const double allowed = tolerance_ * largest_ * (b - a) / length_;
-  const auto integral = [&](double Power::*q) -> std::optional<double> {
-    std::array<double, remembered> c{};
-    for (std::size_t i = 0; i < remembered; ++i) c[i] = past_[i].power.*q;
-    for (std::size_t order = 1; order < remembered; ++order)
-      for (std::size_t i = remembered; i-- > order;) c[i] = (c[i] - c[i - 1]) / (past_[i].t - past_[i - order].t);
-    double sum = 0, last = 0;
-    for (std::size_t k = 0; k < 2 * abscissae.size(); ++k) {
-      const double t = middle + (k % 2 == 0 ? half : -half) * abscissae[k / 2];
-      double basis = 1, value = 0;
-      for (std::size_t i = 0; i < remembered; ++i) {
-        value += c[i] * basis;
-        if (i + 1 == remembered) last += weights[k / 2] * half * c[i] * basis;
-        basis *= t - past_[i].t;
-      }
-      sum += weights[k / 2] * half * value;
+  std::array<double, remembered> integral{};  // of (t - times_[0]) (t - times_[1]) ...
+  for (std::size_t k = 0; k < 2 * abscissae.size(); ++k) {
+    const double t = middle + (k % 2 == 0 ? half : -half) * abscissae[k / 2];
+    double basis = weights[k / 2] * half;
+    for (std::size_t i = 0; i < remembered; ++i) {
+      integral[i] += basis;
+      basis *= t - times_[i];
     }
-    if (!(std::abs(last) <= allowed)) return {};
-    return sum;
-  };
-  const auto supplied = integral(&Power::supplied), dissipated = integral(&Power::dissipated);
-  if (!supplied || !dissipated) return {};
-  return Power{*supplied, *dissipated};
+  }
+  const double allowed = tolerance_ * largest_ * (b - a) / length_;
+  const Power& last = differences_.back();
+  const double most = std::max(std::abs(last.supplied), std::abs(last.dissipated)) * std::abs(integral.back());
+  if (!(most <= allowed)) return {};
+  Power sum;
+  for (std::size_t i = 0; i < remembered; ++i) {
+    sum.supplied += differences_[i].supplied * integral[i];
+    sum.dissipated += differences_[i].dissipated * integral[i];
+  }
+  return sum;
 }
 
 EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double a, double b, const Power& pa,
@@ -139,9 +149,7 @@ void EnergyAccount::step(const Integrator& integrator) {
   const double heat = dae_->heat_of_laws();
   sum_.dissipated += heat - heat_;
   heat_ = heat;
-  std::copy_backward(past_.begin(), past_.end() - 1, past_.end());
-  past_[0] = {b, pb};
-  known_ = std::min(known_ + 1, remembered);
+  remember(b, pb);
   const std::optional<Power> smooth = from_past(a, b);
   const Power added = smooth ? *smooth : lobatto(integrator, a, b, pa, pb, 0);
   sum_.supplied += added.supplied;

@@ -23,6 +23,7 @@ class EnergyAccount {
 
   /// Just after the start or an event. What is stored more than before was supplied in that instant, with the heat.
   void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat);
+  /// With the view of the equations that of the end of the step.
   void step(const Integrator& integrator);
 
   double supplied() const { return sum_.supplied; }
@@ -36,6 +37,7 @@ class EnergyAccount {
   bool solved_between_steps() const;
   Power power_at_end(const Integrator& integrator);
   Power power(const Integrator& integrator, double t);
+  void remember(double t, const Power& power);
   /// The same as `lobatto` from the powers at steps' ends; absent if these are too few, or on no polynomial.
   std::optional<Power> from_past(double a, double b) const;
   Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
@@ -48,9 +50,9 @@ class EnergyAccount {
   bool begun_ = false;
   Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`
   static constexpr std::size_t remembered = 7;
-  struct Past { double t; Power power; };
-  std::array<Past, remembered> past_{};  ///< ends of the last steps since the last `begin`, the last one first
-  std::size_t known_ = 0;                ///< of these
+  std::array<double, remembered> times_{};       ///< ends of the last steps since the last `begin`, the last one first
+  std::size_t known_ = 0;                        ///< of these
+  std::array<Power, remembered> differences_{};  ///< of the powers at the first one, two, ... of these, divided
   double heat_ = 0;    ///< of the laws that know it, when `last_` was
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
   std::vector<double> y_, yp_;

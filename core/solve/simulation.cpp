@@ -230,13 +230,14 @@ class Run {
       }
       t = system_->integrator.time();
       if (settings_.profile) settings_.profile->step(system_->integrator);
-      observer_.step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       accumulation_.follow(t, view);
       tolerances_.allow(tolerance(accumulation_.local_share()), tolerance(accumulation_.dense_share()));
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       drive_.remember(t, view.velocity, view.acceleration);
-      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, view.p, settings_.switch_times)) {
+      deflections_ = view.p;
+      observer_.step(system_->integrator);
+      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, deflections_, settings_.switch_times)) {
         observer_.event(event);
       }
       soften_laws();
@@ -381,6 +382,7 @@ class Run {
   double left_ = 0;  ///< time of `state_` [s]
   System* system_ = nullptr;
   std::vector<double> y_, yp_;
+  std::vector<double> deflections_;  ///< at the end of the last step [m]
   SimulationStatistics statistics_;
   Headway headway_;
   Softening softening_;

@@ -21,7 +21,7 @@ class Observer {
   /// The equations and their solver hold until the next `begin`.
   virtual void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) = 0;
   /// A step from integrator.previous_time() to integrator.time(). It may be interpolated. Memories of the laws are still
-  /// those of the step, also where it ends in an event.
+  /// those of the step, also where it ends in an event, and the view of the equations is that of its end.
   virtual void step(const Integrator& integrator) = 0;
   /// An element has switched at the end of the last step; `begin` follows the last such event of an instant.
   virtual void event(const Event& event) = 0;
