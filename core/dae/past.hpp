@@ -26,6 +26,9 @@ class Past {
   Past(const Network& network, const std::vector<double>& delays, double reach, std::size_t channels, double limit,
        const std::vector<char>& firm);
 
+  /// Whether there is anything to remember.
+  bool any() const { return !tracks_.empty() || !channels_.empty(); }
+
   /// A delayed branch; `free` says which of its ends are no function of time alone.
   struct Delayed { int branch; NodeId a, b; double delay; bool free_a, free_b; };
   const std::vector<Delayed>& delayed() const { return delayed_; }

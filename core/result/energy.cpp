@@ -64,7 +64,7 @@ EnergyAccount::Power EnergyAccount::power_at_end(const Integrator& integrator) {
 // Without need for them, rates are those of the end of the step.
 EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t) {
   integrator.interpolate(t, 0, y_);
-  if (needs_rates_) integrator.interpolate(t, 1, yp_);
+  if (needs_rates_ || solved_between_steps()) integrator.interpolate(t, 1, yp_);
   if (solved_between_steps()) consistency_->collocate(t, 1 / (integrator.time() - integrator.previous_time()), y_, yp_);
   dae_->view(t, y_.data(), yp_.data());
   return {dae_->supplied_power(), dae_->dissipated_power()};

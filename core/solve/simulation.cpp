@@ -234,9 +234,12 @@ class Run {
       accumulation_.follow(t, view);
       tolerances_.allow(tolerance(accumulation_.local_share()), tolerance(accumulation_.dense_share()));
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
-      drive_.remember(t, view.velocity, view.acceleration);
       deflections_ = view.p;
       observer_.step(system_->integrator);
+      if (drive_.past().any()) {
+        const Dae::View& end = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
+        drive_.remember(t, end.velocity, end.acceleration);
+      }
       for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, deflections_, settings_.switch_times)) {
         observer_.event(event);
       }
