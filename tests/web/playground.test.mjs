@@ -144,6 +144,24 @@ test('curves follow a slider while it is dragged, and so do the netlist and the 
   await close();
 });
 
+test('what is typed beside a slider is a number, or is not taken', async () => {
+  const { page, close } = await open();
+  const before = await netlist(page);
+  for (const text of ['', 'abc', '1e400', '--']) {
+    await number(page, 'parameters.Tc').fill(text);
+    await number(page, 'parameters.Tc').press('Enter');
+    assert.equal(await number(page, 'parameters.Tc').inputValue(), '2', text);
+  }
+  assert.equal(await netlist(page), before);
+  await redrawn(page, async () => {
+    await number(page, 'parameters.Tc').fill('2,5');
+    await number(page, 'parameters.Tc').press('Enter');
+  });
+  assert.match(await netlist(page), /Tc = "2.5 N\*m"/);
+  await shows(page, 0.999, 'k1.force', 7.5);
+  await close();
+});
+
 test('the newest position of a slider wins', async () => {
   const { page, close } = await open();
   const knob = slider(page, 'parameters.Tc');

@@ -1,7 +1,8 @@
 // What there is to say of a run, folded away until somebody opens it.
 import { differencesOf } from './differences.js';
 import { element } from './dom.js';
-import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, notesOf, statisticsOf } from './sections.js';
+import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, inWords, notesOf, statisticsOf } from './sections.js';
+import { number } from './units.js';
 
 export class Folds {
   // explain() asks for what is simulated of the netlist that is edited, and why.
@@ -29,7 +30,7 @@ export class Folds {
       done ? this.fold('Statistics', () => statisticsOf(data)) : null,
       done?.notes.length || data.mistakes.length ? this.fold('Notes', () => notesOf(data)) : null,
       this.fold('Accuracy', () => accuracyOf(data, this.charts) ?? element('p', { class: 'note' },
-        `The scene asks for ${scene.accuracy}. \`rheonet report --certify --precision\` measures what is reached, and what it costs.`)),
+        inWords(`The scene asks for ${number(scene.accuracy)}. \`rheonet report --certify --precision\` measures what is reached, and what it costs.`))),
     ].filter(Boolean));
   }
 

@@ -6,7 +6,7 @@ import { element, table } from './dom.js';
 import { grouped, number, withUnit } from './units.js';
 
 // A text with what stands between backticks set as code.
-const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
+export const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
 
 // What a scene is to teach; `folded`: what can be seen and why is first to be thought about.
 export function lessonOf({ demo }, folded) {

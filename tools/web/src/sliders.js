@@ -20,7 +20,7 @@ class Slider {
     this.number.addEventListener('change', () => {
       const value = Number.parseFloat(this.number.value.replace(',', '.'));
       if (Number.isFinite(value)) this.slide(value);
-      this.show();
+      this.number.value = number(this.knob.value, 6);
     });
     this.row = element('div', { class: 'slider', title: knob.description, 'data-slider': `${knob.group}.${knob.name}` },
       element('span', { class: 'slider-name' }, knob.name), this.range, this.number, element('span', { class: 'unit' }, knob.unit));
