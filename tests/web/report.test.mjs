@@ -1,6 +1,6 @@
 // A report opens from a file, with the network off.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { accessible, bingham, browser, folderWith, remove, rheonet, watched } from './support.mjs';
@@ -60,6 +60,22 @@ test('a report of one scene shows all there is, offline', async () => {
   assert.match(await page.locator('.scene').textContent(), /energy supplied/);
   assert.deepEqual(wrong, []);
   await context.close();
+});
+
+test('prices are drawn, wherever they lie', async () => {
+  await rheonet(['report', 'stiff.toml', '-o', 'prices.html', '--precision'], { cwd: folder });
+  const html = readFileSync(join(folder, 'prices.html'), 'utf8');
+  const [, text] = /<script type="application\/json" id="data">(.*?)<\/script>/s.exec(html);
+  for (const errors of [[1.6775285934883536e-5, 1.9973574368773443e-12], [3e-5, 1e-5], [0.5, 1e-300], [2e-9]]) {
+    const data = JSON.parse(text);
+    const list = data.scenes[0].find(({ kind }) => kind === 'prices');
+    list.prices = errors.map((error, k) => ({ ...list.prices[0], error, cpu: 0.0019 * (k + 1) }));
+    writeFileSync(join(folder, 'moved.html'), html.replace(text, () => JSON.stringify(data).replaceAll('<', '\\u003c')));
+    const { context, page, wrong } = await open('moved.html');
+    assert.equal(await page.locator('section', { hasText: 'Accuracy and its price' }).last().locator('.loop canvas').count(), 1);
+    assert.deepEqual(wrong, [], String(errors));
+    await context.close();
+  }
 });
 
 test('plots zoom, and show what is chosen', async () => {

@@ -213,6 +213,17 @@ export class TimeChart extends Chart {
   }
 }
 
+// Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
+function decades(plot, axis, min, max) {
+  const low = Math.floor(Math.log10(min));
+  const high = Math.ceil(Math.log10(max));
+  const every = Math.ceil((high - low) / 8);
+  const factors = Math.log10(max / min) < 2 ? [1, 2, 5] : [1];
+  const splits = [];
+  for (let power = low; power <= high; power += every) for (const factor of factors) splits.push(Number(`${factor}e${power}`));
+  return splits.filter((value) => value >= min && value <= max);
+}
+
 export class LoopChart extends Chart {
   // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit, as }, or { log: true } of both.
   constructor(host, { x, y, curves, height = 380, marks = false }) {
@@ -228,7 +239,7 @@ export class LoopChart extends Chart {
     this.findUnits();
     const range = (_, min, max) => (log ? [min / 2, max * 2] : uPlot.rangeNum(min, max, 0.08, true));
     const scale = { time: false, range, distr: log ? 3 : 1 };
-    const logValues = log ? { values: (_, splits) => splits.map((v) => (v === null ? '' : number(v, 2))) } : {};
+    const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map((v) => number(v, 2)) } : {};
     this.plot = new uPlot(
       {
         mode: 2,
