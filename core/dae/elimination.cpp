@@ -1,10 +1,11 @@
 #include "core/dae/elimination.hpp"
 
+#include <klu.h>
+
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/network/index.hpp"
 
@@ -13,6 +14,41 @@ namespace rheonet {
 namespace {
 
 constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
+// A pivot off the diagonal is taken where that is smaller than this share of the largest of its column.
+constexpr double pivot_share = 0.1;
+
+/// KLU, of T. A. Davis and E. Palamadai Natarajan, ACM Transactions on Mathematical Software 37 (2010) 36: it looks for blocks that
+/// can be solved one after the other, and of what is integrated each is one.
+class Sparse {
+ public:
+  Sparse() {
+    klu_defaults(&common_);
+    common_.scale = 0;  // rows are scaled already
+    common_.tol = pivot_share;
+  }
+  ~Sparse() {
+    klu_free_numeric(&numeric_, &common_);
+    klu_free_symbolic(&symbolic_, &common_);
+  }
+  Sparse(const Sparse&) = delete;
+  Sparse& operator=(const Sparse&) = delete;
+
+  [[nodiscard]] bool factorise(const Pattern& pattern, std::vector<double>& values) {
+    // It does not change what these point to.
+    int* columns = const_cast<int*>(pattern.column_start.data());
+    int* rows = const_cast<int*>(pattern.row.data());
+    if (!symbolic_) symbolic_ = klu_analyze(pattern.size, columns, rows, &common_);
+    klu_free_numeric(&numeric_, &common_);
+    if (symbolic_) numeric_ = klu_factor(columns, rows, values.data(), symbolic_, &common_);
+    return numeric_ != nullptr;
+  }
+  void solve(Eigen::VectorXd& b) { klu_solve(symbolic_, numeric_, static_cast<int>(b.size()), 1, b.data(), &common_); }
+
+ private:
+  klu_common common_{};
+  klu_symbolic* symbolic_ = nullptr;
+  klu_numeric* numeric_ = nullptr;
+};
 
 }  // namespace
 
@@ -20,9 +56,8 @@ struct Elimination::Factor {
   bool dense = true;
   Eigen::MatrixXd matrix;
   Eigen::FullPivLU<Eigen::MatrixXd> lu;
-  Eigen::SparseMatrix<double> sparse;
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu;
-  bool analysed = false;
+  Sparse sparse;
+  std::vector<double> scaled;  ///< entries of the sparse matrix
   Eigen::VectorXd row_scale;
 };
 
@@ -69,33 +104,21 @@ bool Elimination::factorise_dense(const std::vector<double>& values) {
 
 bool Elimination::factorise_sparse(const std::vector<double>& values) {
   Factor& f = *factor_;
-  if (!f.analysed) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int c = 0; c < pattern_.size; ++c) {
-      for (int e = pattern_.column_start[at(c)]; e < pattern_.column_start[at(c) + 1]; ++e) {
-        entries.emplace_back(pattern_.row[at(e)], c, 1.0);
-      }
-    }
-    f.sparse.resize(pattern_.size, pattern_.size);
-    f.sparse.setFromTriplets(entries.begin(), entries.end());
-    f.sparse.makeCompressed();
-    f.sparse_lu.analyzePattern(f.sparse);
-    f.analysed = true;
-  }
-  for (std::size_t e = 0; e < values.size(); ++e) f.sparse.valuePtr()[e] = values[e] * f.row_scale[pattern_.row[e]];
-  f.sparse_lu.factorize(f.sparse);
-  return f.sparse_lu.info() == Eigen::Success;
+  f.scaled = values;
+  for (std::size_t e = 0; e < values.size(); ++e) f.scaled[e] *= f.row_scale[pattern_.row[e]];
+  return f.sparse.factorise(pattern_, f.scaled);
 }
 
 double Elimination::scaled(int row, double right) const { return right * factor_->row_scale[row]; }
 
 void Elimination::solve(std::vector<double>& b) const {
   Eigen::Map<Eigen::VectorXd> x(b.data(), static_cast<Eigen::Index>(b.size()));
-  const Eigen::VectorXd scaled = x.cwiseProduct(factor_->row_scale);
+  Eigen::VectorXd scaled = x.cwiseProduct(factor_->row_scale);
   if (factor_->dense) {
     x = factor_->lu.solve(scaled);
   } else {
-    x = factor_->sparse_lu.solve(scaled);
+    factor_->sparse.solve(scaled);
+    x = scaled;
   }
 }
 
