@@ -1,10 +1,10 @@
 // The playground, as somebody uses it.
 import assert from 'node:assert/strict';
-import { existsSync, readdirSync, readFileSync } from 'node:fs';
-import { dirname, join } from 'node:path';
+import { existsSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
-import { accessible, bingham, browser, folderWith, remove, rheonet, serve, watched } from './support.mjs';
+import { pathToFileURL } from 'node:url';
+import { accessible, bingham, browser, done, folderWith, remove, rheonet, serve, watched } from './support.mjs';
 
 // A block on a belt that is pulled through a spring: it sticks, and slips.
 const stickSlip = `# A block that is pulled through a spring.
@@ -46,7 +46,6 @@ async function open(hash = '#file=bingham.toml', options = {}, ready = done) {
   return { page, context, close };
 }
 
-const done = (page) => page.waitForFunction(() => /drawn \d+ ms/.test(document.querySelector('.status').textContent));
 // Does something, and waits until the curves that follow from it are drawn.
 async function redrawn(page, act) {
   const text = page.locator('.status');
@@ -358,31 +357,6 @@ test('it fits a phone, and light and dark; nobody is shut out', async () => {
     await accessible(page, what);
     await close();
   }
-});
-
-test('every demo asks its question, and moves what it says', async () => {
-  const netlists = join(dirname(fileURLToPath(import.meta.url)), '../../netlists');
-  const demos = readdirSync(join(netlists, 'teaching')).filter((name) => name.endsWith('.toml') && readFileSync(join(netlists, 'teaching', name), 'utf8').includes('\n[demo]'));
-  assert.ok(demos.length >= 10, demos.join(', '));
-  const other = await serve(netlists);
-  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 } });
-  const { page, wrong } = await watched(context, other.origin);
-  for (const name of demos) {
-    await page.goto(`${other.origin}/#file=teaching/${name}`);
-    await page.reload();
-    await done(page);
-    const text = readFileSync(join(netlists, 'teaching', name), 'utf8');
-    const question = /question\s*=\s*"(.*)"/.exec(text)[1];
-    assert.equal(await page.textContent('.question'), question, name);
-    assert.equal(await page.locator('.mistake').count(), 0, name);
-    assert.ok(await page.locator('.drawing [data-element]').count(), name);
-    assert.ok(await page.locator('.plots .chart canvas').count(), name);
-    const asked = /sliders\s*=\s*\{(.*)\}/.exec(text)?.[1].match(/\w+(?=\s*=\s*\[)/g) ?? [];
-    assert.deepEqual(await page.locator('fieldset', { hasText: 'to move' }).first().locator('.slider-name').allTextContents(), asked, name);
-  }
-  assert.deepEqual(wrong, []);
-  await context.close();
-  await other.stop();
 });
 
 test('what is simulated, and why, is said of the netlist as it is', async () => {

@@ -64,6 +64,9 @@ export async function watched(context, origin) {
   return { page, wrong };
 }
 
+// The playground has drawn what it was last given.
+export const done = (page) => page.waitForFunction(() => /drawn \d+ ms/.test(document.querySelector('.status').textContent));
+
 // Accessibility: no violation that is serious or critical.
 export async function accessible(page, what) {
   await page.evaluate(axe);
