@@ -111,7 +111,7 @@ double NetworkEvents::slider_function(int k, const Dae::View& view) const {
     const Branch& ends = structure.sliders[at(k)];
     if (ends.a != ends.b && !(structure.of_time[at(ends.a)] && structure.of_time[at(ends.b)]))
       return tolerances_.slider_noise(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
-    return law.breakaway * (1 + force_rounding) - std::abs(view.slider_force[at(k)]) + margin_[at(k)];
+    return law.breakaway * (1 + force_rounding) + tolerances_.slip_noise(k) - std::abs(view.slider_force[at(k)]) + margin_[at(k)];
   }
   return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
 }

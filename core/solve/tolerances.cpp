@@ -32,6 +32,8 @@ constexpr double noise_share = 0.1;
 constexpr double time_grains = 8;
 // Roundings of a deflection that a step may be off by (its sum of two).
 constexpr double value_grains = 4;
+// What a slider that sticks may have to bear above its bound for errors of steps, in shares of that.
+constexpr double slip_share = 10;
 // Rounding of a velocity that is a given function of time.
 constexpr double given_noise = 1e-13;
 
@@ -52,7 +54,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   slide_seen_.assign(network.sliders.size(), 0);
   relative_seen_.assign(nodes, 0);
   gap_seen_ = place_seen_ = way_seen_ = relative_seen_;
-  slider_noise_ = slide_rounding_ = slide_seen_;
+  slip_noise_ = slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
 
@@ -322,6 +324,31 @@ void Tolerances::find_noise() {
   }
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
     slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
+  }
+  find_slip_noise();
+}
+
+/// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the
+/// first step, which is of that order, would let it slip.
+void Tolerances::find_slip_noise() {
+  if (slip_noise_.empty()) return;
+  const Structure& structure = dae_->structure();
+  const std::vector<double>& slope = dae_->slopes();
+  node_noise_.assign(structure.kind.size(), 0);
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    const Branch& b = structure.deflections[j];
+    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    if (unknown < 0 || b.a == b.b) continue;
+    const double noise = std::abs(slope[j]) * tolerance_[at(unknown)];
+    for (const NodeId node : {b.a, b.b}) {
+      if (structure.kind[at(node)] != Kind::known) node_noise_[at(node)] += noise;
+    }
+  }
+  for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
+    const Branch& b = structure.sliders[k];
+    const double bound = network_.sliders[k].law.breakaway;
+    const double noise = structure.stuck[k] ? std::max(node_noise_[at(b.a)], node_noise_[at(b.b)]) : 0;
+    slip_noise_[k] = std::isfinite(bound) ? std::min(noise, slip_share * local() * bound) : 0;
   }
 }
 

@@ -45,6 +45,8 @@ class Tolerances {
   /// Of the force of a rate branch that is solved for it.
   double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
+  /// Force by which a slider that sticks may seem to be above its bound for the errors that steps are allowed [N].
+  double slip_noise(int slider) const { return slip_noise_[static_cast<std::size_t>(slider)]; }
 
  private:
   enum class Sort : char { velocity, deflection, force, position, block };
@@ -71,6 +73,7 @@ class Tolerances {
   void loosen_positions();
   void loosen_balanced_forces();
   void find_noise();
+  void find_slip_noise();
   void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
   void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
@@ -122,7 +125,8 @@ class Tolerances {
   double largest_velocity_ = 0;
   Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
-  std::vector<double> noise_, slider_noise_, tolerance_;
+  std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_;
+  std::vector<double> node_noise_;  ///< of each node: the errors of forces there [N]
 };
 
 }  // namespace rheonet

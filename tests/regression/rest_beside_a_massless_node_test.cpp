@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/support/check.hpp"
+#include "tests/support/simulate.hpp"
 
 using namespace rheonet;
 
@@ -29,5 +30,24 @@ m1 = { type = "mass", at = "n1", mass = 0.07926017738542353 }
 )",
                                              0.9975304208830665, 61),
                                1e-6, {"e2.force", "e3.force", "n1.velocity"});
+  }
+}
+
+// Such a slider bears its full force at first, and less by the second order of time from there on: the error of the first step
+// let it slip again, for a moment, and again and again at a loose accuracy.
+TEST_CASE("a slider that has come to rest at its full force sticks at once, however loose the accuracy") {
+  for (const double accuracy : {1e-2, 1e-3, 1e-5, 1e-8}) {
+    CAPTURE(accuracy);
+    Summary summary;
+    test::simulate(test::scene_of(test::netlist({}, R"([elements]
+drive = { type = "force", at = "end", force = { sine = 1.5713, frequency = 2.1583 } }
+e1 = { type = "sfm", between = ["end", "ground"], stiffness = 8.825, coulomb = 1.1159 }
+e2 = { type = "slider", between = ["end", "n1"], coulomb = 0.5193 }
+e3 = { type = "vfm", between = ["n1", "ground"], stiffness = 8.5118, damping = 2.5799 }
+m1 = { type = "mass", at = "n1", mass = 0.01259 }
+)",
+                                                1.1042, 61), accuracy), &summary);
+    CHECK(summary.events == 17);
+    CHECK(summary.restarts == 18);
   }
 }
