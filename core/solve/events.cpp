@@ -152,6 +152,10 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
     const double against = -law.batch->direction(law.i) * flow(law, view).velocity;
     if (!law.batch->holds(law.i) && against > 0) laws.push_back({law.branch, against});
   }
+  for (const int k : sliders_) {
+    const double against = -modes_.slider[at(k)] * view.slider_velocity[at(k)];
+    if (!dae_.structure().stuck[at(k)] && against > 0) laws.push_back({k, against, true});
+  }
   return laws;
 }
 

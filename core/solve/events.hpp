@@ -27,8 +27,8 @@ class NetworkEvents final : public EventFunctions {
   /// SimulationError where it is not.
   void begin(double t, const double* y, const double* yp);
 
-  /// A law that moves against its direction, at this speed [m/s].
-  struct Turned { int branch; double speed; };
+  /// A law, or a slider, that moves against its direction, at this speed [m/s].
+  struct Turned { int branch; double speed; bool slides = false; };
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
 
   /// Sliders stick here that may break away, or blocks limit what they take in.

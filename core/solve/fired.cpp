@@ -10,20 +10,20 @@ namespace rheonet {
 
 namespace {
 
-// What moves at this share of the speed of what has just turned has turned too.
+// What moves back at this share of the speed of what has just turned has turned too.
 constexpr double as_surely = 0.5;
 
 /// What may be kept together with a branch by what rests between them: the event of the first must not leave the others
-/// behind. Those not `switched` that move against their direction as fast as the slowest of `turns`.
-std::vector<int> turning_along(const std::vector<NetworkEvents::Turned>& all, const std::vector<int>& switched,
-                               const std::vector<int>& turns) {
+/// behind. Those not among the fired that move against their direction as fast as the slowest of what has turned.
+std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents::Turned>& all, const std::vector<int>& switched,
+                                                 const Instant::Fired& fired) {
   double speed = std::numeric_limits<double>::infinity();
-  for (const NetworkEvents::Turned& law : all) {
-    if (contains(turns, law.branch)) speed = std::min(speed, law.speed);
+  for (const NetworkEvents::Turned& one : all) {
+    if (contains(one.slides ? fired.sliders : fired.turns, one.branch)) speed = std::min(speed, one.speed);
   }
-  std::vector<int> along;
-  for (const NetworkEvents::Turned& law : all) {
-    if (law.speed >= as_surely * speed && !contains(switched, law.branch)) along.push_back(law.branch);
+  std::vector<NetworkEvents::Turned> along;
+  for (const NetworkEvents::Turned& one : all) {
+    if (one.speed >= as_surely * speed && !contains(one.slides ? fired.sliders : switched, one.branch)) along.push_back(one);
   }
   return along;
 }
@@ -86,7 +86,12 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
       list.insert(list.end(), released.begin(), released.end());
     }
   }
-  for (const int branch : turning_along(turned, switched, fired.sudden.turns)) {
+  for (const auto& [branch, speed, slides] : turning_along(turned, switched, fired.sudden)) {
+    if (slides) {
+      fired.sudden.sliders.push_back(branch);
+      fired.elements.push_back(dae.network().sliders[at(branch)].branch.element);
+      continue;
+    }
     std::size_t i = 0;
     DeflectionBatch& batch = dae.batch_of(branch, i);
     batch.set_direction(i, view.p[at(branch)], view.flow[at(branch)], -batch.direction(i));
