@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include "core/network/time_grain.hpp"
 #include "core/network/index.hpp"
@@ -316,6 +318,38 @@ void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
   for (const Network::Slider& s : network_.sliders) mention(s.branch);
   for (const Branch& b : network_.deflections) mention(b);
   report_overload(network_, t, nodes, elements);
+}
+
+/// What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
+/// within the time looked ahead. What sticks to an end without mass, or stands, goes along.
+void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state) const {
+  if (std::none_of(fired.turns.begin(), fired.turns.end(), [&](int j) { return may_stand(j); })) return;
+  Sets together(structure_.kind.size());
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (modes.slider[k] == Modes::stuck) together.join(b.a, b.b);
+  }
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.deflections[at(laws.first) + i];
+      if (laws.batch->holds(i)) together.join(b.a, b.b);
+    }
+  }
+  std::vector<char> heavy(structure_.kind.size(), 0);
+  for (std::size_t n = 0; n < heavy.size(); ++n) {
+    if (!massless(static_cast<NodeId>(n))) heavy[at(together.find(static_cast<NodeId>(n)))] = 1;
+  }
+  for (const int j : fired.turns) {
+    if (!may_stand(j)) continue;
+    const Branch& b = network_.deflections[at(j)];
+    NodeId stops = together.find(b.a), beside = b.b;
+    if (heavy[at(stops)]) std::tie(stops, beside) = std::pair(together.find(b.b), b.a);
+    if (heavy[at(stops)] || together.find(beside) == stops) continue;
+    const double velocity = state.velocity[at(beside)];
+    for (std::size_t n = 0; n < heavy.size(); ++n) {
+      if (together.find(static_cast<NodeId>(n)) == stops) state.velocity[n] = velocity;
+    }
+  }
 }
 
 }  // namespace rheonet

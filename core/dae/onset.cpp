@@ -63,7 +63,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
               .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
               .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
               .bound_side = std::vector<int>(network_.sliders.size())};
-  stop_at_turns(fired, state);
+  stop_at_turns(fired, modes, state);
   add_nodes(onset, state);
   add_drive(onset);
   add_deflection_laws(onset, state);
@@ -92,16 +92,6 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   }
   rest_beside_sliders(fired, state, modes);
   return broken;
-}
-
-/// What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
-/// within the time looked ahead.
-void Instant::stop_at_turns(const Fired& fired, State& state) const {
-  for (const int j : fired.turns) {
-    if (!may_stand(j)) continue;
-    const Branch& b = network_.deflections[at(j)];
-    massless(b.a) ? state.velocity[at(b.a)] = state.velocity[at(b.b)] : state.velocity[at(b.b)] = state.velocity[at(b.a)];
-  }
 }
 
 void Instant::add_nodes(Onset& onset, const State& state) const {

@@ -56,3 +56,48 @@ output = { points = 581 }
     CHECK(std::count(v.begin(), v.end(), 0.0) >= 5);
   }
 }
+
+namespace {
+
+/// The events of a scene are what they are, however loose the accuracy.
+void check_events(const std::string& toml, long events) {
+  for (const double accuracy : {1e-2, 1e-3, 1e-6}) {
+    CAPTURE(accuracy);
+    Summary summary;
+    test::simulate(test::scene_of(toml, accuracy), &summary);
+    CHECK(summary.events == events);
+  }
+}
+
+}  // namespace
+
+// Friction beside a slider turned a little before that, and the slider was left behind, slipping to and fro over thousands of
+// stops.
+TEST_CASE("a slider that turns with friction beside it comes to rest with it") {
+  check_events(R"([elements]
+drive = { type = "motion", at = "end", position = { table = [[0, 0], [0.1312, -0.04566], [0.2907, 0.07795], [0.4436, -0.08659], [0.6243, 0.08726], [0.7345, -0.07884]] } }
+e1 = { type = "slider", between = ["n1", "end"], coulomb = 1.5079 }
+e2 = { type = "sfm", between = ["n1", "ground"], stiffness = 7.9718, coulomb = 0.56763, exponent = 2 }
+e3 = { type = "dashpot", between = ["ground", "n1"], damping = 2.2194 }
+m_n1 = { type = "mass", at = "n1", mass = 0.060029 }
+[simulate]
+stop = 0.8128
+output = { points = 61 }
+)",
+               17);
+}
+
+// The end of friction that has stopped was stopped without the node that other friction at rest held there.
+TEST_CASE("friction comes to rest with what friction at rest holds to it") {
+  check_events(R"([elements]
+drive = { type = "force", at = "end", force = { triangle = -1.336, frequency = 2.4807 } }
+e1 = { type = "dashpot", between = ["n1", "end"], damping = 0.74181 }
+e2 = { type = "cfm", between = ["n2", "n1"], stiffness = 53.81, damping = 0.84993, coulomb = 0.70939, exponent = 2 }
+e3 = { type = "cfm", between = ["n2", "ground"], stiffness = 56.687, damping = 0.77364, coulomb = 1.0832, exponent = 2 }
+m_end = { type = "mass", at = "end", mass = 0.046533 }
+[simulate]
+stop = 1.1934
+output = { points = 61 }
+)",
+               26);
+}
