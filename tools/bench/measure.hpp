@@ -10,6 +10,7 @@
 #include <ctime>
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,13 @@ inline Outcome alone(unsigned seconds, const std::function<std::vector<double>()
   ::wait4(child, &status, 0, &usage);
   outcome.megabytes = static_cast<double>(usage.ru_maxrss) / 1024;
   return outcome;
+}
+
+/// A file for tables. Throws std::runtime_error if it cannot be written.
+inline std::FILE* open_table(const char* path) {
+  std::FILE* file = std::fopen(path, "w");
+  if (!file) throw std::runtime_error(fmt::format("`{}` cannot be written", path));
+  return file;
 }
 
 /// A table, in Markdown on standard output and as CSV in a file if there is one.

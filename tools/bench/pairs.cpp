@@ -1,7 +1,7 @@
 // What a scene costs from its netlist, beside a program for IDA that is written by hand for that scene: CPU time at the
 // same error. Each figure is the median of runs of both, taken in turns in one process.
 //
-//   bench_pairs [-o FILE.csv] [SCENE ...]            tables, of maxwell, stick-slip, ladder, iwan
+//   bench_pairs [-o FILE.csv] [--quick] [SCENE ...]  tables, of maxwell, stick-slip, ladder, iwan; --quick: small ones
 //   bench_pairs --once SCENE hand|netlist TOLERANCE TIMES      runs one, to count its instructions
 
 #include <cstring>
@@ -38,6 +38,12 @@ std::vector<double> times_of(const Scene& scene) {
   for (std::int64_t k = 0; k < scene.output_intervals; ++k) times.push_back(scene.start + static_cast<double>(k) * scene.output_every);
   times.push_back(scene.stop);
   return times;
+}
+
+std::vector<double> record_of(const hand::Run& run) {
+  std::vector<double> column;
+  for (const std::vector<double>& row : run.rows) column.push_back(row.front());
+  return column;
 }
 
 double largest(const std::vector<double>& values) {
@@ -90,7 +96,7 @@ void compare(const Pair& pair, std::FILE* csv, int runs, double tightest) {
       summary = rheonet::run(scene);
       seconds.push_back(cpu_seconds() - begin);
     }
-    by_hand.push_back({setting, error(run.values, truth), median(hand_seconds), run.steps});
+    by_hand.push_back({setting, error(record_of(run), truth), median(hand_seconds), run.steps});
     netlist.push_back({setting, error(values(scene), truth), median(seconds), summary.steps});
     const Cost &h = by_hand.back(), &n = netlist.back();
     table.row({fmt::format("{:g}", setting), fmt::format("{:.1e}", h.error), milliseconds(h.seconds), std::to_string(h.steps),
@@ -123,20 +129,27 @@ int main(int count, char** words) {
   try {
     if (count == 6 && std::strcmp(words[1], "--once") == 0) return once(words + 2);
     std::FILE* csv = nullptr;
-    int first = 1;
-    if (count > 2 && std::strcmp(words[1], "-o") == 0) {
-      csv = std::fopen(words[2], "w");
-      first = 3;
+    bool quick = false;
+    std::vector<std::string> names;
+    for (int k = 1; k < count; ++k) {
+      const std::string word = words[k];
+      if (word == "-o" && k + 1 < count)
+        csv = open_table(words[++k]);
+      else if (word == "--quick")
+        quick = true;
+      else
+        names.push_back(word);
     }
-    std::vector<std::string> names(words + first, words + count);
     if (names.empty()) names = {"maxwell", "stick-slip", "ladder", "iwan"};
     for (const std::string& name : names) {
       if (name == "ladder") {
-        for (const int masses : {10, 1000}) compare(pair_of(name, masses), csv, 5, 1e-8);
+        for (const int masses : {10, 1000})
+          if (!quick || masses == 10) compare(pair_of(name, masses), csv, quick ? 3 : 5, quick ? 1e-6 : 1e-8);
       } else if (name == "iwan") {
-        compare(pair_of(name, 100), csv, 3, 1e-7);
+        for (const int pairs : {100, 1000})
+          if (!quick || pairs == 100) compare(pair_of(name, pairs), csv, 3, quick ? 1e-5 : 1e-6);
       } else {
-        compare(pair_of(name, 0), csv, 15, 1e-10);
+        compare(pair_of(name, 0), csv, quick ? 5 : 15, quick ? 1e-7 : 1e-10);
       }
     }
     if (csv && std::fclose(csv) != 0) throw std::runtime_error("the table cannot be written");

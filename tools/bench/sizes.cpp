@@ -1,9 +1,9 @@
 // What scenes cost that grow: reading, simulating, memory, against their size; each in a process of its own.
 //
-//   bench_sizes [-o FILE.csv] [--large] [--limit SECONDS] [SCENE ...]
+//   bench_sizes [-o FILE.csv] [--quick | --large] [--limit SECONDS] [SCENE ...]
 //
 // Scenes: ladder, hand-ladder, iwan, hand-iwan, couette, tree, grid, written-out. --large goes up to a million masses, and to the grid
-// of 100 x 100.
+// of 100 x 100; --quick takes the two smallest of each.
 
 #include <cstring>
 
@@ -54,10 +54,13 @@ std::vector<double> done_by_hand(const Family& family, int size) {
 
 std::string whole(double value) { return fmt::format("{:.0f}", value); }
 
-void measure(const Family& family, std::FILE* csv, bool large, unsigned limit) {
+enum class Extent { quick, usual, large };
+
+void measure(const Family& family, std::FILE* csv, Extent extent, unsigned limit) {
   Table table(csv, family.name, {"size", "reading, ms", "simulating, ms", "ms an event", "unknowns", "steps", "events", "starts", "MB"});
   std::vector<int> sizes = family.sizes;
-  if (large) sizes.insert(sizes.end(), family.large.begin(), family.large.end());
+  if (extent == Extent::large) sizes.insert(sizes.end(), family.large.begin(), family.large.end());
+  if (extent == Extent::quick) sizes.resize(std::min<std::size_t>(sizes.size(), 2));
   std::vector<double> x, seconds;
   for (const int size : sizes) {
     const Outcome outcome = alone(limit, [&] { return family.netlist ? simulated(family.netlist(size)) : done_by_hand(family, size); });
@@ -77,22 +80,32 @@ void measure(const Family& family, std::FILE* csv, bool large, unsigned limit) {
 }  // namespace
 
 int main(int count, char** words) {
-  std::FILE* csv = nullptr;
-  bool large = false;
-  unsigned limit = 600;
-  std::vector<std::string> names;
-  for (int k = 1; k < count; ++k) {
-    const std::string word = words[k];
-    if (word == "-o" && k + 1 < count)
-      csv = std::fopen(words[++k], "w");
-    else if (word == "--large")
-      large = true;
-    else if (word == "--limit" && k + 1 < count)
-      limit = static_cast<unsigned>(std::atoi(words[++k]));
-    else
-      names.push_back(word);
+  try {
+    std::FILE* csv = nullptr;
+    Extent extent = Extent::usual;
+    unsigned limit = 600;
+    std::vector<std::string> names;
+    for (int k = 1; k < count; ++k) {
+      const std::string word = words[k];
+      if (word == "-o" && k + 1 < count)
+        csv = open_table(words[++k]);
+      else if (word == "--large" || word == "--quick")
+        extent = word == "--large" ? Extent::large : Extent::quick;
+      else if (word == "--limit" && k + 1 < count)
+        limit = static_cast<unsigned>(std::atoi(words[++k]));
+      else
+        names.push_back(word);
+    }
+    const auto wanted = [&](const std::string& name) { return names.empty() || std::find(names.begin(), names.end(), name) != names.end(); };
+    for (const std::string& name : names) {
+      if (std::none_of(std::begin(families), std::end(families), [&](const Family& family) { return family.name == name; }))
+        throw std::runtime_error("there is no scene `" + name + "`");
+    }
+    for (const Family& family : families)
+      if (wanted(family.name)) measure(family, csv, extent, limit);
+    if (csv && std::fclose(csv) != 0) throw std::runtime_error("the table cannot be written");
+  } catch (const std::exception& mistake) {
+    fmt::print(stderr, "bench_sizes: {}\n", mistake.what());
+    return 1;
   }
-  for (const Family& family : families)
-    if (names.empty() || std::find(names.begin(), names.end(), family.name) != names.end()) measure(family, csv, large, limit);
-  return csv && std::fclose(csv) != 0 ? 1 : 0;
 }

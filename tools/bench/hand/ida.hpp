@@ -59,11 +59,13 @@ class Ida {
     check(flag, "IDASolve");
     return flag;
   }
-  /// Takes down an unknown at those of the times that the last step has reached.
-  void take(sunindextype unknown, const std::vector<double>& times, std::vector<double>& values) {
-    while (values.size() < times.size() && times[values.size()] <= t) {
-      check(IDAGetDky(memory, times[values.size()], 0, at_), "IDAGetDky");
-      values.push_back(N_VGetArrayPointer(at_)[unknown]);
+  /// Takes down row(t, y) at those of the times that the last step has reached.
+  template <class Row>
+  void take(const std::vector<double>& times, std::vector<std::vector<double>>& rows, Row row) {
+    while (rows.size() < times.size() && times[rows.size()] <= t) {
+      const double then = times[rows.size()];
+      check(IDAGetDky(memory, then, 0, at_), "IDAGetDky");
+      rows.push_back(row(then, N_VGetArrayPointer(at_)));
     }
   }
   long steps() const {

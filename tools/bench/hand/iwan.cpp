@@ -107,10 +107,11 @@ Run iwan(int pairs, double tolerance, const std::vector<double>& times) {
   Ida::check(IDARootInit(ida.memory, pairs + 1, roots), "IDARootInit");
   Ida::check(IDASetInitStep(ida.memory, 1e-6), "IDASetInitStep");
   Run run;
-  run.values.push_back(0);
+  const auto row = [](double, const double* y) { return std::vector{y[0]}; };
+  run.rows.push_back({0});
   while (ida.t < times.back()) {
     const int flag = ida.step(times.back());
-    ida.take(0, times, run.values);
+    ida.take(times, run.rows, row);
     if (flag != IDA_ROOT_RETURN) continue;
     ++run.events;
     run.steps += ida.steps();

@@ -56,10 +56,11 @@ Run ladder(int masses, double tolerance, const std::vector<double>& times) {
   ida.P()[1] = push / m;
   Ida::check(IDAReInit(ida.memory, 0, ida.y, ida.yp), "IDAReInit");
   Run run;
-  run.values.push_back(0);
+  const auto row = [&](double, const double* y) { return std::vector{y[0], y[1], k * (y[0] - (masses > 1 ? y[2] : 0))}; };
+  run.rows.push_back({0, 0, 0});
   while (ida.t < times.back()) {
     ida.step(times.back());
-    ida.take(0, times, run.values);
+    ida.take(times, run.rows, row);
   }
   run.steps = ida.steps();
   return run;

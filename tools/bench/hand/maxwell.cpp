@@ -28,10 +28,11 @@ Run maxwell(double tolerance, const std::vector<double>& times) {
   Ida ida(1, 0, residual, jacobian, tolerance, 1e-2 * tolerance);
   Ida::check(IDASetInitStep(ida.memory, 1e-6), "IDASetInitStep");
   Run run;
-  run.values.push_back(0);
+  const auto row = [](double, const double* y) { return std::vector{y[0]}; };
+  run.rows.push_back({0});
   while (ida.t < times.back()) {
     ida.step(times.back());
-    ida.take(0, times, run.values);
+    ida.take(times, run.rows, row);
   }
   run.steps = ida.steps();
   return run;
