@@ -71,8 +71,10 @@ struct Integrator::Implementation {
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
-    require(IDASetId(ida, nw), "IDASetId");
-    require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+    if (std::find(work.begin(), work.end(), 0.0) != work.end()) {
+      require(IDASetId(ida, nw), "IDASetId");
+      require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
+    }
     newton = SUNNonlinSol_Newton(ny, context);
     require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
     const auto* content = static_cast<SUNNonlinearSolverContent_Newton>(newton->content);
