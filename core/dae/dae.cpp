@@ -74,93 +74,108 @@ void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
   rows_.push_back(r);
 }
 
-namespace {
+/// The Jacobian's entries while the pattern is built, each known by a ticket.
+struct Dae::Drafts {
+  struct Constant { int ticket; double value, mass; };
+  PatternBuilder builder;
+  std::vector<Constant> constants;
+  std::vector<Scatter> scatter;
 
-/// An entry of the Jacobian while the pattern is built.
-struct Draft { int ticket; double constant, mass; };
-
-}  // namespace
+  void put(int row, int column, double value, double mass) {
+    if (column >= 0) constants.push_back({builder.ticket(row, column), value, mass});
+  }
+  void depend(int row, int column, Source source, int index, double sign) {
+    if (row >= 0 && column >= 0) scatter.push_back({builder.ticket(row, column), source, index, sign});
+  }
+};
 
 void Dae::build_pattern() {
-  const Network& network = *network_;
-  PatternBuilder builder;
-  std::vector<Draft> drafts;
-  std::vector<Scatter> scatter;
-  const auto put = [&](int row, int column, double constant, double mass) {
-    if (column >= 0) drafts.push_back({builder.ticket(row, column), constant, mass});
-  };
-  const auto depend = [&](int row, int column, Source source, int index, double sign) {
-    if (column >= 0) scatter.push_back({builder.ticket(row, column), source, index, sign});
-  };
+  Drafts drafts;
+  draft_balances(drafts);
+  draft_rates(drafts);
+  draft_rows(drafts);
+  if (idle_) drafts.put(0, 0, 0, 1);
+  for (const int z : iz_) drafts.put(z, z, 0, 1);
+  build_couplings(drafts.builder);
+  find_parallels();
+  for (Follower& f : followers_) {
+    f.own_entry = drafts.builder.ticket(f.row, ip_[at(f.branch)]);
+    f.leader_entry = drafts.builder.ticket(f.row, ip_[at(f.leader)]);
+  }
+  take_entries(drafts);
+  moving_.assign(ip_.size(), 1);
+  update_holds();
+}
 
-  // Balances: a branch adds +f at its first node and -f at its second; a group's row is the sum over its nodes.
+/// Balances: a branch adds +f at its first node and -f at its second; a group's row is the sum over its nodes.
+void Dae::draft_balances(Drafts& drafts) const {
   const auto balance_row = [&](NodeId node) { return iv_[at(node)]; };
   const auto group_row = [&](NodeId node) { return balance_of_group(node); };
-  for (std::size_t j = 0; j < network.deflections.size(); ++j) {
+  for (std::size_t j = 0; j < structure_->deflections.size(); ++j) {
     const Branch& b = structure_->deflections[j];
     if (b.a == b.b) continue;
     const int index = static_cast<int>(j);
-    if (balance_row(b.a) >= 0) depend(balance_row(b.a), ip_[j], Source::force, index, 1);
-    if (balance_row(b.b) >= 0) depend(balance_row(b.b), ip_[j], Source::force, index, -1);
+    drafts.depend(balance_row(b.a), ip_[j], Source::force, index, 1);
+    drafts.depend(balance_row(b.b), ip_[j], Source::force, index, -1);
     if (group_row(b.a) == group_row(b.b)) continue;  // within one group the two ends cancel
-    if (group_row(b.a) >= 0) depend(group_row(b.a), ip_[j], Source::force, index, 1);
-    if (group_row(b.b) >= 0) depend(group_row(b.b), ip_[j], Source::force, index, -1);
+    drafts.depend(group_row(b.a), ip_[j], Source::force, index, 1);
+    drafts.depend(group_row(b.b), ip_[j], Source::force, index, -1);
   }
-  for (std::size_t r = 0; r < network.rates.size(); ++r) {
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    if (structure_->kind[n] == Kind::massive) drafts.put(iv_[n], iv_[n], 0, structure_->mass[n]);
+  }
+}
+
+void Dae::draft_rates(Drafts& drafts) const {
+  for (std::size_t r = 0; r < structure_->rates.size(); ++r) {
     const Branch& b = structure_->rates[r];
     if (b.a == b.b) continue;
     const int index = static_cast<int>(r);
     for (const auto& [node, sign] : {std::pair{b.a, 1.0}, std::pair{b.b, -1.0}}) {
-      const int row = balance_row(node);
+      const int row = iv_[at(node)];
       if (row < 0) continue;
       if (if_[r] >= 0) {
-        put(row, if_[r], sign, 0);
+        drafts.put(row, if_[r], sign, 0);
       } else {
-        depend(row, iv_[at(b.a)], Source::rate, index, sign);
-        depend(row, iv_[at(b.b)], Source::rate, index, -sign);
+        drafts.depend(row, iv_[at(b.a)], Source::rate, index, sign);
+        drafts.depend(row, iv_[at(b.b)], Source::rate, index, -sign);
       }
     }
     if (if_[r] >= 0) {
-      put(if_[r], iv_[at(b.a)], 1, 0);
-      put(if_[r], iv_[at(b.b)], -1, 0);
-      depend(if_[r], if_[r], Source::rate, index, -1);
+      drafts.put(if_[r], iv_[at(b.a)], 1, 0);
+      drafts.put(if_[r], iv_[at(b.b)], -1, 0);
+      drafts.depend(if_[r], if_[r], Source::rate, index, -1);
     }
   }
-  for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (structure_->kind[n] == Kind::massive) put(iv_[n], iv_[n], 0, structure_->mass[n]);
-  }
+}
+
+void Dae::draft_rows(Drafts& drafts) {
   for (const Row& row : rows_) {
-    if (row.position) put(row.row, row.row, 0, 1);
+    if (row.position) drafts.put(row.row, row.row, 0, 1);
     for (int k = row.terms.flow_begin; k < row.terms.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
-      flow_entries_.push_back({builder.ticket(row.row, ip_[at(j)]), j, sign});
+      flow_entries_.push_back({drafts.builder.ticket(row.row, ip_[at(j)]), j, sign});
       std::size_t i = 0;
-      if (batch_of(j, i).creeps(i)) depend(row.row, ip_[at(j)], Source::creep, j, sign);
+      if (batch_of(j, i).creeps(i)) drafts.depend(row.row, ip_[at(j)], Source::creep, j, sign);
     }
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
+      drafts.put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
     }
     for (int k = row.now.velocity_begin; k < row.now.velocity_end; ++k) {
       const auto [node, sign] = velocities_[at(k)];
-      if (iv_[at(node)] >= 0) felt_entries_.push_back({builder.ticket(row.row, iv_[at(node)]), row.delayed, sign});
+      if (iv_[at(node)] >= 0) felt_entries_.push_back({drafts.builder.ticket(row.row, iv_[at(node)]), row.delayed, sign});
     }
   }
+}
 
-  if (idle_) put(0, 0, 0, 1);
-  for (const int z : iz_) put(z, z, 0, 1);
-  build_couplings(builder);
-  find_parallels();
-  for (Follower& f : followers_) {
-    f.own_entry = builder.ticket(f.row, ip_[at(f.branch)]);
-    f.leader_entry = builder.ticket(f.row, ip_[at(f.leader)]);
-  }
-
+/// The pattern, and in place of each ticket the entry that it has become.
+void Dae::take_entries(Drafts& drafts) {
   std::vector<int> entry;
-  pattern_ = builder.build(size_, entry);
+  pattern_ = drafts.builder.build(size_, entry);
   constant_.assign(at(pattern_.entries()), 0);
   fixed_mass_ = mass_ = constant_;
-  for (const Draft& d : drafts) {
-    constant_[at(entry[at(d.ticket)])] += d.constant;
+  for (const Drafts::Constant& d : drafts.constants) {
+    constant_[at(entry[at(d.ticket)])] += d.value;
     fixed_mass_[at(entry[at(d.ticket)])] += d.mass;
   }
   for (FlowEntry& f : flow_entries_) f.entry = entry[at(f.entry)];
@@ -173,10 +188,8 @@ void Dae::build_pattern() {
     }
   }
   for (Coupling& c : couplings_) c.entry = entry[at(c.entry)];
-  for (Scatter& s : scatter) s.entry = entry[at(s.entry)];
-  scatter_ = std::move(scatter);
-  moving_.assign(ip_.size(), 1);
-  update_holds();
+  for (Scatter& s : drafts.scatter) s.entry = entry[at(s.entry)];
+  scatter_ = std::move(drafts.scatter);
 }
 
 void Dae::enter(double t, const State& state, const Modes& modes, std::vector<double>& y) {

@@ -221,7 +221,12 @@ class Dae {
     const int group = structure_->group[at(node)];
     return group < 0 ? -1 : group_row_[at(group)];
   }
+  struct Drafts;
   void build_pattern();
+  void draft_balances(Drafts& drafts) const;
+  void draft_rates(Drafts& drafts) const;
+  void draft_rows(Drafts& drafts);
+  void take_entries(Drafts& drafts);
   // evaluate.cpp
   void gather(double t, const double* y);
   void sum_forces();

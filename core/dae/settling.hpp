@@ -99,7 +99,10 @@ class Settling {
   void refuse_motion() const;
 
   // steady_places.cpp
+  struct Forces;
+  Forces forces_at_start();
   bool find_places();
+  void take_places(const ConvexNetwork& problem);
   std::vector<std::string> fix_places(ConvexNetwork& problem, Sets& hang) const;
 
   const Network& network_;

@@ -4,54 +4,66 @@
 
 namespace rheonet {
 
-/// Displacements from the start values to where the forces balance that go with the velocities. False if sliders have
-/// broken away on the way there.
-bool Settling::find_places() {
-  std::vector<double> load = load_;
-  const auto push = [&](const Branch& b, double f) {
+/// The forces at the start values that displacements have to balance.
+struct Settling::Forces {
+  std::vector<double> load;           // on each node
+  std::vector<double> elastic;        // of each deflection branch, where it is elastic
+  Sets hang;                          // nodes that hold each other in place
+  std::vector<std::string> sticking;  // what does so by friction
+
+  void push(const Branch& b, double f) {
     load[at(b.a)] -= f;
     load[at(b.b)] += f;
-  };
+  }
+};
+
+Settling::Forces Settling::forces_at_start() {
+  Forces forces{load_, std::vector<double>(laws_.size(), 0), Sets(velocity_.size()), {}};
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      push(b, laws.batch->force_at(i, difference(b)));
+      forces.push(b, laws.batch->force_at(i, difference(b)));
     }
   }
-  Sets hang(velocity_.size());
-  std::vector<std::string> sticking;
-  std::vector<double> f(laws_.size(), 0);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     Law& law = laws_[j];
     const Branch& b = network_.deflections[j];
+    double f = 0;
     if (law.elastic()) {
       double slope = 0;
-      f[j] = law.batch->force_along(law.i, state_.p[j], 0, slope);
-      hang.join(b.a, b.b);
-      if (!law.rigid()) sticking.push_back(name(b));
+      f = forces.elastic[j] = law.batch->force_along(law.i, state_.p[j], 0, slope);
+      forces.hang.join(b.a, b.b);
+      if (!law.rigid()) forces.sticking.push_back(name(b));
     } else {
-      f[j] = law.force(difference(b));
-      state_.p[j] = law.batch->settle(law.i, state_.p[j], f[j], law.direction);
+      f = law.force(difference(b));
+      state_.p[j] = law.batch->settle(law.i, state_.p[j], f, law.direction);
     }
-    push(b, f[j]);
+    forces.push(b, f);
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] == 0) {
-      hang.join(s.branch.a, s.branch.b);
-      if (!rigid(k)) sticking.push_back(name(s.branch));
+      forces.hang.join(s.branch.a, s.branch.b);
+      if (!rigid(k)) forces.sticking.push_back(name(s.branch));
     } else {
       result_.slider_force[k] = slip_[k] * s.law.coulomb;
-      push(s.branch, result_.slider_force[k]);
+      forces.push(s.branch, result_.slider_force[k]);
     }
   }
+  return forces;
+}
+
+/// Displacements from the start values to where the forces balance that go with the velocities. False if sliders have
+/// broken away on the way there.
+bool Settling::find_places() {
+  Forces forces = forces_at_start();
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
-  const std::vector<std::string> open = fix_places(problem, hang);
-  for (std::size_t n = 0; n < load.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), load[n]);
+  const std::vector<std::string> open = fix_places(problem, forces.hang);
+  for (std::size_t n = 0; n < velocity_.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), forces.load[n]);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Law& law = laws_[j];
     if (!law.elastic()) continue;
-    const double p = state_.p[j], f0 = f[j];
+    const double p = state_.p[j], f0 = forces.elastic[j];
     problem.add(slot(network_.deflections[j].a), slot(network_.deflections[j].b),
                 {.backward = law.batch->slope(law.i, p, -1),
                  .forward = law.batch->slope(law.i, p, 1),
@@ -74,6 +86,19 @@ bool Settling::find_places() {
     result_.slider_force[k] = problem.force(slider_branch[k]);
   }
   if (break_away(direction)) return false;
+  take_places(problem);
+  if (const auto& sticking = forces.sticking; !sticking.empty()) {
+    note(listed(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
+         " what slow loading from the start values leaves");
+  }
+  if (!open.empty()) {
+    note(fmt::format("no force says where {} {}: {} in the position of the start values", listed(open),
+                     open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
+  }
+  return true;
+}
+
+void Settling::take_places(const ConvexNetwork& problem) {
   const auto moved = [&](NodeId node) { return problem.value(slot(node)); };
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
@@ -88,15 +113,6 @@ bool Settling::find_places() {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     state_.position[n] += moved(static_cast<NodeId>(n));
   }
-  if (!sticking.empty()) {
-    note(listed(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
-         " what slow loading from the start values leaves");
-  }
-  if (!open.empty()) {
-    note(fmt::format("no force says where {} {}: {} in the position of the start values", listed(open),
-                     open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
-  }
-  return true;
 }
 
 /// Of nodes that hang together, but on nothing whose place is given, one keeps its own. Returns their names.

@@ -167,6 +167,67 @@ bool prescribes_position(const SceneElement& motion) {
   return components()[declaration]->declaration.parameters[parameter].prescribes(Quantity::position);
 }
 
+namespace {
+
+/// What elements of one role are gathered in until they are batched, by component.
+struct Gathered { ByComponent deflections, rates; };
+
+/// Puts an element where its role belongs.
+void place_element(Network& network, int index, Reduced& law, const Branch& ends, Gathered& gathered) {
+  const Scene& scene = *network.scene;
+  const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
+  Network::Place& place = network.places[static_cast<std::size_t>(index)];
+  const Role role = law.component ? law.component->role : Role::nothing;
+  const auto place_in = [&](const auto& list) { place = {role, static_cast<int>(list.size())}; };
+  switch (role) {
+    case Role::nothing:
+      place = {Role::nothing, -1};
+      if (left_out_of(scene, element).empty()) {
+        network.notes.push_back(fmt::format("element `{}` carries no force: a parameter of it is 0", element.name));
+      }
+      break;
+    case Role::deflection:
+      gathered.deflections[law.component->declaration.type].push_back({ends, std::move(law.values)});
+      break;
+    case Role::rate:
+      gathered.rates[law.component->declaration.type].push_back({ends, std::move(law.values)});
+      break;
+    case Role::slip:
+      place_in(network.sliders);
+      network.sliders.push_back({ends, law.component->slip(law.values)});
+      break;
+    case Role::mass:
+      place_in(network.masses);
+      network.masses.push_back({index, ends.a, law.values[0]});
+      break;
+    case Role::motion:
+      place_in(network.motions);
+      network.motions.push_back({index, ends.a, element.signals.at(0).seen_from(scene.start), prescribes_position(element)});
+      break;
+    case Role::force:
+      place_in(network.forces);
+      network.forces.push_back({index, ends.a, element.at ? -1 : ends.b, element.signals.at(0).seen_from(scene.start)});
+      break;
+    case Role::block:
+      place = {role, -1};
+      break;
+  }
+}
+
+/// Motions and forces that follow blocks.
+void feed_sources(Network& network) {
+  for (const SceneFeed& feed : network.scene->feeds) {
+    const auto [role, index, unused] = network.places[static_cast<std::size_t>(feed.element)];
+    const auto take = [&](auto& source) {
+      source.block = feed.block;
+      source.sign = feed.sign;
+    };
+    role == Role::motion ? take(network.motions[static_cast<std::size_t>(index)]) : take(network.forces[static_cast<std::size_t>(index)]);
+  }
+}
+
+}  // namespace
+
 Network build_network(const Scene& scene) {
   Network network;
   network.scene = &scene;
@@ -183,7 +244,6 @@ Network build_network(const Scene& scene) {
   number_nodes(network);
   tell_lost_times(network);
   tell_left_out(network);
-  ByComponent deflections, rates;
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };
   const auto name_node = [&](NodeId node) {
@@ -191,64 +251,21 @@ Network build_network(const Scene& scene) {
     network.node_order.push_back(node);
   };
   name_node(ground);
-
+  Gathered gathered;
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const SceneElement& element = scene.elements[e];
     const int index = static_cast<int>(e);
-    const NodeId a = node_of(element.a), b = node_of(element.b);
-    name_node(a);
-    if (!element.at) name_node(b);
-    Network::Place& place = network.places[e];
-    if (place.paired) continue;
-    Reduced& law = laws[e];
-    const Role role = law.component ? law.component->role : Role::nothing;
-    switch (role) {
-      case Role::nothing:
-        place = {Role::nothing, -1};
-        if (left_out_of(scene, element).empty()) {
-          network.notes.push_back(fmt::format("element `{}` carries no force: a parameter of it is 0", element.name));
-        }
-        break;
-      case Role::deflection:
-        deflections[law.component->declaration.type].push_back({{index, a, b}, std::move(law.values)});
-        break;
-      case Role::rate:
-        rates[law.component->declaration.type].push_back({{index, a, b}, std::move(law.values)});
-        break;
-      case Role::slip:
-        place = {role, static_cast<int>(network.sliders.size())};
-        network.sliders.push_back({{index, a, b}, law.component->slip(law.values)});
-        break;
-      case Role::mass:
-        place = {role, static_cast<int>(network.masses.size())};
-        network.masses.push_back({index, a, law.values[0]});
-        break;
-      case Role::motion:
-        place = {role, static_cast<int>(network.motions.size())};
-        network.motions.push_back({index, a, element.signals.at(0).seen_from(scene.start), prescribes_position(element)});
-        break;
-      case Role::force:
-        place = {role, static_cast<int>(network.forces.size())};
-        network.forces.push_back({index, a, element.at ? -1 : b, element.signals.at(0).seen_from(scene.start)});
-        break;
-      case Role::block:
-        place = {role, -1};
-        break;
-    }
+    const Branch ends{index, node_of(element.a), node_of(element.b)};
+    name_node(ends.a);
+    if (!element.at) name_node(ends.b);
+    if (!network.places[e].paired) place_element(network, index, laws[e], ends, gathered);
   }
-  batch_up(deflections, Role::deflection, network.deflections, network.deflection_laws, network.places,
+  batch_up(gathered.deflections, Role::deflection, network.deflections, network.deflection_laws, network.places,
            [](const Component& c, const Values& v) { return c.deflection(v); });
-  batch_up(rates, Role::rate, network.rates, network.rate_laws, network.places,
+  batch_up(gathered.rates, Role::rate, network.rates, network.rate_laws, network.places,
            [](const Component& c, const Values& v) { return c.rate(v); });
   tie_up_pairs(network);
-  for (const SceneFeed& feed : scene.feeds) {
-    const auto [role, index, unused] = network.places[static_cast<std::size_t>(feed.element)];
-    const auto take = [&](auto& source) {
-      source.block = feed.block;
-      source.sign = feed.sign;
-    };
-    role == Role::motion ? take(network.motions[static_cast<std::size_t>(index)]) : take(network.forces[static_cast<std::size_t>(index)]);
-  }
+  feed_sources(network);
   network.blocks = find_blocks(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;
