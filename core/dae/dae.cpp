@@ -211,8 +211,9 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
       drive_offset_[j] = known_position(b.a) - known_position(b.b) - state.p[j];
     }
   }
+  const std::vector<double> place = places(state);
   for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n] - state.position[at(positions_.of[n].parent)];
+    if (ix_[n] >= 0) y[at(ix_[n])] = state.position[n] - place[at(positions_.of[n].parent)];
     if (iv_[n] < 0) continue;
     const int group = structure_->group[n];
     const double base = group < 0 ? 0 : state.velocity[at(structure_->groups[at(group)].nodes.front())];
@@ -220,6 +221,21 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   }
   for (std::size_t k = 0; k < iz_.size(); ++k) y[at(iz_[k])] = state.blocks[k];
   guess_forces(t, y.data());
+}
+
+/// Positions as the view finds them. Of a node that none is asked for, and that another's position counts from in these
+/// modes alone, the state does not know it.
+std::vector<double> Dae::places(const State& state) const {
+  std::vector<double> place = state.position;
+  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
+    if (network_->motions[m].block < 0) place[at(network_->motions[m].node)] = drive_->position[m];
+  }
+  for (const NodeId node : positions_.order) {
+    const Position& x = positions_.of[at(node)];
+    if (x.integrated || x.branch < 0) continue;
+    place[at(node)] = place[at(x.parent)] + x.sign * (state.p[at(x.branch)] + offset_[at(x.branch)]);
+  }
+  return place;
 }
 
 void Dae::leave(State& state) const {

@@ -234,6 +234,7 @@ class Dae {
   // view.cpp
   void share_among_joined();
   void view_velocities(const double* yp);
+  std::vector<double> places(const State& state) const;
   void set_rate_forms();
   void stiffen_resting_laws();
   double known_position(NodeId node) const;
