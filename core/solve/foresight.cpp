@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "core/dae/polynomial.hpp"
 #include "core/network/error.hpp"
 
 namespace rheonet {
@@ -38,6 +40,22 @@ double fastest_rate(const Dae& dae, Consistency& consistency, double t, double h
   } catch (const SimulationError&) {  // no state of the network: it was a guess
     return consistency.fastest_rate(t, horizon, motion.y, motion.yp);
   }
+}
+
+double first_step(const std::vector<double>& ypp, const std::vector<double>& tolerance) {
+  constexpr double error = 0.3;  // weighted root mean square of h^2 y''/2
+  double sum = 0;
+  for (std::size_t i = 0; i < ypp.size(); ++i) {
+    const double e = ypp[i] / 2 / tolerance[i];
+    sum += e * e;
+  }
+  const double curvature = ypp.empty() ? 0 : std::sqrt(sum / static_cast<double>(ypp.size()));
+  return curvature > 0 ? std::sqrt(error / curvature) : std::numeric_limits<double>::infinity();
+}
+
+double remembered_angle(double accuracy) {
+  constexpr double share = 0.1, at_middle = 0.005;  // of six points: (5/2 3/2 1/2)^2/6!
+  return std::pow(share * accuracy / at_middle, 1.0 / static_cast<double>(step_points));
 }
 
 }  // namespace rheonet

@@ -19,4 +19,12 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
 /// time `ahead` [s].
 double fastest_rate(const Dae& dae, Consistency& consistency, double t, double horizon, const Motion& motion, double ahead);
 
+/// The longest first step [s] whose error, by the second derivatives of the unknowns, is within their tolerances (E. Hairer,
+/// S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, II.4). Infinite where nothing curves.
+double first_step(const std::vector<double>& ypp, const std::vector<double>& tolerance);
+
+/// What follows a motion is in no error test, and yet remembered for a delay: between steps of this angle the polynomial through
+/// them misses a sine by a tenth of the accuracy [rad].
+double remembered_angle(double accuracy);
+
 }  // namespace rheonet

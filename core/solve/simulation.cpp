@@ -30,8 +30,6 @@ constexpr double least_tolerance = 6.4e-16;
 // What jumps by less than this share of the accuracy may be smooth as well: so much error is left at the end of a stretch in
 // what no error test looks at.
 constexpr double jump_share = 0.1;
-// A first step may be wrong by this much of its tolerance (weighted root mean square of h^2 y''/2).
-constexpr double first_step_error = 0.3;
 // Where the integrator fails, loads that come in this share of the time until something is known to happen tell why.
 constexpr double soon = 0.1;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
@@ -300,8 +298,6 @@ class Run {
     if (system_->dae.rough()) softening_.apply(tolerances_.unresolved());
   }
 
-  /// Starts the integrator with a first step whose error, by the second derivative, is just within the tolerance
-  /// (Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.4).
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * course(t);
     std::vector<double> ypp;
@@ -321,29 +317,15 @@ class Run {
       system_->consistency.project(t, y_);
       system_->consistency.derivative(t, y_, yp_);
     }
-    double sum = 0;
-    for (std::size_t i = 0; i < ypp.size(); ++i) {
-      const double e = ypp[i] / 2 / tolerances_.values()[i];
-      sum += e * e;
-    }
-    const double curvature = ypp.empty() ? 0 : std::sqrt(sum / static_cast<double>(ypp.size()));
-    double h = std::min(until - t, 100 * ahead);
-    if (curvature > 0) h = std::min(h, std::sqrt(first_step_error / curvature));
+    double h = std::min({until - t, 100 * ahead, first_step(ypp, tolerances_.values())});
     if (system_->dae.unknowns() == 0 && !system_->events.sticks()) h = until - t;  // nothing that a step could get wrong
     const double omega = drive_.fastest();
     double turn = std::numeric_limits<double>::infinity();
     if (omega > 0 && system_->events.sticks()) turn = longest_angle / omega;
-    if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, remembered_angle() / omega);
+    if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(settings_.accuracy)) / omega);
     system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
     if (settings_.profile) settings_.profile->restart(system_->dae);
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
-  }
-
-  /// What follows a motion is in no error test, and yet remembered for a delay: between steps of this angle the polynomial through
-  /// them misses a sine by a tenth of the accuracy [rad].
-  double remembered_angle() const {
-    constexpr double share = 0.1, at_middle = 0.005;  // of six points: (5/2 3/2 1/2)^2/6!
-    return std::min(longest_angle, std::pow(share * settings_.accuracy / at_middle, 1.0 / static_cast<double>(step_points)));
   }
 
   double tolerance(double share) const { return std::max(share * settings_.accuracy, least_tolerance); }

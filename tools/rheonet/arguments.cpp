@@ -13,6 +13,7 @@
 #include "core/netlist/diagnostic.hpp"
 #include "core/network/reductions.hpp"
 #include "tools/rheonet/footers.hpp"
+#include "tools/rheonet/repeated_options.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
@@ -22,37 +23,6 @@ struct WrongCommandLine {
   std::string message;
   std::string hint;
 };
-
-bool is_override(const std::string& word) {
-  const std::size_t equals = word.find('=');
-  return equals != std::string::npos && equals > 0 && word[0] != '-' && word.find('/') > equals;
-}
-
-bool is_measure(const std::string& word) {
-  if (word == "steps" || word == "events" || word.starts_with("energy ")) return true;
-  return word[0] != '-' && word.find('(') < word.size() && word.ends_with(')');
-}
-
-// `--set a=1 b=2 SCENE`: each PATH=VALUE that follows another gets a --set of its own, because an option that takes any
-// number of words would swallow the scene. So with `--vary`, and with the measures after `--measure`.
-std::vector<std::string> with_every_option(const std::vector<std::string>& words) {
-  constexpr std::pair<const char*, bool (*)(const std::string&)> options[] = {
-      {"--set", is_override}, {"--vary", is_override}, {"--measure", is_measure}};
-  std::vector<std::string> result;
-  std::string goes_on;  // the option that may be repeated without its name
-  for (const std::string& word : words) {
-    std::string before;
-    before.swap(goes_on);
-    for (const auto& [option, fits] : options) {
-      const bool repeated = before == option && !word.empty() && fits(word);
-      if (repeated) result.emplace_back(option);
-      const bool named = !result.empty() && result.back() == option;
-      if (repeated || named || word.starts_with(std::string(option) + '=')) goes_on = option;
-    }
-    result.push_back(word);
-  }
-  return result;
-}
 
 std::vector<std::string> long_options(const CLI::App& app) {
   std::vector<std::string> names;
