@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -18,6 +19,8 @@ namespace {
 constexpr double force_rounding = 1e-12;
 // A slider slips against its own force by no more than this share of the largest velocity: more is no rounding.
 constexpr double slip_rounding = 1e-2;
+// Of friction at rest.
+constexpr std::size_t most_events = 8;
 // A velocity of so many times its noise is resolved.
 constexpr double noises_resolved = 1e3;
 
@@ -126,6 +129,7 @@ void NetworkEvents::report_against_force(double t, int slider) const {
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
   right_time_ = not_looked;
+  find_held();
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
@@ -160,25 +164,50 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
 }
 
 bool NetworkEvents::sticks() const {
-  return !limit_margin_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
+  return !limit_margin_.empty() || !held_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
 
 double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_t k) {
-  integrator.interpolate(t, 0, y_);
-  integrator.interpolate(t, 1, yp_);
-  return sudden_function(k, dae_.view(t, y_.data(), yp_.data()));
+  integrator.interpolate(t, 0, step_y_);
+  integrator.interpolate(t, 1, step_yp_);
+  return looked_at(k, seen_between(t, step_y_.data(), step_yp_.data()));
 }
 
 void NetworkEvents::all_at(const Dae::View& view, std::vector<double>& g) const {
-  g.resize(suddens());
-  for (std::size_t i = 0; i < g.size(); ++i) g[i] = sudden_function(i, view);
+  g.resize(suddens() + held_.size());
+  for (std::size_t i = 0; i < g.size(); ++i) g[i] = looked_at(i, view);
+}
+
+double NetworkEvents::looked_at(std::size_t i, const Dae::View& view) const {
+  return i < suddens() ? sudden_function(i, view) : held_function(held_[i - suddens()], view);
+}
+
+double NetworkEvents::held_function(const Held& held, const Dae::View& view) const {
+  const Watched& law = watched_[held.law];
+  const auto [velocity, noise] = flow(law, view);
+  std::array<double, most_events> g;
+  law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, noise, g.data());
+  return g[at(held.which)] + law_margin_[held.event];
+}
+
+/// What friction at rest may come to.
+void NetworkEvents::find_held() {
+  held_.clear();
+  std::size_t event = 0;
+  for (std::size_t w = 0; w < watched_.size(); ++w) {
+    const int events = watched_[w].batch->events(watched_[w].i);
+    const bool held = events <= static_cast<int>(most_events) && watched_[w].batch->holds(watched_[w].i);
+    for (int k = 0; k < events; ++k, ++event) {
+      if (held) held_.push_back({w, k, event});
+    }
+  }
 }
 
 void NetworkEvents::look_at_step(const Integrator& integrator, double a, double b) {
   const auto look = [&](double t, std::vector<double>& g) {
-    integrator.interpolate(t, 0, y_);
-    integrator.interpolate(t, 1, yp_);
-    all_at(dae_.view(t, y_.data(), yp_.data()), g);
+    integrator.interpolate(t, 0, step_y_);
+    integrator.interpolate(t, 1, step_yp_);
+    all_at(seen_between(t, step_y_.data(), step_yp_.data()), g);
   };
   // Where the step before this one ended it has been looked.
   if (right_time_ == a)
@@ -186,8 +215,12 @@ void NetworkEvents::look_at_step(const Integrator& integrator, double a, double 
   else
     look(a, left_);
   look((a + b) / 2, middle_);
-  all_at(dae_.view(b, integrator.y().data(), integrator.yp().data()), right_);
+  all_at(seen_between(b, integrator.y().data(), integrator.yp().data()), right_);
   right_time_ = b;
+}
+
+const Dae::View& NetworkEvents::seen_between(double t, const double* y, const double* yp) {
+  return held_.empty() ? dae_.view(t, y, yp) : resolved(t, y, yp);
 }
 
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
@@ -197,7 +230,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
   std::optional<Missed> first;
   if (!(b > a)) return first;
   look_at_step(integrator, a, b);
-  for (std::size_t i = 0; i < suddens(); ++i) {
+  for (std::size_t i = 0; i < suddens() + held_.size(); ++i) {
     if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])]) continue;
     double left = a, middle = (a + b) / 2, right = b;
     double gl = left_[i], gm = middle_[i], gr = right_[i];
@@ -220,8 +253,8 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
       if (half <= left || half >= middle) break;
       (at_time(integrator, half, i) > 0 ? left : middle) = half;
     }
-    const int which = static_cast<int>(events_.size() - suddens() + i);
-    if (!first || middle < first->t) first = Missed{middle, which};
+    const std::size_t which = i < suddens() ? events_.size() - suddens() + i : held_[i - suddens()].event;
+    if (!first || middle < first->t) first = Missed{middle, static_cast<int>(which)};
   }
   return first;
 }

@@ -31,7 +31,7 @@ class NetworkEvents final : public EventFunctions {
   struct Turned { int branch; double speed; bool slides = false; };
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
 
-  /// Sliders stick here that may break away, or blocks limit what they take in.
+  /// Sliders stick here that may break away, friction rests, or blocks limit what they take in.
   bool sticks() const;
   /// A force may go beyond a bound and come back within one step: the first such instant in the last step, and the event
   /// that it is.
@@ -60,7 +60,15 @@ class NetworkEvents final : public EventFunctions {
   void all_at(const Dae::View& view, std::vector<double>& g) const;
   /// Fills left_, middle_ and right_.
   void look_at_step(const Integrator& integrator, double a, double b);
-  double at_time(const Integrator& integrator, double t, std::size_t sudden);
+  double at_time(const Integrator& integrator, double t, std::size_t k);
+  /// Between the ends of steps, where forces may go beyond bounds and come back.
+  const Dae::View& seen_between(double t, const double* y, const double* yp);
+  /// An event of friction at rest: of a watched law, and its number among all events.
+  struct Held { std::size_t law; int which; std::size_t event; };
+  void find_held();
+  double held_function(const Held& held, const Dae::View& view) const;
+  /// Of the sliders and limits, then of friction at rest.
+  double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
   [[noreturn]] void report_against_force(double t, int slider) const;
   double limit_function(std::size_t limit) const;
@@ -76,7 +84,9 @@ class NetworkEvents final : public EventFunctions {
   std::vector<double> y_, yp_;
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
-  std::vector<double> left_, middle_, right_;  ///< event functions of the sliders and limits over a step
+  std::vector<Held> held_;
+  std::vector<double> step_y_, step_yp_;
+  std::vector<double> left_, middle_, right_;  ///< event functions of the sliders, limits and friction at rest over a step
   static constexpr double not_looked = std::numeric_limits<double>::quiet_NaN();
   double right_time_ = not_looked;  ///< of right_, since the last `begin`
   std::vector<double> margin_;  ///< of each slider

@@ -101,3 +101,18 @@ output = { points = 61 }
 )",
                26);
 }
+
+// Friction at rest was let go, and had come to rest again, within one step: its event functions had fallen below zero and come
+// back, and nothing looked between the ends of the step.
+TEST_CASE("friction at rest is let go for less than a step") {
+  check_events(R"([elements]
+drive = { type = "motion", at = "end", velocity = { table = [[0, -0.47702], [0.12278, 1.0129], [0.26815, -1.3885], [0.49523155322747525, -0.37532], [0.49523155322747525, 1.0143903], [0.65107, -0.69402], [0.80337, 1.4933]] } }
+e1 = { type = "cfm", between = ["end", "n1"], stiffness = 35.529, damping = 2.9457446, coulomb = 1.63686, exponent = 2 }
+e2 = { type = "spring", between = ["n1", "ground"], stiffness = 18.34956 }
+e3 = { type = "vfm", between = ["ground", "end"], stiffness = 9.8875, damping = 2.0441 }
+[simulate]
+stop = 0.8917452586173243
+output = { points = 61 }
+)",
+               15);
+}
