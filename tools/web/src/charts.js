@@ -2,7 +2,7 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import { element, onTheme, styled } from './dom.js';
-import { largestOf, number, shownIn } from './units.js';
+import { largestOf, number, shownIn, spaced } from './units.js';
 
 const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]];
 const charts = new Set();
@@ -19,10 +19,24 @@ function axis(label, extra = {}) {
     labelFont: '12px system-ui, sans-serif',
     grid: { stroke: () => styled('--grid'), width: 1 },
     ticks: { stroke: () => styled('--grid'), width: 1 },
-    values: (_, splits) => splits.map((value) => number(value, 6)),
+    values: (_plot, splits, _axis, _space, spacing) => splits.map((value) => spaced(value, spacing)),
     ...extra,
   };
 }
+
+const character = 7; // px, about
+
+// The room that the numbers along an axis take: to its side, and from one to the next.
+function sideways(_, values) {
+  return Math.max(64, 20 + character * Math.max(0, ...(values ?? []).map((text) => text.length)));
+}
+function apart(_plot, _axis, min, max, length) {
+  const longest = Math.max(...[min, max].map((value) => spaced(value, (max - min) / 5 || 1).length));
+  return Math.min(Math.max(60, character * (longest + 3)), length);
+}
+
+// A value that is read from a curve: three digits more than the height of what is shown.
+const read = (plot, scale, value, least) => spaced(value, (plot.scales[scale].max - plot.scales[scale].min) / 100, least);
 
 const labelOf = (quantity, shown) => (shown.name ? `${quantity} [${shown.name}]` : quantity);
 
@@ -122,15 +136,15 @@ export class TimeChart extends Chart {
       spanGaps: true,
       pxAlign: 0,
       points: { show: false },
-      value: (_, value) => (value === null || value === undefined ? '–' : `${number(value, 5)} ${this.shown.name}`),
+      value: (plot, value) => (value === null || value === undefined ? '–' : `${read(plot, 'y', value, 5)} ${this.shown.name}`),
     }));
     this.plot = new uPlot(
       {
         width: Math.max(this.width(), 240),
         height,
-        series: [{ label: 'time', value: (_, t) => (t === null ? '–' : `${number(t, 6)} s`) }, ...series],
+        series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6)} s`) }, ...series],
         scales: { x: { time: false } },
-        axes: [axis(labelled ? 'time [s]' : undefined, { space: 60, size: labelled ? 50 : 28 }), axis(labelOf(quantity, this.shown), { size: 64 })],
+        axes: [axis(labelled ? 'time [s]' : undefined, { space: apart, size: labelled ? 50 : 28 }), axis(labelOf(quantity, this.shown), { size: sideways })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true },
         hooks: {
@@ -258,7 +272,7 @@ export class LoopChart extends Chart {
           })),
         ],
         scales: { x: scale, y: { ...scale } },
-        axes: [axis(labelOf(x.quantity, this.units[0]), { space: 60, ...logValues }), axis(labelOf(y.quantity, this.units[1]), { size: 64, ...logValues })],
+        axes: [axis(labelOf(x.quantity, this.units[0]), { space: apart, ...logValues }), axis(labelOf(y.quantity, this.units[1]), { size: sideways, ...logValues })],
         cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false } },
         legend: { show: false },
       },
@@ -350,7 +364,7 @@ export class LoopChart extends Chart {
     const [xs, ys] = this.plot.data[k + 1];
     const curve = this.curves[k];
     const time = curve.time ? ` at ${number(curve.time[i], 5)} s` : '';
-    this.readout.textContent = `${curve.name}: ${number(xs[i], 5)} ${this.units[0].name}, ${number(ys[i], 5)} ${this.units[1].name}${time}`;
+    this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
   }
 
   // Where the curves are at a time.

@@ -53,7 +53,8 @@ class Playground {
 
   variant(label, text, file) {
     const variant = { label, text, file, data: new SceneData(), stale: false };
-    variant.runner = new Runner(`${crypto.getRandomValues(new Uint32Array(2)).join('-')}`, (data, run) => this.arrived(variant, data, run));
+    const session = crypto.getRandomValues(new Uint32Array(2)).join('-');
+    variant.runner = new Runner(session, (data, run) => this.arrived(variant, data, run), (data, read) => this.wasRead(variant, data, read));
     return variant;
   }
 
@@ -110,8 +111,28 @@ class Playground {
   load(k, text, file) {
     const variant = this.variants[k];
     Object.assign(variant, { text, file, fresh: true });
-    if (k === this.active) this.editor.load(text);
+    if (k === this.active) {
+      this.editor.load(text);
+      this.clear();
+    }
     variant.runner.run(text, file);
+  }
+
+  // Nothing of a scene before is left to be moved, or to be taken for this one.
+  clear() {
+    this.sliders.clear();
+    this.parts.drawing.replaceChildren();
+    this.drawn = null;
+    this.title.textContent = this.current.file;
+    document.title = `${this.current.file} – rheonet`;
+    this.showLesson({});
+  }
+
+  wasRead(variant, data, read) {
+    if (variant !== this.current || read !== variant.text) return;
+    this.sliders.show(data.scene.sliders, variant.fresh);
+    if (variant.fresh) this.showSchematic(data.scene);
+    variant.fresh = false;
   }
 
   async openFile(file) {
@@ -143,12 +164,8 @@ class Playground {
       if (complete) this.say(data.failed ? data.failed.message : 'The netlist has mistakes; the plots show what was there before.', true);
       return;
     }
-    if (data.time.length || complete) variant.data = data;
+    if (data.time.length || complete) Object.assign(variant, { data, shown: text });
     variant.stale = false;
-    if (isCurrent && text === variant.text && complete) {
-      this.sliders.show(data.scene.sliders, variant.fresh);
-      variant.fresh = false;
-    }
     if (isCurrent) this.showScene(data);
     this.showPlots();
     if (complete) this.finish(data, asked);
@@ -186,11 +203,14 @@ class Playground {
     this.title.textContent = scene.title || this.current.file;
     document.title = `${scene.title || this.current.file} – rheonet`;
     this.showLesson(scene);
-    if (scene.schematic !== this.drawn) {
-      this.drawn = scene.schematic;
-      this.parts.drawing.replaceChildren(schematicOf(scene));
-    }
+    this.showSchematic(scene);
     this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+  }
+
+  showSchematic(scene) {
+    if (scene.schematic === this.drawn) return;
+    this.drawn = scene.schematic;
+    this.parts.drawing.replaceChildren(schematicOf(scene));
   }
 
   showLesson(scene) {
@@ -239,7 +259,7 @@ class Playground {
     }
     const { text, file, data } = this.current;
     const other = this.variant('B', text, file);
-    other.data = data;
+    Object.assign(other, { data, shown: this.current.shown });
     this.variants.push(other);
     this.edit(1);
     this.load(1, text, file);
@@ -259,10 +279,11 @@ class Playground {
   edit(k) {
     this.active = k;
     this.showChoice();
-    const { text, data } = this.current;
+    const { text, data, shown } = this.current;
     this.editor.load(text);
+    this.clear();
     if (data.scene) {
-      this.sliders.show(data.scene.sliders, true);
+      if (shown === text) this.sliders.show(data.scene.sliders, true);
       this.showScene(data);
       this.showMistakes(data, true);
     }

@@ -8,9 +8,11 @@ const partly = 250; // ms after which what has come is shown before all has
 
 export class Runner {
   // ondata(data, { text, complete, took }): what has come.
-  constructor(session, ondata) {
+  // onscene(data, text): the scene has been read; its run is on its way.
+  constructor(session, ondata, onscene) {
     this.session = session;
     this.ondata = ondata;
+    this.onscene = onscene;
     this.next = null;
     this.current = null;
   }
@@ -39,6 +41,7 @@ export class Runner {
     try {
       await task({ task: 'show', session: this.session, text: run.text, file: run.file }, (message) => {
         data.take(message);
+        if (this.current === run && message.kind === 'scene') this.onscene(data, run.text);
         if (this.current !== run || !data.scene || performance.now() - shown < partly) return;
         shown = performance.now();
         this.ondata(data, { text: run.text, complete: false });

@@ -1,8 +1,8 @@
 // A slider for each number of a netlist. What is moved is written into the text of the netlist, which is all there is.
 import { element } from './dom.js';
-import { number } from './units.js';
 
 const steps = 400;
+const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
 const literal = /^("(?:[^"\\]|\\.)*"|'[^']*'|[^\s,\]}#]+)/;
 
 const rounded = (value) => Number(value.toPrecision(3));
@@ -17,14 +17,49 @@ class Slider {
     this.range.addEventListener('input', () => this.slide(this.valueAt(Number(this.range.value))));
     this.range.addEventListener('pointerdown', () => (panel.held = this));
     this.range.addEventListener('change', () => (panel.held = null));
-    this.number.addEventListener('change', () => {
-      const value = Number.parseFloat(this.number.value.replace(',', '.'));
-      if (Number.isFinite(value)) this.slide(value);
-      this.number.value = number(this.knob.value, 6);
+    this.why = element('output', { class: 'why', hidden: true });
+    this.number.addEventListener('change', () => this.take(this.number.value.trim()));
+    this.number.addEventListener('input', () => this.accept());
+    this.number.addEventListener('blur', () => this.putBack());
+    this.number.addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape') return;
+      this.accept();
+      this.putBack();
     });
     this.row = element('div', { class: 'slider', title: knob.description, 'data-slider': `${knob.group}.${knob.name}` },
-      element('span', { class: 'slider-name' }, knob.name), this.range, this.number, element('span', { class: 'unit' }, knob.unit));
+      element('span', { class: 'slider-name' }, knob.name), this.range, this.number, element('span', { class: 'unit' }, knob.unit), this.why);
     this.show();
+  }
+
+  // What is typed is the number alone: a unit or a comma that was left out in silence would make it another one.
+  take(text) {
+    const value = decimal.test(text) ? Number(text) : NaN;
+    if (Number.isFinite(value)) {
+      this.slide(value);
+      if (!this.refused) this.putBack();
+    } else {
+      const what = this.knob.unit ? `a number of ${this.knob.unit}` : 'a number';
+      this.refuse(`${text ? `“${text}” is` : 'Nothing is'} not ${what}, such as 2.5 or 1e-3.${text ? ' Units and expressions belong in the netlist.' : ''}`);
+    }
+  }
+
+  refuse(why) {
+    this.refused = true;
+    this.number.setAttribute('aria-invalid', 'true');
+    this.why.textContent = why;
+    this.why.hidden = false;
+  }
+
+  accept() {
+    this.refused = false;
+    this.number.removeAttribute('aria-invalid');
+    this.why.hidden = true;
+  }
+
+  // The word why it was refused stays to be read.
+  putBack() {
+    this.number.removeAttribute('aria-invalid');
+    this.number.value = String(this.knob.value);
   }
 
   // Where a value is on the slider.
@@ -56,18 +91,33 @@ class Slider {
     this.widen();
     this.range.value = String(this.place());
     this.range.setAttribute('aria-valuetext', `${this.knob.value} ${this.knob.unit}`);
-    if (document.activeElement !== this.number || this.panel.held) this.number.value = number(this.knob.value, 6);
+    if (document.activeElement !== this.number || this.panel.held) this.number.value = String(this.knob.value);
+  }
+
+  // The number in the text, as it stands there.
+  literal() {
+    return literal.exec(this.panel.editor.view.state.sliceDoc(this.from, this.from + 500))?.[0];
+  }
+
+  settle(from) {
+    this.from = from;
+    this.was = this.literal();
   }
 
   slide(value) {
+    const found = this.literal();
+    if (!found || found !== this.was) {
+      this.show();
+      this.refuse('The netlist has changed here; the slider follows as soon as the netlist can be read.');
+      return;
+    }
+    this.accept();
     this.knob.value = value;
     this.show();
-    const { editor } = this.panel;
-    const found = literal.exec(editor.view.state.sliceDoc(this.from, this.from + 500));
-    if (!found) return;
-    const quote = /^["']/.test(found[0]) ? found[0][0] : '';
+    const quote = /^["']/.test(found) ? found[0] : '';
     const text = this.knob.unit ? `${value} ${this.knob.unit}` : String(value);
-    editor.replace(this.from, this.from + found[0].length, quote ? `${quote}${text}${quote}` : text);
+    this.was = `${quote}${text}${quote}`;
+    this.panel.editor.replace(this.from, this.from + found.length, this.was);
   }
 }
 
@@ -86,7 +136,7 @@ export class Sliders {
     if (fresh || shape !== this.shape) this.build(knobs);
     else
       this.all.forEach((slider, k) => {
-        slider.from = this.editor.offset(knobs[k].line, knobs[k].column);
+        slider.settle(this.editor.offset(knobs[k].line, knobs[k].column));
         if (slider === this.held) return;
         slider.knob.value = knobs[k].value;
         slider.show();
@@ -98,7 +148,7 @@ export class Sliders {
     this.held = null;
     this.all = knobs.map((knob) => {
       const slider = new Slider(this, { ...knob });
-      slider.from = this.editor.offset(knob.line, knob.column);
+      slider.settle(this.editor.offset(knob.line, knob.column));
       return slider;
     });
     const grouped = (sliders) => {
@@ -118,6 +168,13 @@ export class Sliders {
         element('details', {}, element('summary', {}, `All other numbers (${others.length})`), grouped(others)));
     } else this.host.replaceChildren(...grouped(others));
     if (!this.all.length) this.host.append(element('p', { class: 'note' }, 'The netlist has no numbers to turn.'));
+  }
+
+  clear() {
+    this.held = null;
+    this.all = [];
+    this.shape = '';
+    this.host.replaceChildren(element('p', { class: 'note' }, 'The sliders are here as soon as the netlist can be read.'));
   }
 
   // The text has changed before them.

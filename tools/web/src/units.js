@@ -27,6 +27,18 @@ export function number(value, digits = 4) {
   return value.toExponential(Math.max(0, digits - 2)).replace(/(\.\d*?)0+e/, '$1e').replace('.e', 'e').replace('e+', 'e');
 }
 
+// A value among others that are `spacing` apart: as many digits as tell it from them, and no fewer than `least`.
+export function spaced(value, spacing, least = 2) {
+  if (!Number.isFinite(value) || !(spacing > 0)) return number(value, least);
+  const size = Math.abs(value);
+  const needed = size > 0 ? Math.floor(Math.log10(size)) - Math.floor(Math.log10(spacing)) + 2 : 0;
+  if (needed < 1) return '0';
+  const digits = Math.min(17, Math.max(least, needed));
+  // A power of ten does not make many digits shorter.
+  if (digits > 6 && size >= 1e5 && size < 1e12) return String(Number(value.toPrecision(digits)));
+  return number(value, size >= 1e-3 && size < 1e5 ? digits : Math.max(digits + 1, 2));
+}
+
 export function withUnit(value, unit, digits = 4) {
   const shown = shownIn(unit, Math.abs(value));
   return `${number(value / shown.factor, digits)}${shown.name ? ` ${shown.name}` : ''}`;
