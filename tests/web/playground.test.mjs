@@ -1,26 +1,11 @@
 // The playground, as somebody uses it.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { netlist, number, opened, redrawn, shows, slider, stickSlip } from './desk.mjs';
 import { accessible, bingham, browser, done, folderWith, remove, rheonet, serve, watched } from './support.mjs';
-
-// A block on a belt that is pulled through a spring: it sticks, and slips.
-const stickSlip = `# A block that is pulled through a spring.
-title = "Stick and slip"
-
-[elements]
-pull = { type = "motion", at = "hand", velocity = "10 mm/s" }
-k1 = { type = "spring", between = ["hand", "block"], stiffness = "100 N/m" }
-m1 = { type = "mass", at = "block", mass = "1 kg" }
-s1 = { type = "slider", between = ["block", "ground"], coulomb = "1 N", breakaway = "2 N" }
-
-[simulate]
-stop = "8 s"
-output = { points = 801 }
-record = ["block.position", "k1.force"]
-`;
 
 let folder, server, chromium;
 before(async () => {
@@ -34,52 +19,7 @@ after(async () => {
   remove(folder);
 });
 
-async function open(hash = '#file=bingham.toml', options = {}, ready = done) {
-  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, ...options });
-  const { page, wrong } = await watched(context, server.origin);
-  await page.goto(`${server.origin}/${hash}`);
-  if (hash) await ready(page);
-  const close = async () => {
-    assert.deepEqual(wrong, []);
-    await context.close();
-  };
-  return { page, context, close };
-}
-
-// Does something, and waits until the curves that follow from it are drawn.
-async function redrawn(page, act) {
-  const text = page.locator('.status');
-  await text.evaluate((status) => (status.dataset.latency = ''));
-  await act();
-  await page.waitForFunction(() => document.querySelector('.status').dataset.latency);
-}
-
-// What the legend says of a record at a part of the time axis.
-async function valueAt(page, part, record) {
-  const chart = page.locator('.plots .chart', { has: page.locator('.u-series', { hasText: record }) }).first();
-  const over = chart.locator('.u-over');
-  await over.scrollIntoViewIfNeeded();
-  const box = await over.boundingBox();
-  await page.mouse.move(box.x + part * box.width, box.y + box.height / 3);
-  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  return Number.parseFloat(await chart.locator('.u-series', { hasText: record }).first().locator('.u-value').textContent());
-}
-
-// That it is `expected`, as soon as the curves are those of the last change.
-async function shows(page, part, record, expected, tolerance = 1e-3) {
-  let value;
-  for (let k = 0; k < 40; ++k) {
-    value = await valueAt(page, part, record);
-    if (Math.abs(value - expected) <= tolerance * Math.abs(expected)) return;
-    await page.waitForTimeout(100);
-  }
-  assert.fail(`${record} is ${value}, expected ${expected}`);
-}
-
-const slider = (page, name) => page.locator(`[data-slider="${name}"] input[type="range"]`);
-const number = (page, name) => page.locator(`[data-slider="${name}"] input[type="text"]`);
-const netlist = (page) => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map((line) => line.textContent).join('\n'));
+const open = (...what) => opened(chromium, server, ...what);
 
 test('the gallery shows the netlists of the folder, and opens one', async () => {
   const { page, close } = await open('');
@@ -110,117 +50,6 @@ test('a mistake is marked where it is, and what was there stays', async () => {
   assert.ok(await page.locator('.plots .chart canvas').count());
   await redrawn(page, () => page.keyboard.press('Control+z'));
   assert.equal(await page.locator('.mistake, .cm-lintRange-error, .plots.stale').count(), 0);
-  await close();
-});
-
-test('curves follow a slider while it is dragged, and so do the netlist and the schematic', async () => {
-  const { page, close } = await open();
-  // In the end the torque is Tc + B w.
-  await shows(page, 0.999, 'k1.force', 7);
-  const knob = slider(page, 'parameters.B');
-  const box = await knob.boundingBox();
-  const seen = new Set();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  await page.mouse.down();
-  for (let part = 0.55; part < 0.8; part += 0.05) {
-    await redrawn(page, () => page.mouse.move(box.x + part * box.width, box.y + box.height / 2));
-    seen.add(await number(page, 'parameters.B').inputValue());
-  }
-  await page.mouse.up();
-  assert.ok(seen.size >= 4, [...seen].join(' '));
-  const damping = Number(await number(page, 'parameters.B').inputValue());
-  assert.ok(damping > 1 && damping < 15, String(damping));
-  assert.match(await netlist(page), new RegExp(`B  = "${damping} N\\*m\\*s/rad"`));
-  assert.match(await page.locator('.drawing').textContent(), new RegExp(`${damping} N·m·s/rad`));
-  await redrawn(page, async () => {
-    await number(page, 'parameters.Tc').fill('3.5');
-    await number(page, 'parameters.Tc').press('Enter');
-  });
-  // With T = B/k the rest of the start is exp(-t/T).
-  const time = 0.2 * 0.999;
-  const expected = 3.5 + damping * 10 * (1 - Math.exp((-(time - 3.5 / 1000) * 100) / damping));
-  await shows(page, 0.999, 'k1.force', expected, 5e-3);
-  await close();
-});
-
-test('what is typed beside a slider is a number, or is not taken', async () => {
-  const { page, close } = await open();
-  const before = await netlist(page);
-  for (const text of ['', 'abc', '1e400', '--', '7 kN*m', '2*3', '1,500', '0x10']) {
-    await number(page, 'parameters.Tc').fill(text);
-    await number(page, 'parameters.Tc').press('Enter');
-    assert.equal(await number(page, 'parameters.Tc').getAttribute('aria-invalid'), 'true', text);
-    assert.match(await page.locator('[data-slider="parameters.Tc"] .why').textContent(), /not a number of N\*m/, text);
-    await number(page, 'parameters.Tc').press(text === 'abc' ? 'Tab' : 'Escape');
-    assert.equal(await number(page, 'parameters.Tc').inputValue(), '2', text);
-    assert.equal(await number(page, 'parameters.Tc').getAttribute('aria-invalid'), null, text);
-  }
-  assert.equal(await netlist(page), before);
-  await redrawn(page, async () => {
-    await number(page, 'parameters.Tc').fill('2.500001');
-    await number(page, 'parameters.Tc').press('Enter');
-  });
-  assert.match(await netlist(page), /Tc = "2.500001 N\*m"/);
-  assert.equal(await number(page, 'parameters.Tc').inputValue(), '2.500001');
-  await shows(page, 0.999, 'k1.force', 7.5);
-  await close();
-});
-
-test('sliders are those of the netlist that is open', async () => {
-  const { page, close } = await open();
-  const text = bingham.replace('"spring"', '"sprong"').replace('[parameters]', '# Longer than it was.\n[parameters]');
-  writeFileSync(join(folder, 'wrong.toml'), text);
-  await page.evaluate(() => (location.hash = '#file=wrong.toml'));
-  await page.waitForSelector('.mistake.error');
-  assert.equal(await page.locator('.slider, .drawing svg').count(), 0);
-  assert.equal(await page.textContent('h1'), 'wrong.toml');
-  assert.equal(await netlist(page), text);
-  // They come with the scene, long before its run is done.
-  writeFileSync(join(folder, 'slow.toml'), stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'points = 3'));
-  await page.evaluate(() => (location.hash = '#file=slow.toml'));
-  await number(page, 'k1.stiffness').fill('125');
-  await number(page, 'k1.stiffness').press('Enter');
-  assert.match(await netlist(page), /stiffness = "125 N\/m" }\nm1 =/);
-  assert.equal(await page.locator('.drawing [data-element="s1"]').count(), 1);
-  ['wrong.toml', 'slow.toml'].forEach((name) => rmSync(join(folder, name)));
-  await close();
-});
-
-test('a small motion far from 0 is seen, and so is a short time far from 0', async () => {
-  const { page, close } = await open();
-  await page.evaluate(() => {
-    const { fillText } = CanvasRenderingContext2D.prototype;
-    window.written = new Set();
-    CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {
-      window.written.add(text);
-      return fillText.call(this, text, ...where);
-    };
-  });
-  await page.locator('.cm-content').focus();
-  await page.keyboard.press('Control+a');
-  await redrawn(page, () => page.keyboard.insertText('[elements]\nm1 = { type = "mass", at = "a", mass = 1 }\n[nodes]\na = { position = "1 m", velocity = "20 mm/s" }\n' +
-    '[simulate]\nstart = "1e6 s"\nstop = "1000000.0001 s"\nrecord = ["a.position"]\n'));
-  for (const part of [0.25, 0.75]) {
-    const value = await valueAt(page, part, 'a.position');
-    assert.ok(Math.abs(value - 1 - part * 2e-6) < 2e-8, String(value));
-  }
-  const written = (await page.evaluate(() => [...window.written])).map(Number).filter(Number.isFinite);
-  const places = written.filter((value) => value > 1 && value < 1.0000021);
-  const times = written.filter((value) => value > 1e6 && value < 1000000.00011);
-  assert.ok(places.length >= 3 && times.length >= 2, written.join(' '));
-  await close();
-});
-
-test('the newest position of a slider wins', async () => {
-  const { page, close } = await open();
-  const knob = slider(page, 'parameters.Tc');
-  await knob.focus();
-  for (let k = 0; k < 40; ++k) await knob.press('ArrowRight', { noWaitAfter: true });
-  await page.waitForTimeout(300);
-  await done(page);
-  const bound = Number(await number(page, 'parameters.Tc').inputValue());
-  assert.ok(bound > 2);
-  await shows(page, 0.999, 'k1.force', bound + 5);
   await close();
 });
 

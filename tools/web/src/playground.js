@@ -5,10 +5,13 @@ import { Animation } from './animation.js';
 import { explain, folder, open, save } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
+import { choices } from './choices.js';
 import { download, exporters } from './export.js';
+import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
 import { Gallery } from './gallery.js';
 import { helpDialog } from './help.js';
+import { listenToKeys } from './keys.js';
 import { decode, encode } from './link.js';
 import { menu } from './menu.js';
 import { PlotPanel } from './plot-panel.js';
@@ -18,23 +21,11 @@ import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
 import { rememberTheme, switchTheme } from './theme.js';
 
-const empty = `title = "A spring and a mass"
-
-[elements]
-k1 = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
-m1 = { type = "mass",   at = "block", mass = "1 kg" }
-
-[nodes]
-block = { position = "1 cm" }
-
-[simulate]
-stop = "2 s"
-`;
 const typing = 250; // ms without a key after which what was typed is run
 
 class Playground {
   constructor(host) {
-    this.variants = [this.variant('A', empty, 'scene.toml')];
+    this.variants = [this.variant('A', firstScene, 'scene.toml')];
     this.active = 0;
     this.folder = { scenes: [], may_be_written: false };
     this.gallery = new Gallery({ onopen: (file) => this.openFile(file) });
@@ -47,7 +38,11 @@ class Playground {
     this.plots = new PlotPanel(this.parts.plots, { onchange: () => this.showSections() });
     this.folds = new Folds(this.parts.sections, () => this.explain());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
-    document.addEventListener('keydown', (event) => this.key(event));
+    listenToKeys({
+      save: () => (this.folder.may_be_written ? this.saveInFolder() : this.downloadNetlist()),
+      play: () => this.animation.toggle(),
+      gallery: () => this.gallery.open(),
+    });
     addEventListener('hashchange', () => this.openLink());
   }
 
@@ -101,7 +96,7 @@ class Playground {
     }
     const opened = await this.openLink();
     if (opened) return;
-    this.load(0, empty, 'scene.toml');
+    this.load(0, firstScene, 'scene.toml');
     if (this.notice) return;
     if (this.folder.scenes.length) this.gallery.open();
   }
@@ -123,8 +118,7 @@ class Playground {
     this.sliders.clear();
     this.parts.drawing.replaceChildren();
     this.drawn = null;
-    this.title.textContent = this.current.file;
-    document.title = `${this.current.file} – rheonet`;
+    this.showTitle('');
     this.showLesson({});
   }
 
@@ -200,11 +194,15 @@ class Playground {
 
   showScene(data) {
     const { scene } = data;
-    this.title.textContent = scene.title || this.current.file;
-    document.title = `${scene.title || this.current.file} – rheonet`;
+    this.showTitle(scene.title);
     this.showLesson(scene);
     this.showSchematic(scene);
     this.animation.attach(this.parts.drawing.querySelector('svg'), data);
+  }
+
+  showTitle(title) {
+    this.title.textContent = title || this.current.file;
+    document.title = `${this.title.textContent} – rheonet`;
   }
 
   showSchematic(scene) {
@@ -294,13 +292,9 @@ class Playground {
     this.choice.hidden = !several;
     this.compareButton.setAttribute('aria-pressed', String(several));
     this.compareButton.textContent = several ? 'End comparison' : 'Compare';
-    this.choice.replaceChildren(...(several ? this.variants : []).map(({ label }, k) => {
-      const input = element('input', { type: 'radio', name: 'variant', checked: k === this.active });
-      input.addEventListener('change', () => {
-        this.edit(k);
-        this.choice.querySelectorAll('input')[k].focus();
-      });
-      return element('label', {}, input, element('span', {}, `Edit ${label}`));
+    this.choice.replaceChildren(...choices(several ? this.variants : [], this.active, (k) => {
+      this.edit(k);
+      this.choice.querySelectorAll('input')[k].focus();
     }));
     this.choice.classList.add('tabs');
   }
@@ -340,18 +334,17 @@ class Playground {
     const curves = this.plots.curvePairs();
     const active = [scenes[this.active], ...scenes.filter((_, k) => k !== this.active)];
     return exporters({ scenes: this.variants.length > 1 ? scenes : active, curves, schematic: this.current.data.scene?.schematic ?? '', name: this.name })
-      .map(({ label, make, name }) => ({
-        label,
-        act: async () => {
-          this.say(`Making ${name} …`);
-          try {
-            download(await make(), name);
-            this.say(`Made ${name}.`);
-          } catch (error) {
-            this.say(`Not made: ${error.message}`, true);
-          }
-        },
-      }));
+      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }));
+  }
+
+  async export({ make, name }) {
+    this.say(`Making ${name} …`);
+    try {
+      download(await make(), name);
+      this.say(`Made ${name}.`);
+    } catch (error) {
+      this.say(`Not made: ${error.message}`, true);
+    }
   }
 
   async copyLink() {
@@ -388,27 +381,6 @@ class Playground {
       this.notice = `The link cannot be read: ${error.message}`;
       this.say(this.notice, true);
       return false;
-    }
-  }
-
-  // The rest.
-
-  key(event) {
-    if ((event.ctrlKey || event.metaKey) && event.key === 's') {
-      event.preventDefault();
-      if (this.folder.may_be_written) this.saveInFolder();
-      else this.downloadNetlist();
-      return;
-    }
-    const inField = event.target.closest?.('input, textarea, select, button, summary, .cm-editor, dialog');
-    if (event.target.closest?.('.cm-editor') && event.key === 'Escape') event.target.blur();
-    if (inField || event.ctrlKey || event.metaKey || event.altKey) return;
-    if (event.key === ' ') {
-      event.preventDefault();
-      this.animation.toggle();
-    } else if (event.key === 'g') {
-      event.preventDefault();
-      this.gallery.open();
     }
   }
 }

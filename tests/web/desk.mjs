@@ -1,0 +1,66 @@
+// What the tests of the playground do on it.
+import assert from 'node:assert/strict';
+import { done, watched } from './support.mjs';
+
+// A block on a belt that is pulled through a spring: it sticks, and slips.
+export const stickSlip = `# A block that is pulled through a spring.
+title = "Stick and slip"
+
+[elements]
+pull = { type = "motion", at = "hand", velocity = "10 mm/s" }
+k1 = { type = "spring", between = ["hand", "block"], stiffness = "100 N/m" }
+m1 = { type = "mass", at = "block", mass = "1 kg" }
+s1 = { type = "slider", between = ["block", "ground"], coulomb = "1 N", breakaway = "2 N" }
+
+[simulate]
+stop = "8 s"
+output = { points = 801 }
+record = ["block.position", "k1.force"]
+`;
+
+export async function opened(chromium, server, hash = '#file=bingham.toml', options = {}, ready = done) {
+  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, ...options });
+  const { page, wrong } = await watched(context, server.origin);
+  await page.goto(`${server.origin}/${hash}`);
+  if (hash) await ready(page);
+  const close = async () => {
+    assert.deepEqual(wrong, []);
+    await context.close();
+  };
+  return { page, context, close };
+}
+
+// Does something, and waits until the curves that follow from it are drawn.
+export async function redrawn(page, act) {
+  const text = page.locator('.status');
+  await text.evaluate((status) => (status.dataset.latency = ''));
+  await act();
+  await page.waitForFunction(() => document.querySelector('.status').dataset.latency);
+}
+
+// What the legend says of a record at a part of the time axis.
+export async function valueAt(page, part, record) {
+  const chart = page.locator('.plots .chart', { has: page.locator('.u-series', { hasText: record }) }).first();
+  const over = chart.locator('.u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + part * box.width, box.y + box.height / 3);
+  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  return Number.parseFloat(await chart.locator('.u-series', { hasText: record }).first().locator('.u-value').textContent());
+}
+
+// That it is `expected`, as soon as the curves are those of the last change.
+export async function shows(page, part, record, expected, tolerance = 1e-3) {
+  let value;
+  for (let k = 0; k < 40; ++k) {
+    value = await valueAt(page, part, record);
+    if (Math.abs(value - expected) <= tolerance * Math.abs(expected)) return;
+    await page.waitForTimeout(100);
+  }
+  assert.fail(`${record} is ${value}, expected ${expected}`);
+}
+
+export const slider = (page, name) => page.locator(`[data-slider="${name}"] input[type="range"]`);
+export const number = (page, name) => page.locator(`[data-slider="${name}"] input[type="text"]`);
+export const netlist = (page) => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map((line) => line.textContent).join('\n'));

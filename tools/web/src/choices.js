@@ -1,0 +1,10 @@
+// Which of several variants is edited.
+import { element } from './dom.js';
+
+export function choices(variants, active, onchoose) {
+  return variants.map(({ label }, k) => {
+    const input = element('input', { type: 'radio', name: 'variant', checked: k === active });
+    input.addEventListener('change', () => onchoose(k));
+    return element('label', {}, input, element('span', {}, `Edit ${label}`));
+  });
+}

@@ -1,0 +1,13 @@
+// What the playground begins with.
+export const firstScene = `title = "A spring and a mass"
+
+[elements]
+k1 = { type = "spring", between = ["block", "ground"], stiffness = "100 N/m" }
+m1 = { type = "mass",   at = "block", mass = "1 kg" }
+
+[nodes]
+block = { position = "1 cm" }
+
+[simulate]
+stop = "2 s"
+`;
