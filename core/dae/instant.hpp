@@ -97,8 +97,7 @@ class Instant {
   double delayed_slope(int branch, const State& state) const;
   /// A branch that cannot stand has turned.
   bool reversed(const Fired& fired, int branch) const;
-  void take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
-                       const State& state, Change& change);
+  void take_directions(const Onset& onset, const State& state, Change& change);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider, int side) const;
   bool massless(NodeId node) const {

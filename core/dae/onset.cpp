@@ -80,7 +80,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
-  take_directions(problem, onset.law, fired, state, change);
+  take_directions(onset, state, change);
   std::vector<int> broken;
   for (std::size_t k = 0; k < onset.slider.size(); ++k) {
     const int direction = problem.direction(onset.slider[k]);
@@ -248,8 +248,15 @@ ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double
           }};
 }
 
-void Instant::take_directions(const ConvexNetwork& problem, const std::vector<int>& index, const Fired& fired,
-                              const State& state, Change& change) {
+void Instant::take_directions(const Onset& onset, const State& state, Change& change) {
+  const ConvexNetwork& problem = onset.problem;
+  const std::vector<int>& index = onset.law;
+  const Fired& fired = onset.fired;
+  Sets stuck(structure_.kind.size());
+  for (std::size_t k = 0; k < onset.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (problem.direction(onset.slider[k]) == 0) stuck.join(b.a, b.b);
+  }
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int j = laws.first + static_cast<int>(i);
@@ -264,7 +271,8 @@ void Instant::take_directions(const ConvexNetwork& problem, const std::vector<in
                                : std::abs(w) <= velocity_grain * (std::abs(va) + std::abs(vb));
       const int direction = at_rest ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
-        if (may_stand(j) && relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
+        if (may_stand(j) && stuck.find(b.a) != stuck.find(b.b) &&
+            relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
           laws.batch->set_direction(i, state.p[at(j)], 0, laws.batch->direction(i));
         } else if (may_stand(j) && low < high) {
           change.standing.push_back({j, 0});
@@ -295,7 +303,7 @@ void Instant::rest_beside_sliders(const Fired& fired, const State& state, const 
 }
 
 /// At its bound friction has no slope to begin with, and is still about to leave it in the direction that it had. It could
-/// as well stay there for good, but the least disturbance would end that.
+/// as well stay there for good, but the least disturbance would end that. Beside a slider that sticks it rests instead.
 bool Instant::relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i, double p) {
   const int direction = batch.direction(i);
   if (direction == 0 || !(batch.slope(i, p, direction) <= flat * batch.slope(i, p, -direction))) return false;
