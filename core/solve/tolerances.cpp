@@ -93,6 +93,7 @@ void Tolerances::attach(Dae& dae) {
   find_parts();
   find_jitter();
   find_gaps();
+  balance_rounding_.attach(structure);
 }
 
 void Tolerances::find_gaps() {
@@ -171,6 +172,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   see(y, view);
   find_rounding(view);
   find_difference_rounding(view);
+  if (!balance_rounding_.none()) balance_rounding_.find(view, dae_->slopes());
   step_ = 0;
   update(t, yp);
 }
@@ -195,6 +197,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   reached_ = t;
   find_dashpot_rounding(view);
   find_rounding_now(view);
+  if (!balance_rounding_.none()) balance_rounding_.find(view, dae_->slopes());
   kinks_.follow(*dae_, view);
   update(t, yp);
 }
@@ -274,7 +277,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     tolerance_[i] = std::max({local() * scale, jitters_[i] ? grain * std::abs(yp[i]) : 0.0, rounding_[i]});
     if (q.sort == Sort::deflection) {
       tolerance_[i] = std::max({tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q),
-                                step_ * difference_rounding_[q.index]});
+                                step_ * difference_rounding_[q.index], balance_rounding_.of(static_cast<int>(q.index))});
     }
     if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
       tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);

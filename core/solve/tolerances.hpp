@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dae/dae.hpp"
+#include "core/solve/balance_rounding.hpp"
 #include "core/solve/kinks.hpp"
 
 namespace rheonet {
@@ -86,6 +87,7 @@ class Tolerances {
   Dae* dae_ = nullptr;
   double relative_, dense_;
   Kinks kinks_;
+  BalanceRounding balance_rounding_;
   double begin_ = not_given;  ///< of the run [s]
   double reached_ = 0;        ///< the end of the last step [s]
   double step_ = 0;           ///< its length [s]
