@@ -12,8 +12,8 @@ namespace rheonet {
 
 namespace {
 
-// Roundings of forces that balance (a sum of a few), and of a deflection (its sum of two).
-constexpr double force_grains = 16, value_grains = 4;
+// Roundings of forces that balance (a sum of a few); of a deflection it is one.
+constexpr double force_grains = 4;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -54,7 +54,7 @@ void BalanceRounding::find_forces(const Dae::View& view, const std::vector<doubl
   };
   for (const Held& h : branches_) {
     const std::size_t j = at(h.branch);
-    const double rounding = epsilon * std::max(force_grains * std::abs(view.f[j]), value_grains * std::abs(slope[j] * view.p[j]));
+    const double rounding = epsilon * std::max(force_grains * std::abs(view.f[j]), std::abs(slope[j] * view.p[j]));
     meet(h.a, rounding);
     meet(h.b, rounding);
   }

@@ -28,6 +28,7 @@ struct Integrator::Implementation {
   Dae& dae;
   EventFunctions& event_functions;
   const std::vector<double>& tolerance;
+  const std::vector<double>& grain;
   SUNContext context = nullptr;
   std::vector<double> y, yp, work;
   N_Vector ny = nullptr, np = nullptr, nw = nullptr;
@@ -50,8 +51,9 @@ struct Integrator::Implementation {
   Statistics past;  // of the stretches before the last restart
   bool started = false;
 
-  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const Options& options)
-      : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y) {
+  Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
+                 const Options& options)
+      : dae(d), event_functions(e), tolerance(tol), grain(least), y(at(d.size()), 0), yp(y), work(y) {
     const sunindextype n = dae.size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     ny = N_VMake_Serial(n, y.data(), context);
@@ -178,7 +180,12 @@ struct Integrator::Implementation {
   double rounding(N_Vector weight) const {
     // A change comes out of a residual and two triangular solutions, sums of some tens of rounded terms.
     constexpr double grains = 64;
-    return grains * std::numeric_limits<double>::epsilon() * N_VWrmsNorm(ny, weight);
+    double sum = 0;
+    for (std::size_t i = 0; i < grain.size(); ++i) {
+      const double least = data(weight)[i] * std::max(grains * std::numeric_limits<double>::epsilon() * std::abs(data(ny)[i]), grain[i]);
+      sum += least * least;
+    }
+    return std::sqrt(sum / static_cast<double>(grain.size()));
   }
 
   static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
@@ -245,8 +252,9 @@ struct Integrator::Implementation {
   }
 };
 
-Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const Options& options)
-    : impl_(std::make_unique<Implementation>(dae, events, tolerance, options)) {}
+Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance,
+                       const std::vector<double>& grain, const Options& options)
+    : impl_(std::make_unique<Implementation>(dae, events, tolerance, grain, options)) {}
 
 Integrator::~Integrator() = default;
 

@@ -41,8 +41,10 @@ class Integrator {
     bool locate_events = true;
   };
 
-  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0); it is read before every step.
-  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const Options& options);
+  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0), and a change of it below `grain[i]` is noise; they
+  /// are read before every step.
+  Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const std::vector<double>& grain,
+             const Options& options);
   ~Integrator();
 
   /// Starts afresh at t from a consistent state. The first step is h.

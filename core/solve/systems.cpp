@@ -16,7 +16,7 @@ System::System(const Network& network, Structure s, Drive& drive, const std::vec
       dae(network, structure, drive, needed),
       consistency(dae),
       events(dae, consistency, tolerances, modes),
-      integrator(dae, events, tolerances.values(), options) {}
+      integrator(dae, events, tolerances.values(), tolerances.grains(), options) {}
 
 Systems::Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
                  const Modes& modes, Tolerances& tolerances, const Integrator::Options& options)

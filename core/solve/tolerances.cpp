@@ -32,6 +32,8 @@ constexpr double noise_share = 0.1;
 constexpr double time_grains = 8;
 // Roundings of a deflection that a step may be off by (its sum of two).
 constexpr double value_grains = 4;
+// Roundings of the balance that a deflection follows from that a step may be off by.
+constexpr double balance_grains = 4;
 // What a slider that sticks may have to bear above its bound for errors of steps, in shares of that.
 constexpr double slip_share = 10;
 // Rounding of a velocity that is a given function of time.
@@ -88,6 +90,7 @@ void Tolerances::attach(Dae& dae) {
   }
   for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
   tolerance_.assign(n, relative_);
+  grain_.assign(n, 0);
   rounding_.assign(n, 0);
   drift_.assign(n, {});
   find_parts();
@@ -276,8 +279,9 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     }
     tolerance_[i] = std::max({local() * scale, jitters_[i] ? grain * std::abs(yp[i]) : 0.0, rounding_[i]});
     if (q.sort == Sort::deflection) {
+      grain_[i] = balance_rounding_.of(static_cast<int>(q.index));
       tolerance_[i] = std::max({tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q),
-                                step_ * difference_rounding_[q.index], balance_rounding_.of(static_cast<int>(q.index))});
+                                step_ * difference_rounding_[q.index], balance_grains * grain_[i]});
     }
     if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
       tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);

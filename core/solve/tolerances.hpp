@@ -36,6 +36,8 @@ class Tolerances {
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
   const std::vector<double>& values() const { return tolerance_; }
+  /// Of each unknown: a change below this is noise of the forces that it follows from.
+  const std::vector<double>& grains() const { return grain_; }
   /// Of what is unknown or given, so far or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
   /// Velocities below which nothing is resolved [m/s]; at rest a dilatant law makes a large one of the rounding of a force.
@@ -127,7 +129,7 @@ class Tolerances {
   double largest_velocity_ = 0;
   Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
-  std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_;
+  std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<double> node_noise_;  ///< of each node: the errors of forces there [N]
 };
 
