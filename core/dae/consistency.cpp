@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/network/around.hpp"
 #include "core/network/index.hpp"
 #include "core/network/listed.hpp"
 
@@ -83,16 +84,19 @@ double Consistency::collocate(double t, double rate, std::vector<double>& y, std
 void Consistency::report_singular(double t) {
   const Network& network = dae_.network();
   const Structure& structure = dae_.structure();
-  std::vector<std::string> nodes;
+  std::vector<NodeId> nodes;
+  std::vector<std::string> names;
   for (std::size_t n = 0; n < structure.kind.size(); ++n) {
     if (structure.kind[n] != Kind::floating && structure.kind[n] != Kind::viscous) continue;
-    nodes.push_back(network.node_name(static_cast<NodeId>(n)));
+    nodes.push_back(static_cast<NodeId>(n));
+    names.push_back(network.node_name(nodes.back()));
   }
   if (nodes.empty()) report_unsolved(t);
   throw UndeterminedError(fmt::format(
-      "{} nothing determines the motion of {} {}: every element there has come to a constant force, or values lie too far "
-      "apart for double precision; give the node a mass, a dashpot or a spring",
-      at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", listed(nodes)));
+      "{} nothing determines the motion of {} {}: every element there has come to a constant force, or the values of {} lie "
+      "too far apart for double precision; give the node a mass, a dashpot or a spring",
+      at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", listed(names),
+      listed(elements_at(network, nodes))));
 }
 
 void Consistency::report_unsolved(double t) {
@@ -107,9 +111,9 @@ void Consistency::report_unsolved(double t) {
     most = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
   }
   throw UndeterminedError(fmt::format(
-      "{} no state was found in which the forces balance, least of all for {}: values there may lie too far apart for "
-      "double precision; check them",
-      at_time(*dae_.network().scene, t), dae_.describe(worst)));
+      "{} no state was found in which the forces balance, least of all for {}: the values of {} may lie too far "
+      "apart for double precision; check them",
+      at_time(*dae_.network().scene, t), dae_.describe(worst), dae_.around(worst)));
 }
 
 /// One rate beyond all numbers makes others so that are solved with it: the equation that leads to it by itself comes
@@ -124,8 +128,8 @@ void Consistency::report_rate(double t, int unknown) {
   }
   throw UndeterminedError(fmt::format(
       "{} {} changes at a rate beyond the range of double precision: a force or velocity there is too large, or a mass, "
-      "damping or stiffness too small against it; check the values of the elements around it",
-      at_time(*dae_.network().scene, t), dae_.describe(unknown)));
+      "damping or stiffness too small against it; check the values of {}",
+      at_time(*dae_.network().scene, t), dae_.describe(unknown), dae_.around(unknown)));
 }
 
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {

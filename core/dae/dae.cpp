@@ -276,28 +276,4 @@ bool Dae::differentiated(int unknown) const {
   return unknown >= deflections_begin_ && unknown < deflections_end_;
 }
 
-Dae::Subject Dae::subject(int unknown) const {
-  const auto index_of = [unknown](const std::vector<int>& unknowns) {
-    return static_cast<std::size_t>(std::find(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
-  };
-  using enum Subject::Kind;
-  if (const std::size_t n = index_of(iv_); n < iv_.size()) return {node, network_->scene_node[n]};
-  if (const std::size_t n = index_of(ix_); n < ix_.size()) return {node, network_->scene_node[n]};
-  if (const std::size_t j = index_of(ip_); j < ip_.size()) return {element, network_->deflections[j].element};
-  if (const std::size_t r = index_of(if_); r < if_.size()) return {element, network_->rates[r].element};
-  return {element, network_->blocks.blocks[at(drive_->blocks().block_of_state(index_of(iz_)))].element};
-}
-
-std::string Dae::describe(int unknown) const {
-  const auto is = [unknown](const std::vector<int>& unknowns) {
-    return std::find(unknowns.begin(), unknowns.end(), unknown) != unknowns.end();
-  };
-  const Scene& scene = *network_->scene;
-  const auto [kind, index] = subject(unknown);
-  if (kind == Subject::Kind::node) {
-    return fmt::format("the {} of node `{}`", is(iv_) ? "velocity" : "position", scene.nodes[at(index)].name);
-  }
-  return fmt::format("the {} of `{}`", is(iz_) ? "output" : "force", scene.elements[at(index)].name);
-}
-
 }  // namespace rheonet

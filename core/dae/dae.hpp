@@ -128,8 +128,10 @@ class Dae {
     auto operator<=>(const Subject&) const = default;
   };
   Subject subject(int unknown) const;
-  /// For messages: "the velocity of node `m`", "the deflection of `k1`".
+  /// For messages: "the velocity of node `m`", "the force of `k1`".
   std::string describe(int unknown) const;
+  /// For messages: "`m`, `k1`", the elements there, which have a part in it.
+  std::string around(int unknown) const;
 
   /// Slopes df/dp of all deflection branches at the state last viewed [N/m].
   const std::vector<double>& slopes();

@@ -11,7 +11,7 @@
 #include "core/network/time_grain.hpp"
 #include "core/network/index.hpp"
 #include "core/network/overload.hpp"
-#include "core/network/sets.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -154,49 +154,6 @@ double Instant::given_velocity(NodeId node) const {
   return structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
 }
 
-/// Known nodes have one velocity: now, and as far as they are functions of time also until the next break of one.
-bool Instant::move_together(double t, NodeId a, NodeId b) const {
-  constexpr double rounding = 1e-12;  // of the largest velocity: one may be given by its position
-  const double fast = drive_.reach().velocity;
-  const auto same = [&] {
-    const double va = given_velocity(a), vb = given_velocity(b);
-    return std::abs(va - vb) <= rounding * (fast + std::abs(va) + std::abs(vb));
-  };
-  if (!same()) return false;
-  if (!structure_.of_time[at(a)] || !structure_.of_time[at(b)]) return true;
-  const double end = std::min(drive_.next_break(), network_.scene->stop - network_.scene->start);
-  bool together = true;
-  for (const double share : {0.37, 0.83}) {
-    drive_.evaluate(t + share * std::max(0.0, end - t));
-    together = together && same();
-  }
-  drive_.evaluate(t);
-  return together;
-}
-
-void Instant::refuse_torn_links(double t) const {
-  const auto rigid = [](const Network::Slider& s) { return std::isinf(s.law.breakaway); };
-  if (std::none_of(network_.sliders.begin(), network_.sliders.end(), rigid)) return;
-  Sets linked(structure_.kind.size());
-  for (const Network::Slider& s : network_.sliders) {
-    if (rigid(s)) linked.join(s.branch.a, s.branch.b);
-  }
-  std::vector<NodeId> first(structure_.kind.size(), -1);
-  for (std::size_t n = 0; n < first.size(); ++n) {
-    if (structure_.kind[n] != Kind::known) continue;
-    const int set = linked.find(static_cast<NodeId>(n));
-    NodeId& other = first[at(set)];
-    if (other < 0) other = static_cast<NodeId>(n);
-    if (move_together(t, other, static_cast<NodeId>(n))) continue;
-    const auto within = [&](const Network::Slider& s) { return rigid(s) && linked.find(s.branch.a) == set; };
-    const Branch& link = std::find_if(network_.sliders.begin(), network_.sliders.end(), within)->branch;
-    throw SimulationError(network_.spot_of(link.element),
-                          fmt::format("rigid link `{}` joins nodes that are made to move at different velocities; "
-                                      "leave it out, or one of the motions",
-                                      network_.name_of(link)));
-  }
-}
-
 /// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
 /// velocity is the rounding of the event. Rigid links do so at once, and the energy that this takes is heat.
 double Instant::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
@@ -204,7 +161,7 @@ double Instant::halt(double t, const std::vector<int>& events, const Modes& mode
   refuse_torn_links(t);
   std::vector<int> fired = events;
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    if (std::isinf(network_.sliders[k].law.breakaway)) fired.push_back(static_cast<int>(k));
+    if (is_rigid_link(network_.sliders[k])) fired.push_back(static_cast<int>(k));
   }
   double heat = 0;
   Modes held = modes;
@@ -245,7 +202,7 @@ double Instant::halt(double t, const std::vector<int>& events, const Modes& mode
       state.velocity[at(node)] = after;
     }
     heat += lost;
-    if (const Network::Slider& link = network_.sliders[at(k)]; std::isinf(link.law.breakaway) && lost > link_rounding * had) {
+    if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > link_rounding * had) {
       notes.push_back(fmt::format(
           "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
           "at once, before the energy account begins",

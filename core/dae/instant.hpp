@@ -59,11 +59,16 @@ class Instant {
             Change& change);
   /// Whether there are any.
   bool take_delayed_steps(double t, State& state, Change& change);
+  [[noreturn]] void report_unbalanced(double t) const;
+  [[noreturn]] void report_hidden_shares(double t) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   double given_velocity(NodeId node) const;
   /// Throws SimulationError where rigid links join what moves at different velocities.
   void refuse_torn_links(double t) const;
-  bool move_together(double t, NodeId a, NodeId b) const;
+  struct Parting { double t, of_a, of_b; };  ///< s, and velocities [m/s]
+  std::optional<Parting> parting(double t, NodeId a, NodeId b) const;
+  std::string moved_node(NodeId node, const std::string& how) const;
+  [[noreturn]] void refuse_tearing_step(double t, NodeId first, NodeId node, double by) const;
   /// The modes; returns the sliders that break away under a force above their own of sliding.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);

@@ -6,8 +6,9 @@
 
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/instant.hpp"
+#include "core/network/around.hpp"
 #include "core/network/index.hpp"
-#include "core/network/sets.hpp"
+#include "core/network/listed.hpp"
 
 namespace rheonet {
 
@@ -18,43 +19,11 @@ constexpr double balance_rounding = 1e-12;
 
 }  // namespace
 
-/// What rigid links join to a prescribed node steps as it does, whatever its mass: it is as good as prescribed.
-Structure Instant::take_along(double t, std::vector<double>& dx) const {
-  Structure led = structure_;
-  Sets linked(dx.size());
-  for (const Network::Slider& s : network_.sliders) {
-    if (std::isinf(s.law.breakaway)) linked.join(s.branch.a, s.branch.b);
-  }
-  std::vector<NodeId> leader(dx.size(), -1);
-  for (std::size_t n = 0; n < dx.size(); ++n) {
-    if (structure_.kind[n] != Kind::known) continue;
-    NodeId& first = leader[at(linked.find(static_cast<NodeId>(n)))];
-    if (first < 0) {
-      first = static_cast<NodeId>(n);
-    } else if (!step_together(dx[at(first)], dx[n])) {
-      throw SimulationError(fmt::format("{} nodes `{}` and `{}` step apart, and rigid links join them; leave the links out, or one "
-                                        "of the motions",
-                                        at_time(*network_.scene, t), network_.node_name(first),
-                                        network_.node_name(static_cast<NodeId>(n))));
-    }
-  }
-  for (std::size_t n = 0; n < dx.size(); ++n) {
-    const NodeId first = leader[at(linked.find(static_cast<NodeId>(n)))];
-    if (first < 0 || structure_.group[n] >= 0) continue;  // what floats goes along by itself: see find_jump
-    dx[n] = dx[at(first)];
-    led.kind[n] = Kind::known;
-  }
-  return led;
-}
-
 void Instant::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = drive_.steps()[m];
   if (std::all_of(dx.begin(), dx.end(), [](double step) { return step == 0; })) return;
   const Structure led = take_along(t, dx);
-  if (!go_with_dashpots(network_, led, dx)) {
-    throw SimulationError(at_time(*network_.scene, t) +
-                          " rounding hides how dashpots share a step in position; give it a time to rise in");
-  }
+  if (!go_with_dashpots(network_, led, dx)) report_hidden_shares(t);
   const std::vector<double> momentum = momentum_through_dashpots(network_, led, dx, t);
   for (std::size_t n = 0; n < dx.size(); ++n) {
     if (led.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / led.mass[n];
@@ -136,6 +105,35 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
   return Jump{std::move(problem), outcome, std::move(slider_branch)};
 }
 
+void Instant::report_unbalanced(double t) const {
+  std::vector<NodeId> nodes;
+  std::vector<std::string> names;
+  for (NodeId n = 0; at(n) < structure_.kind.size(); ++n) {
+    if (structure_.group[at(n)] < 0) continue;
+    nodes.push_back(n);
+    names.push_back(network_.node_name(n));
+  }
+  throw SimulationError(fmt::format(
+      "{} the forces at massless node{} {} cannot be balanced: the values of {} may lie too far apart for double precision; check "
+      "them, or give the node{} a mass or a dashpot",
+      at_time(*network_.scene, t), names.size() > 1 ? "s" : "", listed(names), listed(elements_at(network_, nodes)),
+      names.size() > 1 ? "s" : ""));
+}
+
+void Instant::report_hidden_shares(double t) const {
+  std::vector<std::string> motions, dashpots;
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
+    if (drive_.steps()[m] != 0) motions.push_back(network_.scene->elements[at(network_.motions[m].element)].name);
+  }
+  for (const Branch& b : network_.rates) {
+    if (massless(b.a) || massless(b.b)) dashpots.push_back(network_.name_of(b));
+  }
+  throw SimulationError(fmt::format(
+      "{} rounding hides how dashpots {} share the step in position of {}: their values lie too far apart; give the step a time to "
+      "rise in",
+      at_time(*network_.scene, t), listed(dashpots), listed(motions)));
+}
+
 bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
                    Change& change) {
   const std::optional<Jump> found = find_jump(dx, state, force);
@@ -143,7 +141,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   const auto& [problem, outcome, slider_branch] = *found;
   if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
   if (outcome != ConvexNetwork::Outcome::solved) {
-    throw SimulationError(at_time(*network_.scene, t) + " the forces at the massless nodes cannot be balanced");
+    report_unbalanced(t);
   }
 
   const auto moved = [&](NodeId node) { return problem.value(slot(speaker(node))); };

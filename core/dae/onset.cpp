@@ -7,6 +7,7 @@
 #include "core/dae/instant.hpp"
 #include "core/dae/rate_law.hpp"
 #include "core/network/index.hpp"
+#include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
 #include "core/network/velocity_grain.hpp"
 
@@ -73,9 +74,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   ConvexNetwork& problem = onset.problem;
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
-    throw SimulationError(fmt::format(
-        "{} it cannot be decided which sliders begin to slip: the forces on them differ by rounding only",
-        at_time(*network_.scene, t)));
+    report_undecided(network_, at_time(*network_.scene, t));
   }
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));

@@ -7,7 +7,7 @@
 
 #include "core/dae/pair_start.hpp"
 #include "core/dae/start_balance.hpp"
-#include "core/network/sets.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -105,26 +105,26 @@ void follow_block(const Network& network, const Network::Motion& motion, double&
 /// What rigid links join to a motion or to the ground has no velocity of its own.
 void refuse_velocities_against_links(const Network& network) {
   struct Leader {
+    NodeId node = -1;  ///< -1 for none
     double velocity = 0;
-    std::string words;  ///< "" for none
+    std::string words = {};
   };
-  Sets linked(network.nodes());
-  for (const Network::Slider& s : network.sliders) {
-    if (std::isinf(s.law.breakaway)) linked.join(s.branch.a, s.branch.b);
-  }
+  Sets linked = joined_by_links(network);
   std::vector<Leader> leader(network.nodes());
   const auto leader_of = [&](NodeId node) -> Leader& { return leader[static_cast<std::size_t>(linked.find(node))]; };
-  leader_of(ground) = {0, "the ground"};
+  leader_of(ground) = {ground, 0, "the ground"};
   for (const Network::Motion& m : network.motions) {
     const double velocity = initial_velocity(m);
-    leader_of(m.node) = {velocity, fmt::format("node `{}`, which motion `{}` gives {}", network.node_name(m.node),
+    leader_of(m.node) = {m.node, velocity, fmt::format("node `{}`, which motion `{}` gives {}", network.node_name(m.node),
                                                network.scene->elements[static_cast<std::size_t>(m.element)].name,
                                                with_unit(*network.scene, velocity, Quantity::velocity))};
   }
   for (NodeId n = 1; static_cast<std::size_t>(n) < network.nodes(); ++n) {
-    const auto& [velocity, words] = leader_of(n);
-    if (!words.empty() && contradicts(network.node(n), velocity))
-      refuse_velocity(network, network.node(n), "rigid links join it to " + words + "; leave out its velocity, or a link");
+    const auto& [leading, velocity, words] = leader_of(n);
+    if (leading < 0 || leading == n || !contradicts(network.node(n), velocity)) continue;
+    const LinksBetween links = links_between(network, n, leading);
+    refuse_velocity(network, network.node(n), fmt::format("{} join{} it to {}; leave out its velocity, or a link", links.words,
+                                                          links.several ? "" : "s", words));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "core/dae/rate_law.hpp"
 #include "core/dae/settling.hpp"
+#include "core/network/overload.hpp"
 
 namespace rheonet {
 
@@ -141,7 +142,7 @@ void Settling::solve(ConvexNetwork& problem, double far) const {
     if (ran || std::abs(problem.value(own)) > far) nodes.push_back(static_cast<NodeId>(n));
   }
   if (!nodes.empty()) report_acceleration(nodes);
-  throw SimulationError(kind() + " was found: forces on what sticks or slips differ by rounding only");
+  report_undecided(network_, kind() + ":");
 }
 
 void Settling::take_velocities(const ConvexNetwork& problem) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/network/around.hpp"
 #include "core/network/listed.hpp"
 
 namespace rheonet {
@@ -17,6 +18,19 @@ void report_overload(const Network& network, double t, const std::vector<NodeId>
       "dashpot, or apply less force",
       at_time(*network.scene, t), nodes.size() > 1 ? "s" : "", listed(node_names),
       elements.empty() ? "what is there" : listed(element_names), several ? "are" : "is", several ? "they" : "it"));
+}
+
+void report_undecided(const Network& network, const std::string& what) {
+  const std::vector<std::string> friction = elements_with_friction(network);
+  if (friction.empty()) {
+    std::vector<std::string> all;
+    for (const SceneElement& e : network.scene->elements) all.push_back(e.name);
+    throw SimulationError(fmt::format("{} forces lie beyond the range of double precision; check the values of {}", what, listed(all)));
+  }
+  throw SimulationError(fmt::format(
+      "{} it cannot be decided what of {} slips: the forces there differ by rounding only; make their forces of sliding differ, "
+      "or one of them part of the other",
+      what, listed(friction)));
 }
 
 }  // namespace rheonet

@@ -175,7 +175,7 @@ class Recorder final : public Observer {
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::isfinite(values[k])) continue;
       throw SimulationError(
-          fmt::format("{} `{}` has no finite value; check the elements around it", at_time(scene_, t),
+          fmt::format("{} `{}` is beyond the range of double precision; check the values of the elements around it", at_time(scene_, t),
                       scene_.records[k].path));
     }
     csv_.row(scene_time(t), values);

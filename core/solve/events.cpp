@@ -9,7 +9,9 @@
 #include <map>
 #include <utility>
 
+#include "core/network/around.hpp"
 #include "core/network/index.hpp"
+#include "core/network/listed.hpp"
 
 namespace rheonet {
 
@@ -121,10 +123,11 @@ double NetworkEvents::slider_function(int k, const Dae::View& view) const {
 
 void NetworkEvents::report_against_force(double t, int slider) const {
   const Network& network = dae_.network();
+  const Branch& branch = network.sliders[at(slider)].branch;
   throw SimulationError(fmt::format(
-      "{} no motion was found in which `{}` slips the way it is pushed: values around it may lie too far apart for double "
-      "precision",
-      rheonet::at_time(*network.scene, t), network.name_of(network.sliders[at(slider)].branch)));
+      "{} no motion was found in which `{}` slips the way it is pushed: the values of {} may lie too far apart for double "
+      "precision; check them",
+      rheonet::at_time(*network.scene, t), network.name_of(branch), listed(elements_at(network, {branch.a, branch.b}))));
 }
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {

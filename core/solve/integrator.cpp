@@ -244,7 +244,9 @@ struct Integrator::Implementation {
     double largest = 0;
     for (std::size_t i = 0; i < work.size(); ++i) {
       const double error = std::abs(work[i]) / tolerance[i];
-      if (error <= largest || !counts(static_cast<int>(i))) continue;
+      if (!counts(static_cast<int>(i))) continue;
+      if (std::isnan(error)) return static_cast<int>(i);
+      if (error <= largest) continue;
       largest = error;
       worst = static_cast<int>(i);
     }

@@ -17,6 +17,7 @@
 #include "core/solve/fired.hpp"
 #include "core/solve/accumulation.hpp"
 #include "core/solve/headway.hpp"
+#include "core/solve/refusal.hpp"
 #include "core/solve/softening.hpp"
 #include "core/solve/systems.hpp"
 #include "core/solve/ties.hpp"
@@ -206,7 +207,7 @@ class Run {
     headway_.reset();
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
-        throw SimulationError("interrupted " + at_time(*network_.scene, system_->integrator.time()));
+        throw SimulationError(fmt::format("interrupted {}", at_time(*network_.scene, system_->integrator.time())));
       }
       Integrator::Outcome outcome = system_->integrator.step();
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
@@ -336,17 +337,11 @@ class Run {
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
-    const double t = system_->integrator.time();
-    const int worst = system_->integrator.worst_unknown();
     y_ = system_->integrator.y();
     yp_ = system_->integrator.yp();
-    leave(t);
+    leave(system_->integrator.time());
     tell_overload();
-    throw SimulationError(fmt::format(
-        "{} {} {}; check the values of the elements there, or ask for a looser accuracy", at_time(*network_.scene, t),
-        worst < 0 ? "a quantity" : system_->dae.describe(worst),
-        outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"
-                                                 : "changes faster than double precision can follow at this accuracy"));
+    refuse_to_go_on(*system_, tolerances_.values(), outcome);
   }
 
   const Network& network_;

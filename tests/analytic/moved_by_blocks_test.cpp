@@ -246,7 +246,7 @@ n = { type = "motion", at = "b", velocity = { block = "j" } }
 link = { type = "slider", between = ["a", "b"], coulomb = "inf" }
 [simulate]
 stop = 1
-)"), "rigid link `link` joins nodes that are made to move at different velocities");
+)"), "rigid link `link` joins node `b`, which motion `n` moves at ");
   const std::string x = "m = { type = \"motion\", at = \"a\", position = { block = \"h\" } }\n";
   says(refused("g = { type = \"generator\", signal = 1 }\nh = { type = \"gain\", in = \"g\", gain = 1 }\n" + x),
        "motion `m` takes its position from block `h`, which is no integrator or lag: its rate, the velocity, is not known; put an "

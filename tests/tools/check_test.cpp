@@ -82,7 +82,7 @@ TEST_CASE("what is wrong with a network has its place in the netlist, and what w
       {"one = { type = \"motion\", at = \"a\", velocity = 1 }\n"
        "two = { type = \"motion\", at = \"b\", velocity = 2 }\n"
        "link = { type = \"slider\", between = [\"a\", \"b\"], coulomb = \"inf\" }\n",
-       "scene.toml:4:1: error: rigid link `link` joins nodes that are made to move at different velocities; leave it out"},
+       "scene.toml:4:1: error: rigid link `link` joins node `b`, which motion `two` moves at 2 m/s, to node `a`, which motion `one` moves at 1 m/s, at t = 0 s; leave out the link or one of the motions"},
       {inertia + "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3, d0 = 1 }\n"
                  "[nodes]\na = { position = 2 }\n",
        "scene.toml:3:1: error: element `k` cannot start with the displacement d0 = 1"},

@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/dae/dae.hpp"
+#include "core/network/around.hpp"
+#include "core/network/listed.hpp"
+
+namespace rheonet {
+
+Dae::Subject Dae::subject(int unknown) const {
+  const auto index_of = [unknown](const std::vector<int>& unknowns) {
+    return static_cast<std::size_t>(std::find(unknowns.begin(), unknowns.end(), unknown) - unknowns.begin());
+  };
+  using enum Subject::Kind;
+  if (const std::size_t n = index_of(iv_); n < iv_.size()) return {node, network_->scene_node[n]};
+  if (const std::size_t n = index_of(ix_); n < ix_.size()) return {node, network_->scene_node[n]};
+  if (const std::size_t j = index_of(ip_); j < ip_.size()) return {element, network_->deflections[j].element};
+  if (const std::size_t r = index_of(if_); r < if_.size()) return {element, network_->rates[r].element};
+  return {element, network_->blocks.blocks[at(drive_->blocks().block_of_state(index_of(iz_)))].element};
+}
+
+std::string Dae::describe(int unknown) const {
+  const auto is = [unknown](const std::vector<int>& unknowns) {
+    return std::find(unknowns.begin(), unknowns.end(), unknown) != unknowns.end();
+  };
+  const Scene& scene = *network_->scene;
+  const auto [kind, index] = subject(unknown);
+  if (kind == Subject::Kind::node) {
+    return fmt::format("the {} of node `{}`", is(iv_) ? "velocity" : "position", scene.nodes[at(index)].name);
+  }
+  return fmt::format("the {} of `{}`", is(iz_) ? "output" : "force", scene.elements[at(index)].name);
+}
+
+std::string Dae::around(int unknown) const {
+  const Scene& scene = *network_->scene;
+  const auto [kind, index] = subject(unknown);
+  std::vector<NodeId> ends{index};
+  if (kind == Subject::Kind::element) ends = {scene.elements[at(index)].a, scene.elements[at(index)].b};
+  std::vector<NodeId> nodes;
+  for (const NodeId end : ends) {
+    if (const int node = network_->node_of[at(end)]; node >= 0) nodes.push_back(node);
+  }
+  std::vector<std::string> names = elements_at(*network_, nodes);
+  // A block touches no node, nor may what stands between motions.
+  if (names.empty() && kind == Subject::Kind::element) names = {scene.elements[at(index)].name};
+  return listed(names);
+}
+
+}  // namespace rheonet

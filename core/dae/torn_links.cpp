@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/dae/dashpot_steps.hpp"
+#include "core/dae/instant.hpp"
+#include "core/network/index.hpp"
+#include "core/network/rigid_links.hpp"
+
+namespace rheonet {
+
+/// Known nodes have one velocity: now, and as far as they are functions of time also until the next break of one. The time
+/// at which they have not.
+std::optional<Instant::Parting> Instant::parting(double t, NodeId a, NodeId b) const {
+  constexpr double rounding = 1e-12;  // of the largest velocity: one may be given by its position
+  const double fast = drive_.reach().velocity;
+  const auto apart = [&](double then) -> std::optional<Parting> {
+    const double va = given_velocity(a), vb = given_velocity(b);
+    if (std::abs(va - vb) <= rounding * (fast + std::abs(va) + std::abs(vb))) return {};
+    return Parting{then, va, vb};
+  };
+  std::optional<Parting> found = apart(t);
+  if (found || !structure_.of_time[at(a)] || !structure_.of_time[at(b)]) return found;
+  const double end = std::min(drive_.next_break(), network_.scene->stop - network_.scene->start);
+  for (const double share : {0.37, 0.83}) {
+    const double then = t + share * std::max(0.0, end - t);
+    drive_.evaluate(then);
+    if (!found) found = apart(then);
+  }
+  drive_.evaluate(t);
+  return found;
+}
+
+/// "node `a`, which motion `drive` moves at 1 m/s,", or "`ground`".
+std::string Instant::moved_node(NodeId node, const std::string& how) const {
+  if (node == ground) return "`ground`";
+  const int motion = structure_.motion[at(node)];
+  return fmt::format("node `{}`, which motion `{}` moves{},", network_.node_name(node),
+                     network_.scene->elements[at(network_.motions[at(motion)].element)].name, how);
+}
+
+void Instant::refuse_torn_links(double t) const {
+  if (std::none_of(network_.sliders.begin(), network_.sliders.end(), is_rigid_link)) return;
+  Sets linked = joined_by_links(network_);
+  std::vector<NodeId> first(structure_.kind.size(), -1);
+  for (std::size_t n = 0; n < first.size(); ++n) {
+    if (structure_.kind[n] != Kind::known) continue;
+    const NodeId node = static_cast<NodeId>(n);
+    NodeId& other = first[at(linked.find(node))];
+    if (other < 0) other = node;
+    const std::optional<Parting> torn = parting(t, other, node);
+    if (!torn) continue;
+    const LinksBetween links = links_between(network_, other, node);
+    const auto with_velocity = [&](NodeId n, double v) {
+      return moved_node(n, " at " + with_unit(*network_.scene, v, Quantity::velocity));
+    };
+    throw SimulationError(network_.spot_of(links.first),
+                          fmt::format("{} join{} {} to {} {}; leave out {} or {}", links.words, links.several ? "" : "s",
+                                      with_velocity(node, torn->of_b), with_velocity(other, torn->of_a),
+                                      at_time(*network_.scene, torn->t), links.several ? "a link" : "the link",
+                                      other == ground ? "the motion" : "one of the motions"));
+  }
+}
+
+/// What rigid links join to a prescribed node steps as it does, whatever its mass: it is as good as prescribed.
+Structure Instant::take_along(double t, std::vector<double>& dx) const {
+  Structure led = structure_;
+  Sets linked = joined_by_links(network_);
+  std::vector<NodeId> leader(dx.size(), -1);
+  for (std::size_t n = 0; n < dx.size(); ++n) {
+    if (structure_.kind[n] != Kind::known) continue;
+    const NodeId node = static_cast<NodeId>(n);
+    NodeId& first = leader[at(linked.find(node))];
+    if (first < 0) first = node;
+    if (!step_together(dx[at(first)], dx[n])) refuse_tearing_step(t, first, node, dx[n] - dx[at(first)]);
+  }
+  for (std::size_t n = 0; n < dx.size(); ++n) {
+    const NodeId first = leader[at(linked.find(static_cast<NodeId>(n)))];
+    if (first < 0 || structure_.group[n] >= 0) continue;  // what floats goes along by itself: see find_jump
+    dx[n] = dx[at(first)];
+    led.kind[n] = Kind::known;
+  }
+  return led;
+}
+
+void Instant::refuse_tearing_step(double t, NodeId first, NodeId node, double by) const {
+  const LinksBetween links = links_between(network_, first, node);
+  throw SimulationError(fmt::format("{} a step in position tears {} from {} by {}, and {} join{} them; leave out {} or {}",
+                                    at_time(*network_.scene, t), moved_node(node, ""), moved_node(first, ""),
+                                    with_unit(*network_.scene, std::abs(by), Quantity::position), links.words,
+                                    links.several ? "" : "s", links.several ? "a link" : "the link",
+                                    first == ground ? "the motion" : "one of the motions"));
+}
+
+}  // namespace rheonet

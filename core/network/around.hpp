@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/network/network.hpp"
+
+namespace rheonet {
+
+/// The names of the elements that touch any of these nodes, in the order of the scene. What touches ground alone is not
+/// among them.
+std::vector<std::string> elements_at(const Network& network, const std::vector<NodeId>& nodes);
+
+/// The names of the elements that may stick or slip, turn or stand: sliders and friction.
+std::vector<std::string> elements_with_friction(const Network& network);
+
+}  // namespace rheonet

@@ -1,0 +1,50 @@
+#include "core/network/rigid_links.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/network/index.hpp"
+#include "core/network/listed.hpp"
+
+namespace rheonet {
+
+bool is_rigid_link(const Network::Slider& slider) { return std::isinf(slider.law.breakaway); }
+
+Sets joined_by_links(const Network& network) {
+  Sets joined(network.nodes());
+  for (const Network::Slider& s : network.sliders) {
+    if (is_rigid_link(s)) joined.join(s.branch.a, s.branch.b);
+  }
+  return joined;
+}
+
+LinksBetween links_between(const Network& network, NodeId from, NodeId to) {
+  std::vector<std::vector<const Branch*>> around(network.nodes());
+  for (const Network::Slider& s : network.sliders) {
+    if (!is_rigid_link(s)) continue;
+    around[at(s.branch.a)].push_back(&s.branch);
+    around[at(s.branch.b)].push_back(&s.branch);
+  }
+  const auto beyond = [](const Branch& link, NodeId node) { return link.a == node ? link.b : link.a; };
+  std::vector<const Branch*> by(network.nodes(), nullptr);
+  std::vector<NodeId> reached{from};
+  for (std::size_t k = 0; k < reached.size() && !by[at(to)]; ++k) {
+    for (const Branch* link : around[at(reached[k])]) {
+      const NodeId next = beyond(*link, reached[k]);
+      if (next == from || by[at(next)]) continue;
+      by[at(next)] = link;
+      reached.push_back(next);
+    }
+  }
+  std::vector<std::string> names;
+  int first = -1;
+  for (NodeId node = to; node != from && by[at(node)]; node = beyond(*by[at(node)], node)) {
+    first = by[at(node)]->element;
+    names.push_back(network.name_of(*by[at(node)]));
+  }
+  std::reverse(names.begin(), names.end());
+  const bool several = names.size() > 1;
+  return {(several ? "rigid links " : "rigid link ") + listed(names), first, several};
+}
+
+}  // namespace rheonet

@@ -1,0 +1,49 @@
+#include "core/solve/refusal.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/network/index.hpp"
+#include "core/network/listed.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// The unknown with the largest error; where a run has not come so far that there is one, that which changes fastest. -1 if
+/// there is no unknown.
+int at_fault(const System& system, const std::vector<double>& tolerance) {
+  if (const int worst = system.integrator.worst_unknown(); worst >= 0) return worst;
+  int fastest = -1;
+  double most = -1;
+  for (int i = 0; i < system.dae.unknowns(); ++i) {
+    const double rate = std::abs(system.integrator.yp()[at(i)]) / tolerance[at(i)];
+    if (!(rate > most || std::isnan(rate))) continue;
+    fastest = i;
+    most = std::isnan(rate) ? std::numeric_limits<double>::infinity() : rate;
+  }
+  return fastest;
+}
+
+/// Of a network that moves as it is given to.
+std::string all_of(const Network& network) {
+  std::vector<std::string> names;
+  for (const SceneElement& e : network.scene->elements) names.push_back(e.name);
+  return listed(names);
+}
+
+}  // namespace
+
+void refuse_to_go_on(const System& system, const std::vector<double>& tolerance, Integrator::Outcome outcome) {
+  const Network& network = system.dae.network();
+  const int unknown = at_fault(system, tolerance);
+  throw SimulationError(fmt::format(
+      "{} {} {}; check the values of {}, or ask for a looser accuracy", at_time(*network.scene, system.integrator.time()),
+      unknown < 0 ? "what the motions make of " + all_of(network) : system.dae.describe(unknown),
+      outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"
+                                               : "changes faster than double precision can follow at this accuracy",
+      unknown < 0 ? "these" : system.dae.around(unknown)));
+}
+
+}  // namespace rheonet

@@ -1,0 +1,43 @@
+// What ends a run names the elements to look at, the time, and what would mend it, however small the network is.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tests/support/scene_builder.hpp"
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+/// A mass that a force drives, and a spring where it has a stiffness.
+std::string refused(const Signal& force, double stiffness, double stop) {
+  SceneBuilder b;
+  b.at("m", "mass", "a", {{"mass", 0.7}});
+  b.force("push", "a", force);
+  if (stiffness > 0) b.between("k", "spring", "a", "ground", {{"stiffness", stiffness}});
+  return attempt(b.finish(stop, 10, 1e-6)).refusal;
+}
+
+Signal sine(double frequency) { return Signal(Signal::Sine{.amplitude = 1.3, .frequency = frequency, .phase = 0, .time = 0, .offset = 0}); }
+
+}  // namespace
+
+TEST_CASE("what changes too fast is told with all that has a part in it, at the one node and at two") {
+  CHECK_EQ(refused(sine(1), 0, 1), "");
+  CHECK_EQ(refused(sine(1e300), 0, 1),
+           "at t = 0 s the velocity of node `a` changes faster than double precision can follow at this accuracy; check the values of "
+           "`m`, `push`, or ask for a looser accuracy");
+  CHECK_EQ(refused(sine(1), 130, 1), "");
+  CHECK_EQ(refused(sine(1e300), 130, 1),
+           "at t = 0 s the velocity of node `a` changes faster than double precision can follow at this accuracy; check the values of "
+           "`m`, `push`, `k`, or ask for a looser accuracy");
+}
+
+TEST_CASE("forces beyond all numbers are told as such where nothing can slip") {
+  const Signal peak(Signal::Table{.times = {0, 1, 1.5}, .values = {0, 1e308, 0}, .time = 0, .offset = 0});
+  CHECK_EQ(refused(peak, 0, 2), "at t = 1 s forces lie beyond the range of double precision; check the values of `m`, `push`");
+}
+
+}  // namespace rheonet::test
