@@ -1,6 +1,7 @@
 // What the tests of the playground do on it.
 import assert from 'node:assert/strict';
-import { done, watched } from './support.mjs';
+import { after, before } from 'node:test';
+import { bingham, browser, done, folderWith, remove, serve, watched } from './support.mjs';
 
 // A block on a belt that is pulled through a spring: it sticks, and slips.
 export const stickSlip = `# A block that is pulled through a spring.
@@ -18,16 +19,33 @@ output = { points = 801 }
 record = ["block.position", "k1.force"]
 `;
 
-export async function opened(chromium, server, hash = '#file=bingham.toml', options = {}, ready = done) {
-  const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, ...options });
-  const { page, wrong } = await watched(context, server.origin);
-  await page.goto(`${server.origin}/${hash}`);
-  if (hash) await ready(page);
-  const close = async () => {
-    assert.deepEqual(wrong, []);
-    await context.close();
+// A server of a folder with these netlists, and a browser, for the tests of a file. What it gives is there when they run.
+export function setUp(files = { 'bingham.toml': bingham }) {
+  const desk = {};
+  before(async () => {
+    desk.folder = folderWith(files);
+    desk.server = await serve(desk.folder);
+    desk.chromium = await browser();
+  });
+  after(async () => {
+    await desk.chromium?.close();
+    assert.equal(await desk.server.stop(), 0);
+    remove(desk.folder);
+  });
+  // A page of the playground; `close` ends it, and fails if anything was wrong with it.
+  desk.open = async (hash = '#file=bingham.toml', options = {}, ready = done) => {
+    const { server: { origin }, chromium } = desk;
+    const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, ...options });
+    const { page, wrong } = await watched(context, origin);
+    await page.goto(`${origin}/${hash}`);
+    if (hash) await ready(page);
+    const close = async (expected = []) => {
+      assert.deepEqual(wrong, expected);
+      await context.close();
+    };
+    return { page, context, close };
   };
-  return { page, context, close };
+  return desk;
 }
 
 // Does something, and waits until the curves that follow from it are drawn.

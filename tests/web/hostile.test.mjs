@@ -1,11 +1,13 @@
 // Whatever is sent to it, the server stays up, answers others, and gives and takes nothing outside its folder.
 import assert from 'node:assert/strict';
-import { readdirSync, readFileSync, existsSync, symlinkSync, writeFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { existsSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import http from 'node:http';
 import net from 'node:net';
 import { join } from 'node:path';
 import { after, afterEach, before, test } from 'node:test';
-import { bingham, folderWith, remove, rheonet, serve } from './support.mjs';
+import { bingham, folderWith, program, remove, rheonet, serve } from './support.mjs';
 
 // A mass that a square wave drives against friction, nearly for ever.
 const endless = `[elements]
@@ -53,7 +55,7 @@ function ask(path, { method = 'GET', headers = {}, body } = {}) {
   });
 }
 const json = { 'Content-Type': 'application/json' };
-const post = (value, path = '/api/task', headers = json) => ask(path, { method: 'POST', headers, body: typeof value === 'string' ? value : JSON.stringify(value) });
+const post = (value, path = '/api/task', headers = json) => ask(path, { method: 'POST', headers, body: typeof value === 'string' || Buffer.isBuffer(value) ? value : JSON.stringify(value) });
 const messages = (body) => body.trim().split('\n').map((line) => JSON.parse(line));
 
 // Bytes as they are; what comes back until the other side ends.
@@ -106,15 +108,111 @@ test('a netlist that is sent includes nothing from outside', async () => {
   assert.match(body, /there is no file/);
 });
 
+const save = async (request) => {
+  const { status, body } = await post(request, '/api/save');
+  return { status, ...JSON.parse(body) };
+};
+
 test('nothing outside the folder is written', async () => {
   const before = readFileSync(join(outer, 'secret.toml'), 'utf8');
-  for (const name of ['../new.toml', '/tmp/new.toml', 'link.toml', 'out/new.toml', 'deep/../../new.toml', 'new.sh', '.hidden.toml', 'no/such/folder.toml', '', 'deep'])
-    assert.equal((await post({ file: name, text: 'x' }, '/api/save')).status, 409, name);
+  for (const name of ['../new.toml', '/tmp/new.toml', 'link.toml', 'out/new.toml', 'deep/../../new.toml']) assert.equal((await save({ file: name, text: 'x' })).status, 400, name);
   assert.equal(readFileSync(join(outer, 'secret.toml'), 'utf8'), before);
   assert.ok(!existsSync(join(outer, 'new.toml')) && !existsSync('/tmp/new.toml'));
-  assert.equal((await post({ file: 'deep/new.toml', text: endless }, '/api/save')).status, 200);
+  assert.equal((await save({ file: 'deep/new.toml', text: endless })).status, 200);
   assert.equal(readFileSync(join(folder, 'deep/new.toml'), 'utf8'), endless);
   assert.deepEqual(readdirSync(join(folder, 'deep')).sort(), ['new.toml', 'other.toml']);
+  rmSync(join(folder, 'deep/new.toml'));
+});
+
+test('a name that is none is told what is wrong with it', async () => {
+  const part = (size) => `${'n'.repeat(size - 5)}.toml`;
+  for (const [name, why] of [['', /needs a name/], ['../new.toml', /`\.\.` leads out/], ['/new.toml', /begins with `\/`/], ['link.toml', /link that leads out/], ['out/new.toml', /link that leads out/],
+    ['new.sh', /ends in \.toml: `new\.sh\.toml`/], ['new', /ends in \.toml/], ['deep', /ends in \.toml/], ['deep/', /name of a folder/], ['.hidden.toml', /`\.hidden\.toml` begins with a dot/], ['deep/.git/a.toml', /`\.git` begins/],
+    ['no/such/a.toml', /no folder `no\/such`/], ['a\nb.toml', /`\\n` is a character/], ['a\u0000.toml', /`\\u0000`/], ['a\u001b[2J.toml', /`\\u001B`/], ['a\u202etxt.toml', /`\\u202E`/], ['a\u0085.toml', /`\\u0085`/],
+    ['deep\\a.toml', /separated by `\/`/], [part(256), /has 256 bytes, and may have 255/], [`${'deep/'.repeat(300)}a.toml`, /may have 1000 bytes, not 1506/]]) {
+    const { status, error } = await save({ file: name, text: 'x' });
+    assert.equal(status, 400, name);
+    assert.match(error, why, name);
+  }
+  for (const name of ['a b.toml', 'µ-π.toml', 'deep/a.b.toml', part(255)]) {
+    assert.equal((await save({ file: name, text: 'x' })).status, 200, name);
+    assert.equal((await ask(`/api/scene?file=${encodeURIComponent(name)}`)).body, 'x', name);
+    rmSync(join(folder, name));
+  }
+  // What is no UTF-8 is no JSON, and no name to read.
+  assert.match(JSON.parse((await post(Buffer.from('{"file":"a\xff.toml","text":"x"}', 'latin1'), '/api/save')).body).error, /UTF-8/);
+  assert.equal((await ask('/api/scene?file=a%ff.toml')).status, 404);
+  for (const [request, why] of [[{ text: 'x' }, /no name/], [{ file: 1, text: 'x' }, /no name/], [{ file: 'a.toml' }, /no text/]]) {
+    const { status, error } = await save(request);
+    assert.equal(status, 400);
+    assert.match(error, why);
+  }
+});
+
+test('what nobody has seen is not overwritten', async () => {
+  const file = 'deep/mine.toml';
+  const on_disk = () => readFileSync(join(folder, file), 'utf8');
+  const { status, version: first } = await save({ file, text: 'first' });
+  assert.equal(status, 200);
+  const { headers } = await ask(`/api/scene?file=${file}`);
+  assert.equal(headers.etag, `"${first}"`);
+  for (const version of [undefined, '', 'other', `${first}0`]) {
+    const answer = await save({ file, text: 'second', version });
+    assert.equal(answer.status, 409);
+    assert.match(answer.error, version ? /has changed since/ : /there is already a netlist `deep\/mine\.toml`/);
+    assert.equal(answer.version, first);
+    assert.equal(on_disk(), 'first');
+  }
+  const { status: over, version: second } = await save({ file, text: 'second', version: first });
+  assert.equal(over, 200);
+  assert.equal(on_disk(), 'second');
+  assert.equal((await save({ file, text: 'third', version: first })).status, 409);
+  // Of two at once one is too late.
+  const both = await Promise.all(['third', 'fourth'].map((text) => save({ file, text, version: second })));
+  assert.deepEqual(both.map(({ status: one }) => one).sort(), [200, 409]);
+  const ended = both.find(({ status: one }) => one === 200).version;
+  assert.equal((await ask(`/api/scene?file=${file}`)).headers.etag, `"${ended}"`);
+  // One that was taken away is made anew.
+  rmSync(join(folder, file));
+  assert.equal((await save({ file, text: 'fifth', version: second })).status, 200);
+  assert.equal(on_disk(), 'fifth');
+  rmSync(join(folder, file));
+});
+
+test('the netlists that come with rheonet are not changed', async () => {
+  const own = spawn(program, ['serve', '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const [line] = await once(own.stdout, 'data');
+  const [, port] = /:(\d+)\//.exec(line);
+  const answer = await fetch(`http://127.0.0.1:${port}/api/save`, { method: 'POST', headers: json, body: JSON.stringify({ file: 'teaching/new.toml', text: 'x' }) });
+  assert.equal(answer.status, 403);
+  assert.match((await answer.json()).error, /come with rheonet/);
+  own.kill('SIGTERM');
+  await once(own, 'exit');
+});
+
+test('the gallery is told what a netlist says of itself, however it is written', async () => {
+  const files = {
+    'single.toml': `# A comment.\ntitle = 'It''s'\n`.replace("'It''s'", "'single \"quotes\"'") + '[elements]\n[simulate]\n',
+    'escaped.toml': `title = "tab\\tand \\"quote\\" \\u00b5" # "not this"\nelements = {}\nsimulate = { stop = 1 }\n`,
+    'long.toml': 'title = """\nOn a line\nof its own"""\n[elements]\n[simulate]\n[demo]\nquestion = \'Why "so"?\'\n',
+    'dotted.toml': `#:schema x.json\n#  First words,\n# and more.\n\n# Not these.\ndemo.see = "x"\nelements.k1.type = "spring"\nsimulate.stop = 1\n[parameters]\ntitle = "not this"\n`,
+    'wrong.toml': 'title = "Wrong"\n[elements\n',
+    'models.toml': 'title = "Models"\n[models.a]\n',
+    'a\tb.toml': '[elements]\n[simulate]\n',
+  };
+  const other = folderWith(files);
+  const gallery = await serve(other);
+  const { scenes } = await (await fetch(`${gallery.origin}/api/folder`)).json();
+  assert.deepEqual(scenes, [
+    { file: 'dotted.toml', title: '', about: 'First words, and more.' },
+    { file: 'escaped.toml', title: 'tab\tand "quote" \u00b5', about: '' },
+    { file: 'long.toml', title: 'On a line\nof its own', about: 'Why "so"?' },
+    { file: 'single.toml', title: 'single "quotes"', about: 'A comment.' },
+    { file: 'wrong.toml', title: '', about: scenes.at(-1).about },
+  ]);
+  assert.match(scenes.at(-1).about, /^It cannot be read: 2:\d+: /);
+  await gallery.stop();
+  remove(other);
 });
 
 test('other pages cannot use it', async () => {

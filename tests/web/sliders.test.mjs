@@ -2,23 +2,12 @@
 import assert from 'node:assert/strict';
 import { rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { netlist, number, opened, redrawn, shows, slider, stickSlip, valueAt } from './desk.mjs';
-import { bingham, browser, done, folderWith, remove, serve } from './support.mjs';
+import { test } from 'node:test';
+import { netlist, number, redrawn, setUp, shows, slider, stickSlip, valueAt } from './desk.mjs';
+import { bingham, done } from './support.mjs';
 
-let folder, server, chromium;
-before(async () => {
-  folder = folderWith({ 'bingham.toml': bingham });
-  server = await serve(folder);
-  chromium = await browser();
-});
-after(async () => {
-  await chromium?.close();
-  assert.equal(await server.stop(), 0);
-  remove(folder);
-});
-
-const open = (...what) => opened(chromium, server, ...what);
+const desk = setUp();
+const { open } = desk;
 
 test('curves follow a slider while it is dragged, and so do the netlist and the schematic', async () => {
   const { page, close } = await open();
@@ -76,20 +65,20 @@ test('what is typed beside a slider is a number, or is not taken', async () => {
 test('sliders are those of the netlist that is open', async () => {
   const { page, close } = await open();
   const text = bingham.replace('"spring"', '"sprong"').replace('[parameters]', '# Longer than it was.\n[parameters]');
-  writeFileSync(join(folder, 'wrong.toml'), text);
+  writeFileSync(join(desk.folder, 'wrong.toml'), text);
   await page.evaluate(() => (location.hash = '#file=wrong.toml'));
   await page.waitForSelector('.mistake.error');
   assert.equal(await page.locator('.slider, .drawing svg').count(), 0);
   assert.equal(await page.textContent('h1'), 'wrong.toml');
   assert.equal(await netlist(page), text);
   // They come with the scene, long before its run is done.
-  writeFileSync(join(folder, 'slow.toml'), stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'points = 3'));
+  writeFileSync(join(desk.folder, 'slow.toml'), stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'points = 3'));
   await page.evaluate(() => (location.hash = '#file=slow.toml'));
   await number(page, 'k1.stiffness').fill('125');
   await number(page, 'k1.stiffness').press('Enter');
   assert.match(await netlist(page), /stiffness = "125 N\/m" }\nm1 =/);
   assert.equal(await page.locator('.drawing [data-element="s1"]').count(), 1);
-  ['wrong.toml', 'slow.toml'].forEach((name) => rmSync(join(folder, name)));
+  ['wrong.toml', 'slow.toml'].forEach((name) => rmSync(join(desk.folder, name)));
   await close();
 });
 

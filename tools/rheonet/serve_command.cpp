@@ -46,7 +46,7 @@ std::string address_of(const std::string& host, int port) {
   return fmt::format("http://{}:{}/", host.find(':') != std::string::npos ? "[" + host + "]" : host, port);
 }
 
-ExitStatus listen(const ServeArguments& wanted, const serve::Folder& folder) {
+ExitStatus listen(const ServeArguments& wanted, serve::Folder& folder) {
   allow_many_files();
   const serve::Limits limits{wanted.seconds, wanted.megabytes};
   serve::Pool pool(limits, std::max(2u, std::thread::hardware_concurrency()));
@@ -90,7 +90,7 @@ ExitStatus serve_playground(const Arguments& arguments) {
     return wrong_input;
   }
   try {
-    const serve::Folder folder(own ? fs::path(wanted.folder) : library.front(), own);
+    serve::Folder folder(own ? fs::path(wanted.folder) : library.front(), own);
     return listen(wanted, folder);
   } catch (const fs::filesystem_error& error) {
     say("error: cannot serve `{}`: {}\n", printable(wanted.folder), error.code().message());

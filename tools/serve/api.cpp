@@ -36,7 +36,7 @@ std::optional<json> read(httplib::Response& response, const httplib::ContentRead
   if (too_large) return refuse(response, 413, "a request may have 1 MB"), std::nullopt;
   if (!whole) return refuse(response, 400, "the request is not complete"), std::nullopt;
   json value = json::parse(text, nullptr, false);
-  if (!value.is_object()) return refuse(response, 400, "the request is no JSON object"), std::nullopt;
+  if (!value.is_object()) return refuse(response, 400, "the request is no JSON object in UTF-8"), std::nullopt;
   return value;
 }
 
@@ -80,6 +80,23 @@ std::optional<json> task_of(const json& request, const Folder& folder) {
     task["curves"].push_back(curve);
   }
   return task;
+}
+
+int status_of(Folder::Written::Outcome outcome) {
+  using Outcome = Folder::Written::Outcome;
+  switch (outcome) {
+    case Outcome::done:
+      return 200;
+    case Outcome::no_name:
+      return 400;
+    case Outcome::not_here:
+      return 403;
+    case Outcome::other_there:
+      return 409;
+    case Outcome::failed:
+      break;
+  }
+  return 500;
 }
 
 void add_headers(httplib::Server& server) {
@@ -133,18 +150,23 @@ void Api::list(Response& response) const {
 }
 
 void Api::open(const Request& request, Response& response) const {
-  const std::optional<std::string> text = folder_.read(request.get_param_value("file"));
-  if (!text) return refuse(response, 404, "there is no such netlist in the folder");
-  response.set_content(*text, "text/plain; charset=utf-8");
+  const std::optional<Folder::Netlist> netlist = folder_.read(request.get_param_value("file"));
+  if (!netlist) return refuse(response, 404, "there is no such netlist in the folder");
+  response.set_header("ETag", '"' + netlist->version + '"');
+  response.set_content(netlist->text, "text/plain; charset=utf-8");
 }
 
-void Api::save(Response& response, const Reader& body) const {
+void Api::save(Response& response, const Reader& body) {
   const std::optional<json> request = read(response, body);
   if (!request) return;
   if (!request->contains("text") || !(*request)["text"].is_string()) return refuse(response, 400, "there is no text to save");
-  const std::string why = folder_.write(word(*request, "file"), (*request)["text"].get<std::string>());
-  if (!why.empty()) return refuse(response, 409, why);
-  response.set_content("{}", "application/json");
+  if (!request->contains("file") || !(*request)["file"].is_string()) return refuse(response, 400, "there is no name to save it by");
+  const Folder::Written written = folder_.write((*request)["file"].get_ref<const std::string&>(),
+                                                (*request)["text"].get_ref<const std::string&>(), word(*request, "version"));
+  response.status = status_of(written.outcome);
+  json answer{{"version", written.version}};
+  if (!written.why.empty()) answer["error"] = written.why;
+  response.set_content(report::to_line(answer), "application/json");
 }
 
 std::shared_ptr<Job> Api::begin(const std::string& session, std::string task) {

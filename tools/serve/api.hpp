@@ -14,7 +14,7 @@ namespace rheonet::serve {
 /// What the playground asks for: see tools/web/README.md.
 class Api {
  public:
-  Api(const Folder& folder, Pool& pool) : folder_(folder), pool_(pool) {}
+  Api(Folder& folder, Pool& pool) : folder_(folder), pool_(pool) {}
 
   /// Adds its routes. `host` is the address that is listened at.
   void attach(Server& server, const std::string& host);
@@ -26,12 +26,12 @@ class Api {
 
   void list(Response& response) const;
   void open(const Request& request, Response& response) const;
-  void save(Response& response, const Reader& body) const;
+  void save(Response& response, const Reader& body);
   void start(Response& response, const Reader& body);
   /// Begins a task; an older one of the same session is not wanted any more.
   std::shared_ptr<Job> begin(const std::string& session, std::string task);
 
-  const Folder& folder_;
+  Folder& folder_;
   Pool& pool_;
   std::mutex mutex_;
   std::map<std::string, std::weak_ptr<Job>> sessions_;

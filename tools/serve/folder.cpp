@@ -1,14 +1,18 @@
 #include "tools/serve/folder.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <regex>
-#include <sstream>
+#include <functional>
+
+#include "tools/serve/glance.hpp"
+#include "tools/serve/netlist_name.hpp"
 
 namespace rheonet::serve {
 
@@ -18,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_scenes = 1000, most_visited = 20'000;
 constexpr int deepest = 6;
-constexpr std::uintmax_t most_bytes = 1u << 20;
+constexpr std::size_t most_bytes = 1u << 20, most_looked_at = 20u << 20;
 
 bool is_within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
@@ -28,58 +32,49 @@ bool is_hidden(const fs::path& path) {
   return std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part.string().starts_with('.'); });
 }
 
-std::string read_regular(const fs::path& path, bool& ok) {
-  ok = false;
+/// The text of a regular file; absent if it is none, or too large to be a netlist.
+std::optional<std::string> text_of(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) return "";
+  if (file < 0) return {};
   struct stat status {};
+  bool whole = false;
   std::string text;
-  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && static_cast<std::uintmax_t>(status.st_size) <= most_bytes) {
-    text.resize(static_cast<std::size_t>(status.st_size));
-    const ssize_t count = ::read(file, text.data(), text.size());
-    ok = count >= 0;
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
+    std::array<char, 1u << 16> piece;
+    while (!whole && text.size() <= most_bytes) {
+      const ssize_t count = ::read(file, piece.data(), piece.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) break;
+      whole = count == 0;
+      text.append(piece.data(), static_cast<std::size_t>(count));
+    }
   }
   ::close(file);
+  if (!whole || text.size() > most_bytes) return {};
   return text;
 }
 
-/// What stands between the first and the last quote of a line.
-std::string in_quotes(const std::string& line) {
-  const std::size_t from = line.find('"'), to = line.rfind('"');
-  return from != std::string::npos && to > from ? line.substr(from + 1, to - from - 1) : "";
-}
+std::string version_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
-/// Title, and the question of a demo or else the first comment, as far as a glance tells: a netlist is only read when it is
-/// opened.
-Folder::Entry glance(const std::string& file, const std::string& text) {
-  Folder::Entry entry{file, "", ""};
-  std::istringstream lines(text);
-  bool comment = true, in_table = false, in_demo = false;
-  std::string question;
-  for (std::string line; std::getline(lines, line);) {
-    if (comment && line.starts_with("#") && !line.starts_with("#:")) {
-      const std::string words = line.substr(std::min<std::size_t>(line.size(), 2));
-      if (words.empty() && !entry.about.empty())
-        comment = false;
-      else
-        entry.about += (entry.about.empty() ? "" : " ") + words;
-      continue;
-    }
-    comment = false;
-    if (line.starts_with("[")) in_table = true, in_demo = line.starts_with("[demo]");
-    if (!in_table && line.starts_with("title")) entry.title = in_quotes(line);
-    if (in_demo && line.starts_with("question")) question = in_quotes(line);
+/// Puts a text in the place of another: whoever reads it meanwhile sees the old one or the new one. Why it cannot; "" if it
+/// is done.
+std::string put(const fs::path& place, const std::string& text) {
+  std::string other = (place.parent_path() / ".rheonet-XXXXXX").string();
+  const int file = ::mkstemp(other.data());
+  if (file < 0) return std::strerror(errno);
+  bool ok = ::fchmod(file, 0644) == 0;
+  for (std::size_t written = 0; ok && written < text.size();) {
+    const ssize_t count = ::write(file, text.data() + written, text.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    ok = count > 0;
+    written += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
   }
-  if (!question.empty()) entry.about = question;
-  constexpr std::size_t most_words = 400;
-  if (entry.about.size() > most_words) entry.about = entry.about.substr(0, entry.about.find_last_of(' ', most_words)) + " ...";
-  return entry;
-}
-
-bool has_scene(const std::string& text) {
-  return (text.starts_with("[simulate]") || text.find("\n[simulate]") != std::string::npos) &&
-         text.find("[elements") != std::string::npos;
+  int error = ok ? 0 : errno;
+  if (::close(file) != 0 && ok) error = errno, ok = false;
+  if (ok && ::rename(other.c_str(), place.c_str()) != 0) error = errno, ok = false;
+  if (ok) return "";
+  ::unlink(other.c_str());
+  return std::strerror(error);
 }
 
 }  // namespace
@@ -91,66 +86,76 @@ Folder::Folder(const fs::path& path, bool may_be_written) : path_(fs::canonical(
 std::vector<Folder::Entry> Folder::scenes() const {
   std::vector<Entry> found;
   std::error_code failed;
-  std::size_t visited = 0;
+  std::size_t visited = 0, looked_at = 0;
   fs::recursive_directory_iterator item(path_, fs::directory_options::skip_permission_denied, failed), end;
   for (; !failed && item != end && found.size() < most_scenes && ++visited < most_visited; item.increment(failed)) {
     const fs::path name = item->path().lexically_relative(path_);
     if (item->is_directory(failed) && (is_hidden(name) || item.depth() >= deepest)) item.disable_recursion_pending();
-    if (name.extension() != ".toml" || is_hidden(name)) continue;
-    bool ok = false;
-    const std::string text = read_regular(item->path(), ok);
-    if (ok && has_scene(text)) found.push_back(glance(name.string(), text));
+    if (!fault_of_name(name.string()).empty()) continue;
+    const std::optional<std::string> text = text_of(item->path());
+    if (!text) continue;
+    looked_at += text->size();
+    const std::optional<Glance> seen = looked_at < most_looked_at ? glance(*text) : Glance{};
+    if (seen) found.push_back({name.string(), seen->title, seen->about});
   }
   std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.file < b.file; });
   return found;
 }
 
-std::optional<fs::path> Folder::locate(const std::string& file) const {
-  const fs::path name(file);
-  constexpr std::size_t longest = 1000;
-  if (file.empty() || file.size() > longest || file.find('\0') != std::string::npos || name.is_absolute() || is_hidden(name) ||
-      name.extension() != ".toml")
-    return {};
+std::optional<fs::path> Folder::locate(const std::string& file, std::string& why) const {
+  why = fault_of_name(file);
+  if (!why.empty()) return {};
   std::error_code failed;
   // Links are followed, and must not lead out.
-  const fs::path place = fs::weakly_canonical(path_ / name, failed);
-  if (failed || !is_within(place, path_) || !fs::is_directory(place.parent_path(), failed)) return {};
-  return place;
+  const fs::path place = fs::weakly_canonical(path_ / file, failed);
+  const fs::path parent = fs::path(file).parent_path();
+  if (failed)
+    why = fmt::format("`{}` leads nowhere: {}", file, failed.message());
+  else if (!is_within(place, path_))
+    why = fmt::format("`{}` is a link that leads out of the folder, or behind one", file);
+  else if (!fs::is_directory(place.parent_path(), failed))
+    why = fmt::format("there is no folder `{}` here to put it in", parent.string());
+  else if (fs::is_directory(place, failed))
+    why = fmt::format("`{}` is the name of a folder", file);
+  else
+    return place;
+  return {};
 }
 
-std::optional<std::string> Folder::read(const std::string& file) const {
-  const std::optional<fs::path> place = locate(file);
+std::optional<Folder::Netlist> Folder::read(const std::string& file) const {
+  std::string why;
+  const std::optional<fs::path> place = locate(file, why);
   if (!place) return {};
-  bool ok = false;
-  std::string text = read_regular(*place, ok);
-  if (!ok) return {};
-  return text;
+  std::optional<std::string> text = text_of(*place);
+  if (!text) return {};
+  std::string version = version_of(*text);
+  return Netlist{std::move(*text), std::move(version)};
 }
 
-std::string Folder::write(const std::string& file, const std::string& text) const {
-  if (!may_be_written_) return "the netlists that come with rheonet are not changed; serve a folder of your own to save there";
-  const std::optional<fs::path> place = locate(file);
-  if (!place) return "`" + file + "` is no name of a netlist in this folder: it must end in .toml";
-  // Whoever reads it meanwhile sees the old text or the new one.
-  std::string other = (place->parent_path() / ".rheonet-XXXXXX").string();
-  const int opened = ::mkstemp(other.data());
-  if (opened < 0) return std::string("it cannot be written: ") + std::strerror(errno);
-  bool ok = ::fchmod(opened, 0644) == 0;
-  for (std::size_t written = 0; ok && written < text.size();) {
-    const ssize_t count = ::write(opened, text.data() + written, text.size() - written);
-    ok = count > 0;
-    written += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+Folder::Written Folder::write(const std::string& file, const std::string& text, const std::string& version) {
+  using Outcome = Written::Outcome;
+  if (!may_be_written_)
+    return {Outcome::not_here, "the netlists that come with rheonet are not changed; serve a folder of your own to save there", ""};
+  std::string why;
+  const std::optional<fs::path> place = locate(file, why);
+  if (!place) return {Outcome::no_name, why, ""};
+  const std::lock_guard lock(writing_);
+  std::error_code failed;
+  if (fs::exists(*place, failed)) {
+    const std::optional<std::string> there = text_of(*place);
+    if (!there) return {Outcome::failed, fmt::format("`{}` is there already, and is no netlist that can be read", file), ""};
+    const std::string found = version_of(*there);
+    if (version.empty()) return {Outcome::other_there, fmt::format("there is already a netlist `{}`", file), found};
+    if (version != found) return {Outcome::other_there, fmt::format("`{}` has changed since it was opened here", file), found};
   }
-  ok = ::close(opened) == 0 && ok;
-  ok = ok && ::rename(other.c_str(), place->c_str()) == 0;
-  if (ok) return "";
-  const std::string why = std::strerror(errno);
-  ::unlink(other.c_str());
-  return "it cannot be written: " + why;
+  why = put(*place, text);
+  if (!why.empty()) return {Outcome::failed, "it cannot be written: " + why, ""};
+  return {Outcome::done, "", version_of(text)};
 }
 
 fs::path Folder::beside(const std::string& file) const {
-  const std::optional<fs::path> place = locate(file);
+  std::string why;
+  const std::optional<fs::path> place = locate(file, why);
   return place ? place->parent_path() : path_;
 }
 

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rheonet::serve {
 
-/// The folder whose netlists are shown. Nothing outside it is read or written, by whatever name.
+/// The folder whose netlists are shown. Nothing outside it is read or written, by whatever name. Threads may share it.
 class Folder {
  public:
   /// Throws std::filesystem::filesystem_error if it is none.
@@ -16,15 +17,26 @@ class Folder {
   struct Entry {
     std::string file;   ///< relative to the folder: "teaching/creep.toml"
     std::string title;  ///< "" if it has none
-    std::string about;  ///< its first words: the comment that it begins with
+    std::string about;  ///< its first words
   };
   /// The netlists in it and below, those that can be simulated by themselves, by name; no more than a thousand.
   std::vector<Entry> scenes() const;
 
-  /// The text of a netlist; absent if there is none of that name.
-  std::optional<std::string> read(const std::string& file) const;
-  /// Writes a netlist. What is wrong with that; "" if nothing.
-  std::string write(const std::string& file, const std::string& text) const;
+  struct Netlist {
+    std::string text;
+    std::string version;  ///< tells this text from another one that the file may have had
+  };
+  /// A netlist; absent if there is none of that name.
+  std::optional<Netlist> read(const std::string& file) const;
+
+  struct Written {
+    enum class Outcome { done, no_name, not_here, other_there, failed };
+    Outcome outcome = Outcome::done;
+    std::string why;      ///< in words, unless it is done
+    std::string version;  ///< of the text that is there now, written or not; "" if there is none
+  };
+  /// Writes a netlist, over one of that name only if its version is `version`: what nobody has seen is not lost.
+  Written write(const std::string& file, const std::string& text, const std::string& version);
   bool may_be_written() const { return may_be_written_; }
 
   /// Where the includes of a netlist of this name are looked for.
@@ -32,11 +44,12 @@ class Folder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
-  /// Where a netlist of this name is or would be; absent if that is not in the folder.
-  std::optional<std::filesystem::path> locate(const std::string& file) const;
+  /// Where a netlist of this name is or would be; absent if that is not in the folder, `why` then says why.
+  std::optional<std::filesystem::path> locate(const std::string& file, std::string& why) const;
 
   std::filesystem::path path_;
   bool may_be_written_;
+  std::mutex writing_;
 };
 
 }  // namespace rheonet::serve

@@ -1,28 +1,38 @@
 // What the playground asks of the server that it comes from.
 
-async function checked(response) {
-  if (response.ok) return response;
-  const why = await response.json().catch(() => ({}));
-  throw new Error(why.error ?? `the server answers ${response.status}`);
-}
-
-export async function folder() {
-  return (await checked(await fetch('/api/folder'))).json();
-}
-
-export async function open(file) {
-  return (await checked(await fetch(`/api/scene?file=${encodeURIComponent(file)}`))).text();
-}
-
 const asJson = { 'Content-Type': 'application/json' };
 
-export async function save(file, text) {
-  await checked(await fetch('/api/save', { method: 'POST', headers: asJson, body: JSON.stringify({ file, text }) }));
+async function ask(path, options) {
+  const response = await fetch(path, options).catch((error) => {
+    if (error.name === 'AbortError') throw error;
+    throw new Error('the server does not answer: is `rheonet serve` still running?');
+  });
+  if (response.ok) return response;
+  const { error, version } = await response.json().catch(() => ({}));
+  throw Object.assign(new Error(error ?? `the server answers ${response.status}`), { there: response.status === 409 ? version : '' });
+}
+
+const post = (path, value, signal) => ask(path, { method: 'POST', headers: asJson, body: JSON.stringify(value), signal });
+
+export async function folder() {
+  return (await ask('/api/folder')).json();
+}
+
+// A netlist of the folder: its text, and what tells that from another text that the file may get.
+export async function open(file) {
+  const response = await ask(`/api/scene?file=${encodeURIComponent(file)}`);
+  return { text: await response.text(), version: response.headers.get('ETag').replaceAll('"', '') };
+}
+
+// Writes one, over another only if that has this version; its new version. An error says in `there` which version is in
+// the way.
+export async function save(file, text, version) {
+  return (await (await post('/api/save', { file, text, version })).json()).version;
 }
 
 // Gives a task; onmessage gets each message as it comes.
 export async function task(request, onmessage, signal) {
-  const response = await checked(await fetch('/api/task', { method: 'POST', headers: asJson, body: JSON.stringify(request), signal }));
+  const response = await post('/api/task', request, signal);
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let rest = '';
   for (;;) {

@@ -24,12 +24,13 @@ export function raster(svg) {
   });
 }
 
-// scenes: [{ text, file }]; curves: [[x, y], ...] as the plots show them; schematic: the drawing of the first.
-export function exporters({ scenes, curves, schematic, name }) {
+// scenes: [{ text, file }], of which the active one is edited; curves: [[x, y], ...] as the plots show them; schematic: that
+// of the active one.
+export function exporters({ scenes, active, curves, schematic, name }) {
   const figure = () => file({ task: 'figure', scenes, curves });
   const drawing = () => new Blob([schematic], { type: 'image/svg+xml' });
   return [
-    { label: 'Rows (CSV)', make: () => file({ task: 'csv', ...scenes[0] }), name: `${name}.csv` },
+    { label: 'Rows (CSV)', make: () => file({ task: 'csv', ...scenes[active] }), name: `${name}.csv` },
     { label: 'Plots (SVG)', make: figure, name: `${name}-plots.svg` },
     { label: 'Plots (PNG)', make: async () => raster(await (await figure()).text()), name: `${name}-plots.png` },
     { label: 'Schematic (SVG)', make: async () => drawing(), name: `${name}.svg` },

@@ -2,6 +2,9 @@
 import { open, task } from './api.js';
 import { element, schematicOf } from './dom.js';
 
+const words = new Intl.Collator('en', { numeric: true });
+const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
+
 export class Gallery {
   constructor({ onopen }) {
     this.onopen = onopen;
@@ -26,10 +29,10 @@ export class Gallery {
       groups.get(folder).push(scene);
     }
     // What is for beginners comes first.
-    const order = [...groups.keys()].sort((a, b) => Number(b.startsWith('teaching')) - Number(a.startsWith('teaching')) || a.localeCompare(b));
+    const order = [...groups.keys()].sort((a, b) => Number(b.startsWith('teaching')) - Number(a.startsWith('teaching')) || words.compare(a, b));
     this.list.replaceChildren(...order.map((folder) =>
       element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
-        element('div', { class: 'card-grid' }, groups.get(folder).map((scene) => this.card(scene))))));
+        element('div', { class: 'card-grid' }, groups.get(folder).sort(byName).map((scene) => this.card(scene))))));
     if (!scenes.length) this.list.append(element('p', { class: 'note' }, 'The folder has no netlists yet: write one in the editor, and save it.'));
   }
 
@@ -49,7 +52,7 @@ export class Gallery {
   async draw(card) {
     this.drawn.unobserve(card);
     try {
-      const text = await open(card.dataset.file);
+      const { text } = await open(card.dataset.file);
       await task({ task: 'show', draw: true, text, file: card.dataset.file }, (message) => {
         if (message.kind === 'scene' && message.schematic) card.querySelector('.card-picture').replaceChildren(schematicOf(message, { read: false }));
       });

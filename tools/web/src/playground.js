@@ -2,17 +2,15 @@
 import './style.css';
 import './playground.css';
 import { Animation } from './animation.js';
-import { explain, folder, open, save } from './api.js';
+import { explain } from './api.js';
 import { element, schematicOf } from './dom.js';
 import { Editor } from './editor.js';
 import { choices } from './choices.js';
-import { download, exporters } from './export.js';
+import { Files } from './files.js';
 import { firstScene } from './first-scene.js';
 import { Folds } from './folds.js';
-import { Gallery } from './gallery.js';
 import { helpDialog } from './help.js';
 import { listenToKeys } from './keys.js';
-import { decode, encode } from './link.js';
 import { menu } from './menu.js';
 import { PlotPanel } from './plot-panel.js';
 import { Runner } from './runner.js';
@@ -27,8 +25,7 @@ class Playground {
   constructor(host) {
     this.variants = [this.variant('A', firstScene, 'scene.toml')];
     this.active = 0;
-    this.folder = { scenes: [], may_be_written: false };
-    this.gallery = new Gallery({ onopen: (file) => this.openFile(file) });
+    this.files = new Files(this);
     this.build(host);
     this.editor = new Editor(this.parts.editor, {
       onchange: (text, typed) => this.edited(text, typed),
@@ -39,15 +36,14 @@ class Playground {
     this.folds = new Folds(this.parts.sections, () => this.explain());
     this.animation = new Animation(this.parts.animation, { onframe: (time) => this.plots.mark(time) });
     listenToKeys({
-      save: () => (this.folder.may_be_written ? this.saveInFolder() : this.downloadNetlist()),
+      save: () => this.files.save(),
       play: () => this.animation.toggle(),
-      gallery: () => this.gallery.open(),
+      gallery: () => this.files.gallery.open(),
     });
-    addEventListener('hashchange', () => this.openLink());
   }
 
   variant(label, text, file) {
-    const variant = { label, text, file, data: new SceneData(), stale: false };
+    const variant = { label, text, file, version: '', data: new SceneData(), stale: false };
     const session = crypto.getRandomValues(new Uint32Array(2)).join('-');
     variant.runner = new Runner(session, (data, run) => this.arrived(variant, data, run), (data, read) => this.wasRead(variant, data, read));
     return variant;
@@ -66,10 +62,10 @@ class Playground {
     this.status = element('p', { class: 'status', role: 'status' });
     this.themeButton = button('◐', switchTheme, { 'aria-label': 'Light or dark', title: 'Light or dark' });
     const bar = element('header', { class: 'bar' }, this.title, element('nav', { class: 'actions', 'aria-label': 'Actions' },
-      button('Gallery', () => this.gallery.open()),
-      menu('Save', () => this.saves()),
-      menu('Export', () => this.exports()),
-      button('Link', () => this.copyLink()),
+      button('Gallery', () => this.files.gallery.open()),
+      menu('Save', () => this.files.saves()),
+      menu('Export', () => this.files.exports()),
+      button('Link', () => this.files.copyLink()),
       this.compareButton, this.themeButton,
       button('?', () => this.help.showModal(), { 'aria-label': 'Help' })));
     this.choice = element('div', { class: 'variants', role: 'radiogroup', 'aria-label': 'Variant that is edited', hidden: true });
@@ -87,25 +83,23 @@ class Playground {
     document.body.append(this.help);
   }
 
-  async begin() {
-    try {
-      this.folder = await folder();
-      this.gallery.show(this.folder);
-    } catch (error) {
-      this.say(error.message, true);
-    }
-    const opened = await this.openLink();
-    if (opened) return;
-    this.load(0, firstScene, 'scene.toml');
-    if (this.notice) return;
-    if (this.folder.scenes.length) this.gallery.open();
+  // Puts other scenes, one or two to compare, in the place of those that are there.
+  begin({ scenes, active = scenes.length - 1, plots = {} }, notice = '') {
+    this.endComparison();
+    this.plots.state = plots ?? {};
+    if (notice) this.notify(notice);
+    scenes.slice(1).forEach(({ text, file }) => this.variants.push(this.variant('B', text, file)));
+    this.active = scenes[active] ? active : 0;
+    this.showChoice();
+    scenes.forEach((scene, k) => this.load(k, scene));
   }
 
   // Texts and runs.
 
-  load(k, text, file) {
+  // `version` is that of the file of the folder that has this text, or has the text `opened`, from which this one was made.
+  load(k, { text, file, version = '', opened = text }) {
     const variant = this.variants[k];
-    Object.assign(variant, { text, file, fresh: true });
+    Object.assign(variant, { text, file, version, opened, fresh: true });
     if (k === this.active) {
       this.editor.load(text);
       this.clear();
@@ -129,21 +123,10 @@ class Playground {
     variant.fresh = false;
   }
 
-  async openFile(file) {
-    try {
-      const text = await open(file);
-      this.plots.state = {};
-      this.endComparison();
-      this.load(0, text, file);
-      history.replaceState(null, '', `#file=${encodeURIComponent(file)}`);
-    } catch (error) {
-      this.say(error.message, true);
-    }
-  }
-
   edited(text, typed) {
     const variant = this.current;
     variant.text = text;
+    this.files.changed();
     clearTimeout(this.typing);
     if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
     else variant.runner.run(text, variant.file);
@@ -183,6 +166,12 @@ class Playground {
       }
       this.say(`${data.done.statistics.steps} steps, ${data.done.statistics.cpu_time} of CPU time; drawn ${Math.round(took)} ms after the change`);
     });
+  }
+
+  // Stays until the next change.
+  notify(text) {
+    this.notice = text;
+    this.say(text, true);
   }
 
   say(text, bad = false) {
@@ -255,12 +244,12 @@ class Playground {
       this.showSections();
       return;
     }
-    const { text, file, data } = this.current;
+    const { text, file, version, opened, data, shown } = this.current;
     const other = this.variant('B', text, file);
-    Object.assign(other, { data, shown: this.current.shown });
+    Object.assign(other, { data, shown });
     this.variants.push(other);
     this.edit(1);
-    this.load(1, text, file);
+    this.load(1, { text, file, version, opened });
   }
 
   endComparison() {
@@ -298,93 +287,7 @@ class Playground {
     }));
     this.choice.classList.add('tabs');
   }
-
-  // Files and links.
-
-  get name() {
-    return this.current.file.replace(/^.*\//, '').replace(/\.toml$/, '');
-  }
-
-  saves() {
-    const items = [{ label: 'Download the netlist', act: () => this.downloadNetlist() }];
-    if (this.folder.may_be_written) items.push({ label: 'Save in the folder', act: () => this.saveInFolder() });
-    return items;
-  }
-
-  downloadNetlist() {
-    download(new Blob([this.editor.text], { type: 'application/toml' }), `${this.name}.toml`);
-  }
-
-  async saveInFolder() {
-    const file = prompt('Name of the netlist in the folder', this.current.file);
-    if (!file) return;
-    try {
-      await save(file, this.editor.text);
-      this.current.file = file;
-      this.folder = await folder();
-      this.gallery.show(this.folder);
-      this.say(`Saved as ${file}.`);
-    } catch (error) {
-      this.say(`Not saved: ${error.message}`, true);
-    }
-  }
-
-  exports() {
-    const scenes = this.variants.map(({ text, file }) => ({ text, file }));
-    const curves = this.plots.curvePairs();
-    const active = [scenes[this.active], ...scenes.filter((_, k) => k !== this.active)];
-    return exporters({ scenes: this.variants.length > 1 ? scenes : active, curves, schematic: this.current.data.scene?.schematic ?? '', name: this.name })
-      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }));
-  }
-
-  async export({ make, name }) {
-    this.say(`Making ${name} …`);
-    try {
-      download(await make(), name);
-      this.say(`Made ${name}.`);
-    } catch (error) {
-      this.say(`Not made: ${error.message}`, true);
-    }
-  }
-
-  async copyLink() {
-    const scenes = this.variants.map(({ text, file }) => ({ text, file }));
-    const link = `#scene=${await encode({ scenes, plots: this.plots.state })}`;
-    history.replaceState(null, '', link);
-    try {
-      await navigator.clipboard.writeText(location.href);
-      this.say('The link is copied: it carries the scene.');
-    } catch {
-      this.say('The address of this page carries the scene.');
-    }
-  }
-
-  async openLink() {
-    const [kind, value] = location.hash.slice(1).split(/=(.*)/s);
-    try {
-      if (kind === 'file') {
-        await this.openFile(decodeURIComponent(value));
-        return true;
-      }
-      if (kind !== 'scene') return false;
-      const { scenes, plots } = await decode(value);
-      this.endComparison();
-      this.plots.state = plots ?? {};
-      this.load(0, String(scenes[0].text), String(scenes[0].file));
-      if (scenes[1]) {
-        this.variants.push(this.variant('B', String(scenes[1].text), String(scenes[1].file)));
-        this.edit(1);
-        this.load(1, this.variants[1].text, this.variants[1].file);
-      }
-      return true;
-    } catch (error) {
-      this.notice = `The link cannot be read: ${error.message}`;
-      this.say(this.notice, true);
-      return false;
-    }
-  }
 }
 
 rememberTheme();
-const playground = new Playground(document.getElementById('playground'));
-playground.begin();
+new Playground(document.getElementById('playground')).files.begin();

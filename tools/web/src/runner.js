@@ -48,7 +48,7 @@ export class Runner {
       }, run.control.signal);
     } catch (error) {
       if (error.name === 'AbortError' || this.current !== run) return;
-      data.failed ??= { message: `The server does not answer: ${error.message}` };
+      data.failed ??= { message: error.message };
     }
     if (this.current !== run) return;
     this.current = null;

@@ -1,0 +1,157 @@
+// Where netlists come from and go to: the folder, links, the history of the browser, files of what is seen.
+import { folder, open } from './api.js';
+import { download, exporters } from './export.js';
+import { firstScene } from './first-scene.js';
+import { Gallery } from './gallery.js';
+import { decode, encode } from './link.js';
+import { SaveDialog } from './save-dialog.js';
+
+const pause = 400; // ms after a change until it is kept: browsers count how often somebody writes into their history
+
+export class Files {
+  constructor(desk) {
+    this.desk = desk;
+    this.folder = { scenes: [], may_be_written: false };
+    this.gallery = new Gallery({ onopen: (file) => this.openFile(file, true) });
+    this.saving = new SaveDialog({ onsaved: (saved) => this.saved(saved) });
+    addEventListener('popstate', (event) => this.openAddress(event.state));
+    addEventListener('beforeunload', () => this.keep());
+  }
+
+  async begin() {
+    await this.look();
+    if ((await this.openAddress(history.state)) || this.desk.notice) return;
+    if (this.folder.scenes.length) this.gallery.open();
+  }
+
+  async look() {
+    try {
+      this.folder = await folder();
+      this.gallery.show(this.folder);
+    } catch (error) {
+      this.desk.say(error.message, true);
+    }
+  }
+
+  // What the address names, or else a scene to begin with. Changes that were never saved are as they were left.
+  async openAddress(left) {
+    if (left?.scenes) this.desk.begin(left, 'The netlist is as you left it; it is not saved.');
+    else if (await this.openLink()) return true;
+    else this.desk.begin({ scenes: [{ text: firstScene, file: 'scene.toml' }] });
+    return Boolean(left?.scenes);
+  }
+
+  async openLink() {
+    const [kind, value] = location.hash.slice(1).split(/=(.*)/s);
+    try {
+      if (kind === 'file') return await this.openFile(decodeURIComponent(value));
+      if (kind !== 'scene') return false;
+      const { scenes, plots } = await decode(value);
+      this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
+      return true;
+    } catch (error) {
+      this.desk.notify(`The link cannot be read: ${error.message}`);
+      return false;
+    }
+  }
+
+  // `anew`: there is a way back to what was there before.
+  async openFile(file, anew = false) {
+    try {
+      const { text, version } = await open(file);
+      if (anew) this.keep();
+      this.nameInAddress(file, anew);
+      this.desk.begin({ scenes: [{ text, file, version }] });
+      return true;
+    } catch (error) {
+      this.desk[anew ? 'say' : 'notify'](`${file}: ${error.message}`, true);
+      return false;
+    }
+  }
+
+  nameInAddress(file, anew = false) {
+    history[anew ? 'pushState' : 'replaceState'](null, '', `#file=${encodeURIComponent(file)}`);
+  }
+
+  changed() {
+    clearTimeout(this.later);
+    this.later = setTimeout(() => this.keep(), pause);
+  }
+
+  // What is not saved anywhere is kept with the page, for who comes back to it or loads it anew.
+  keep() {
+    clearTimeout(this.later);
+    const { variants, active, plots } = this.desk;
+    const unsaved = variants.some(({ text, opened }) => text !== opened);
+    const scenes = variants.map(({ text, file, version, opened }) => ({ text, file, version, opened }));
+    try {
+      history.replaceState(unsaved ? { scenes, active, plots: plots.state } : null, '', location.href);
+    } catch {
+      // One that is too long for that is not kept.
+    }
+  }
+
+  get name() {
+    return this.desk.current.file.replace(/^.*\//, '').replace(/\.toml$/, '');
+  }
+
+  saves() {
+    const { file, version, text } = this.desk.current;
+    const here = this.folder.may_be_written;
+    return [
+      here && version && { label: `Save as ${file}`, act: () => this.save() },
+      here && { label: 'Save in the folder as …', act: () => this.saving.saveAs({ file, version, text }) },
+      { label: 'Download the netlist', act: () => this.downloadNetlist() },
+    ].filter(Boolean);
+  }
+
+  save() {
+    if (this.folder.may_be_written) this.saving.save(this.desk.current);
+    else this.downloadNetlist();
+  }
+
+  downloadNetlist() {
+    download(new Blob([this.desk.current.text], { type: 'application/toml' }), `${this.name}.toml`);
+  }
+
+  async saved({ file, version, text }) {
+    const { desk } = this;
+    Object.assign(desk.current, { file, version, opened: text });
+    this.nameInAddress(file);
+    this.keep();
+    desk.showTitle(desk.current.data.scene?.title);
+    desk.say(`Saved as ${file}.`);
+    await this.look();
+  }
+
+  exports() {
+    const { desk } = this;
+    const scenes = desk.variants.map(({ text, file }) => ({ text, file }));
+    const curves = desk.plots.curvePairs();
+    return exporters({ scenes, active: desk.active, curves, schematic: desk.current.data.scene?.schematic ?? '', name: this.name })
+      .map((exporter) => ({ label: exporter.label, act: () => this.export(exporter) }));
+  }
+
+  async export({ make, name }) {
+    const { desk } = this;
+    desk.say(`Making ${name} …`);
+    try {
+      download(await make(), name);
+      desk.say(`Made ${name}.`);
+    } catch (error) {
+      desk.say(`Not made: ${error.message}`, true);
+    }
+  }
+
+  async copyLink() {
+    const { variants, plots } = this.desk;
+    const scenes = variants.map(({ text, file }) => ({ text, file }));
+    history.replaceState(history.state, '', `#scene=${await encode({ scenes, plots: plots.state })}`);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.desk.say('The link is copied: it carries the scene.');
+    } catch {
+      this.desk.say('The address of this page carries the scene.');
+    }
+  }
+}

@@ -1,0 +1,79 @@
+// Saves a netlist in the folder, and asks before another one would be lost.
+import { save } from './api.js';
+import { element } from './dom.js';
+
+export class SaveDialog {
+  // onsaved({ file, version, text }): it is there.
+  constructor({ onsaved }) {
+    this.onsaved = onsaved;
+    this.name = element('input', { type: 'text', 'aria-label': 'Name of the netlist in the folder', spellcheck: 'false', autocomplete: 'off' });
+    this.why = element('output', { class: 'why', hidden: true });
+    this.over = element('button', { type: 'button', class: 'overwrite', hidden: true, onclick: () => this.put(this.there) }, 'Overwrite it');
+    const form = element('form', {}, this.name, this.why,
+      element('div', { class: 'dialog-foot' }, element('button', { type: 'button', onclick: () => this.dialog.close() }, 'Cancel'),
+        this.over, element('button', { type: 'submit' }, 'Save')));
+    this.dialog = element('dialog', { class: 'save', 'aria-labelledby': 'save-title' },
+      element('div', { class: 'dialog-head' }, element('h2', { id: 'save-title' }, 'Save in the folder')), form);
+    form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      this.put(this.file === this.netlist.file ? this.netlist.version : '');
+    });
+    this.name.addEventListener('input', () => this.tell(''));
+    this.dialog.addEventListener('close', () => this.dialog.remove());
+  }
+
+  // Under the name by which it was opened or saved; one that has none yet is asked for it.
+  save(netlist) {
+    this.begin(netlist);
+    if (netlist.version) this.put(netlist.version);
+    else this.show();
+  }
+
+  saveAs(netlist) {
+    this.begin(netlist);
+    this.show();
+  }
+
+  begin(netlist) {
+    this.netlist = netlist;
+    this.name.value = netlist.file;
+    this.tell('');
+  }
+
+  // What is typed without an ending is the name of a netlist.
+  get file() {
+    const name = this.name.value.trim();
+    return name && !/\.[^/]*$/.test(name) && !name.endsWith('/') ? `${name}.toml` : name;
+  }
+
+  async put(version) {
+    const { file } = this;
+    const { text } = this.netlist;
+    try {
+      const written = await save(file, text, version);
+      this.dialog.close();
+      this.onsaved({ file, version: written, text });
+    } catch (error) {
+      this.tell(error.message, error.there);
+      this.show();
+    }
+  }
+
+  // Why it is not saved; `there` is the version of what would be lost.
+  tell(why, there = '') {
+    this.there = there;
+    this.over.hidden = !there;
+    this.why.hidden = !why;
+    this.why.textContent = why && `Not saved: ${why}.${there ? ' Overwrite it, or give another name.' : ''}`;
+    this.name.toggleAttribute('aria-invalid', Boolean(why));
+  }
+
+  show() {
+    if (!this.dialog.open) {
+      document.body.append(this.dialog);
+      this.dialog.showModal();
+    }
+    this.name.focus();
+    this.name.select();
+  }
+}
