@@ -115,6 +115,13 @@ test('a name that is none is told so, and nothing is written', async () => {
   await close([refused, refused, refused]);
 });
 
+test('a page that is loaded anew before its netlist has come is not taken for one that somebody has changed', async () => {
+  const { page, close } = await open('#file=bingham.toml', {}, (it) => it.reload());
+  await done(page);
+  assert.equal(await netlist(page), bingham);
+  await close();
+});
+
 test('changes that nobody has saved are there again after the page is loaded anew, and behind the way back', async () => {
   const { page, close } = await open();
   await stiffness(page, 150);

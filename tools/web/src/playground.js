@@ -43,7 +43,7 @@ class Playground {
   }
 
   variant(label, text, file) {
-    const variant = { label, text, file, version: '', data: new SceneData(), stale: false };
+    const variant = { label, text, file, version: '', opened: text, data: new SceneData(), stale: false };
     const session = crypto.getRandomValues(new Uint32Array(2)).join('-');
     variant.runner = new Runner(session, (data, run) => this.arrived(variant, data, run), (data, read) => this.wasRead(variant, data, read));
     return variant;
