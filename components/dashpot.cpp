@@ -20,8 +20,7 @@ struct Dashpot {
   Growth growth() const { return {B, n}; }
 
   void soften(double w) {
-    constexpr double share = 20;  // of what a step may be wrong by: 0.013 of the accuracy promised
-    w_soft = n < 1 ? share * w : n > 1 ? w : 0;
+    w_soft = n == 1 ? 0 : w;
     f_soft = B * std::pow(w_soft, n);
   }
 

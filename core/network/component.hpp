@@ -121,8 +121,8 @@ class RateBatch {
   /// rest.
   virtual bool by_force(std::size_t i) const = 0;
   virtual void set_by_force(std::size_t i, bool by_force) = 0;
-  /// `w` is a velocity that nothing resolves: about as far element i may be taken as linear where its slope would be
-  /// infinite at rest. A mass that it brings to rest could not be followed otherwise.
+  /// Up to the velocity `w` element i is taken as linear where its slope would be infinite or 0 at rest. A mass that it brings
+  /// to rest could not be followed otherwise.
   virtual void soften(std::size_t i, double w) = 0;
   /// How the force of element i grows with a velocity beyond all bounds.
   virtual Growth growth(std::size_t i) const = 0;

@@ -296,7 +296,7 @@ class Run {
   }
 
   void soften_laws() {
-    if (system_->dae.rough()) softening_.apply(tolerances_.unresolved());
+    if (system_->dae.rough()) softening_.apply(tolerances_);
   }
 
   void restart(double t, double until, double shrink) {

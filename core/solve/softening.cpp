@@ -1,16 +1,19 @@
 #include "core/solve/softening.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/dae/rate_law.hpp"
 #include "core/network/sets.hpp"
 #include "core/network/index.hpp"
+#include "core/network/time_grain.hpp"
 
 namespace rheonet {
 
 Softening::Softening(const Network& network, const Structure& classified)
-    : network_(network), least_velocity_(network.rates.size(), 0), stops_(network.rates.size(), 0) {
+    : network_(network), applied_(network.rates.size(), not_given), least_velocity_(network.rates.size(), 0), stops_(network.rates.size(), 0),
+      mass_(network.rates.size(), 0) {
   find_stops(classified);
 }
 
@@ -45,12 +48,14 @@ void Softening::find_stops(const Structure& classified) {
     const bool direct = heavy(b.a) && heavy(b.b);
     const Ends found = direct ? ends_of(b) : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
     stops_[r] = found.heavy > 1 && (found.mass || !direct);
+    const auto yields = [&](NodeId n) { return classified.kind[at(n)] == Kind::massive ? 1 / classified.mass[at(n)] : 0; };
+    if (direct && found.mass) mass_[r] = 1 / (yields(b.a) + yields(b.b));
   });
 }
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   const Drive::Reach reach = coming_reach(drive, velocity);
-  applied_.reset();
+  applied_.assign(applied_.size(), not_given);
   std::fill(least_velocity_.begin(), least_velocity_.end(), 0.0);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -61,18 +66,31 @@ void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   }
 }
 
-void Softening::apply(const Tolerances::Unresolved& velocity) {
+/// The velocity below which time is too coarse to see such a law bring a mass to rest: m w' = -B w^n takes m w^(1-n)/B.
+double Softening::slowest_stop(std::size_t rate, const Growth& growth) const {
+  constexpr double grains = 16;  // that the last of it takes, in steps
+  const auto [B, n] = growth;
+  const double shortest = grains * time_grain(network_.scene->stop - network_.scene->start);
+  return std::pow(n * B * shortest / mass_[rate], 1 / (1 - n));
+}
+
+void Softening::apply(const Tolerances& tolerances) {
   // What follows such a law at once would jump with every change of it.
   constexpr double other = 2;
   const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
-  if (applied_ && same(velocity.pseudoplastic, applied_->pseudoplastic) && same(velocity.dilatant, applied_->dilatant)) return;
-  applied_ = velocity;
+  const Tolerances::Unresolved& velocity = tolerances.unresolved();
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
-      const bool pseudoplastic = laws.batch->growth(i).exponent < 1;
-      const double unresolved = pseudoplastic ? velocity.pseudoplastic : velocity.dilatant;
-      laws.batch->soften(i, pseudoplastic && !stops_[r] ? 0 : std::max(unresolved, least_velocity_[r]));
+      const Growth growth = laws.batch->growth(i);
+      double w = velocity.dilatant;
+      if (growth.exponent < 1) w = stops_[r] ? Tolerances::soft_share * velocity.pseudoplastic : 0;
+      // Of so small a velocity the force may be a large one still, all of which goes in the end.
+      if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));
+      if (!(growth.exponent < 1)) w = std::max(w, least_velocity_[r]);
+      if (same(w, applied_[r])) continue;
+      applied_[r] = w;
+      laws.batch->soften(i, w);
     }
   }
 }

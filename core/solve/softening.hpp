@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/dae/drive.hpp"
@@ -19,18 +18,20 @@ class Softening {
   /// At the start, with the velocities of all nodes. Dilatant laws that start from rest would let their ends go there:
   /// rounding of the velocities that the drive comes to gives them some slope.
   void begin(const Drive& drive, const std::vector<double>& velocity);
-  /// As far as the velocities below which nothing is resolved; not again as long as these are about the same.
-  void apply(const Tolerances::Unresolved& velocity);
+  /// As far as the velocities below which nothing is resolved; of each law not again as long as that is about the same.
+  void apply(const Tolerances& tolerances);
 
  private:
   const Network& network_;
   void find_stops(const Structure& classified);
-  std::optional<Tolerances::Unresolved> applied_;
+  double slowest_stop(std::size_t rate, const Growth& growth) const;
+  std::vector<double> applied_;         ///< of each rate branch [m/s]; not_given before the first time
   std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
   /// Of each rate branch: it may bring a mass to rest, or it is one of several in series that do, or that begin at rest
   /// together. Elsewhere what a pseudoplastic law carries is told by its neighbours, and its velocity follows from that down
   /// to nothing.
   std::vector<char> stops_;
+  std::vector<double> mass_;  ///< of each rate branch: of its ends against each other [kg]; 0 where one has neither a mass nor a motion
 };
 
 }  // namespace rheonet

@@ -54,6 +54,8 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
+  dashpot_seen_.assign(network.rates.size(), 0);
+  carried_seen_ = dashpot_seen_;
   relative_seen_.assign(nodes, 0);
   gap_seen_ = place_seen_ = way_seen_ = relative_seen_;
   slip_noise_ = slider_noise_ = slide_rounding_ = slide_seen_;
@@ -128,7 +130,10 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
     flow_seen_[j] = std::max(flow_seen_[j], std::abs(view.flow[j]));
     meet(structure.deflections[j], view.flow[j]);
   }
-  for (std::size_t r = 0; r < structure.rates.size(); ++r) meet(structure.rates[r], view.rate_velocity[r]);
+  for (std::size_t r = 0; r < structure.rates.size(); ++r) {
+    dashpot_seen_[r] = std::max(dashpot_seen_[r], std::abs(view.rate_force[r]));
+    meet(structure.rates[r], view.rate_velocity[r]);
+  }
   for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
     slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
     meet(structure.sliders[k], view.slider_velocity[k]);
@@ -176,6 +181,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   find_rounding(view);
   find_difference_rounding(view);
   if (!balance_rounding_.none()) balance_rounding_.find(view, dae_->slopes());
+  find_stopping(view);
   step_ = 0;
   update(t, yp);
 }
@@ -202,6 +208,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   find_rounding_now(view);
   if (!balance_rounding_.none()) balance_rounding_.find(view, dae_->slopes());
   kinks_.follow(*dae_, view);
+  find_stopping(view);
   update(t, yp);
 }
 
@@ -286,6 +293,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
     if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
       tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);
     }
+    if (q.sort == Sort::velocity && dae_->rough()) tolerance_[i] = std::min(tolerance_[i], std::max(stopping_[q.index], grain * std::abs(yp[i])));
     const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
     tolerance_[i] = std::max(tolerance_[i], drift.velocity * std::min(t - begin_, drift.lasting));
     // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.

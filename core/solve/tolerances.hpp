@@ -43,6 +43,11 @@ class Tolerances {
   /// Velocities below which nothing is resolved [m/s]; at rest a dilatant law makes a large one of the rounding of a force.
   struct Unresolved { double pseudoplastic = 0, dilatant = 0; };
   const Unresolved& unresolved() const { return unresolved_; }
+  /// So many times what a step may be wrong by is 0.013 of the accuracy promised: what is no more may be taken as linear.
+  static constexpr double soft_share = 20;
+  /// Velocity at which the force of a pseudoplastic dashpot is no more than that, or at which so much of it comes of
+  /// rounding [m/s]. Infinite as long as it has had no force.
+  double unfelt(int rate) const;
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
   /// Of the force of a rate branch that is solved for it.
@@ -81,6 +86,8 @@ class Tolerances {
   void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
   void find_dashpot_rounding(const Dae::View& view);
+  void find_stopping(const Dae::View& view);
+  double carried_noise(std::size_t rate) const;
   /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
   template <class Visit>
   void for_each_dilatant(Visit visit) const;
@@ -101,6 +108,7 @@ class Tolerances {
   std::array<std::vector<double>, sorts> seen_;       ///< largest magnitude of everything that can be an unknown
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
+  std::vector<double> dashpot_seen_;                  ///< of each rate branch: its largest force [N]
   std::vector<double> slide_seen_;                    ///< of each slider
   std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]
   /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
@@ -124,6 +132,8 @@ class Tolerances {
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
   bool any_solved_ = false;               ///< some dashpot is solved for its force
+  std::vector<double> stopping_;          ///< of each node: what a velocity may be wrong by for the force that stops it [m/s]
+  std::vector<double> carried_seen_;                  ///< of each rate branch: the fastest that both its ends have been [m/s]
   std::vector<double> dashpot_rounding_;  ///< of each: what the rounding of velocities leaves of its force [N]
   std::vector<double> difference_rounding_, slide_rounding_;  ///< of the velocities of deflections and sliders [m/s]
   double largest_velocity_ = 0;
