@@ -284,6 +284,61 @@ stop = 1
   assert.ok(told.at(-1).kind === 'failed' || told.at(-1).items?.length > 0, JSON.stringify(told.at(-1)).slice(0, 100));
 });
 
+test('a result that is too large is not sent, and says how large it is', async () => {
+  const rows = async (megabytes) => {
+    const other = await serve(folder, '--memory-limit', megabytes, '--time-limit', '60');
+    const text = bingham.replace('every = "1 ms"', 'points = 2000001');
+    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: json, body: JSON.stringify({ task: 'csv', text, file: 'a.toml' }) });
+    const told = messages(await response.text());
+    await other.stop();
+    return told;
+  };
+  assert.match((await rows('100')).at(-1).message, /needs more than the 100 MB of memory/);
+  const told = await rows('4000');
+  const found = /comes to (\d+) MB so far, and a page may have 64 MB: record fewer quantities, or at fewer output times/.exec(told.at(-1).message);
+  assert.ok(Number(found?.[1]) > 64, told.at(-1).message);
+  assert.ok(!told.some(({ kind }) => kind === 'file'));
+});
+
+const children = (parent) => readdirSync('/proc').filter((name) => /^\d+$/.test(name) && (() => {
+  try {
+    return readFileSync(`/proc/${name}/stat`, 'utf8').replace(/^.*\) /, '').split(' ')[1] === String(parent);
+  } catch {
+    return false;
+  }
+})());
+
+test('how the process of a run has ended is said, and those that had nothing to do are replaced', async () => {
+  for (const [signal, why] of [['SIGSEGV', /ended by signal 11 \(Segmentation fault\)/], ['SIGKILL', /ended by signal 9 \(Killed\)/]]) {
+    const asked = post({ task: 'show', text: endless, file: 'a.toml' });
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    children(server.process.pid).forEach((id) => process.kill(Number(id), signal));
+    const last = messages((await asked).body).at(-1);
+    assert.equal(last.kind, 'failed');
+    assert.match(last.message, why);
+    assert.match((await post({ task: 'show', text: bingham, file: 'a.toml' })).body, /"kind":"done"/);
+  }
+});
+
+test('runs that never end make way for others', async () => {
+  const other = await serve(folder, '--time-limit', '30');
+  const show = async (text, session) => {
+    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: json, body: JSON.stringify({ task: 'show', text, file: 'a.toml', session }) });
+    return messages(await response.text()).at(-1);
+  };
+  const ended = [];
+  const many = Array.from({ length: 60 }, (_, k) => show(endless, `session ${k}`).then((last) => ended.push(last.message), () => {}));
+  await new Promise((resolve) => setTimeout(resolve, 200));
+  for (let k = 0; k < 5; ++k) {
+    assert.equal((await show(bingham, 'honest')).kind, 'done');
+    // Nobody has waited for one of them to come to its limit; some go on, and those that there is no room for are told so.
+    assert.ok(ended.every((message) => /too many others are simulating for a run that takes longer/.test(message)), ended.at(-1));
+    assert.ok(ended.length < 60);
+  }
+  await other.stop();
+  await Promise.all(many);
+});
+
 test('a newer request of a session ends the older', async () => {
   const older = post({ task: 'show', text: endless, file: 'a.toml', session: 'one' });
   await new Promise((resolve) => setTimeout(resolve, 300));
@@ -342,13 +397,6 @@ test('slow clients, and those that go away, keep nobody waiting', async () => {
 });
 
 test('it leaves no process behind', async () => {
-  const children = (parent) => readdirSync('/proc').filter((name) => /^\d+$/.test(name) && (() => {
-    try {
-      return readFileSync(`/proc/${name}/stat`, 'utf8').replace(/^.*\) /, '').split(' ')[1] === String(parent);
-    } catch {
-      return false;
-    }
-  })());
   const other = await serve(folder);
   const workers = children(other.process.pid);
   assert.ok(workers.length >= 2);

@@ -6,14 +6,23 @@ import { pathToFileURL } from 'node:url';
 import { netlist, number, redrawn, setUp, shows, slider, stickSlip } from './desk.mjs';
 import { accessible, bingham, done, rheonet, watched } from './support.mjs';
 
-const desk = setUp({ 'bingham.toml': bingham, 'more/stick-slip.toml': stickSlip });
+// A place that needs many digits, above a velocity of few.
+const wide = `[nodes]
+a_place_that_is_far_from_the_origin_of_all = { position = "1000 m" }
+[elements]
+drive_of_the_place = { type = "motion", at = "a_place_that_is_far_from_the_origin_of_all", velocity = { sine = "1 mm/s", frequency = "2 Hz" } }
+[simulate]
+stop = 1
+record = ["a_place_that_is_far_from_the_origin_of_all.position", "a_place_that_is_far_from_the_origin_of_all.velocity"]
+`;
+const desk = setUp({ 'bingham.toml': bingham, 'more/stick-slip.toml': stickSlip, 'wide.toml': wide });
 const { open } = desk;
 
 test('the gallery shows the netlists of the folder, and opens one', async () => {
   const { page, close } = await open('');
   await page.waitForSelector('dialog.gallery[open] .card svg');
-  assert.deepEqual(await page.locator('.card-title').allTextContents(), ['Bingham element', 'Stick and slip']);
-  assert.match(await page.locator('.card').nth(1).textContent(), /A block that is pulled through a spring/);
+  assert.deepEqual(await page.locator('.card-title').allTextContents(), ['Bingham element', 'wide.toml', 'Stick and slip']);
+  assert.match(await page.locator('.card').nth(2).textContent(), /A block that is pulled through a spring/);
   await accessible(page, 'gallery');
   await page.locator('.gallery input').fill('stick');
   assert.equal(await page.locator('.card:visible').count(), 1);
@@ -54,7 +63,7 @@ test('two variants are compared', async () => {
   await page.locator('summary', { hasText: 'Differences' }).click();
   await page.waitForSelector('details[data-name="Differences"] table');
   // The two are 2 N*m apart as soon as both slip.
-  assert.match(await page.locator('details[data-name="Differences"]').textContent(), /A – Bk1\.force2 N·m/);
+  assert.match(await page.locator('details[data-name="Differences"]').textContent(), /A – Bk1\.force2\sN·m/);
   await page.locator('.variants label', { hasText: 'Edit A' }).click();
   assert.match(await netlist(page), /Tc = "2 N\*m"/);
   await page.locator('.variants label', { hasText: 'Edit B' }).click();
@@ -225,12 +234,51 @@ test('what is simulated, and why, is said of the netlist as it is', async () => 
   await close();
 });
 
-test('a run that fails says why, at its place', async () => {
-  const { page, close } = await open();
+const twoMotions = '[elements]\nm1 = { type = "mass", at = "a", mass = 1 }\nx = { type = "motion", at = "a", position = 1 }\ny = { type = "motion", at = "a", position = 2 }\n[simulate]\nstop = 1\n';
+const replaced = async (page, text) => {
   await page.locator('.cm-content').focus();
   await page.keyboard.press('Control+a');
-  await page.keyboard.insertText('[elements]\nm1 = { type = "mass", at = "a", mass = 1 }\nx = { type = "motion", at = "a", position = 1 }\ny = { type = "motion", at = "a", position = 2 }\n[simulate]\nstop = 1\n');
-  await page.waitForFunction(() => document.querySelector('.status').classList.contains('bad'));
-  assert.match(await page.textContent('.status'), /`x`.*`y`|`y`.*`x`/);
+  await page.keyboard.insertText(text);
+};
+
+test('a run that fails at its start says why where its curves would be', async () => {
+  const { page, close } = await open();
+  await replaced(page, twoMotions);
+  const reason = page.locator('.plots .no-curves');
+  await reason.waitFor();
+  assert.match(await reason.textContent(), /does not get beyond its start\. .*x and y.* a/);
+  assert.match(await page.textContent('.status'), /did not come to its end/);
+  assert.equal(await page.locator('.plots .chart').count(), 0);
+  assert.equal(await page.locator('button.play').isVisible(), false);
+  await page.locator('details[data-name="Energy account"]').waitFor({ state: 'detached' });
+  await accessible(page, 'a run that fails');
+  // Beside another one it leaves that its curves.
+  await replaced(page, bingham);
+  await page.locator('.plots .chart').first().waitFor();
+  assert.equal(await page.locator('.no-curves').count(), 0);
+  await page.locator('button', { hasText: 'Compare' }).click();
+  await replaced(page, twoMotions);
+  await reason.waitFor();
+  assert.match(await reason.textContent(), /^B: there is nothing/);
+  await page.locator('.u-series', { hasText: 'A k1.force' }).waitFor();
+  await close();
+});
+
+test('panels above each other have their times below each other, however wide their numbers are', async () => {
+  const { page, close } = await open('#file=wide.toml');
+  const lefts = await page.locator('.plots .chart .u-over').evaluateAll((all) => all.map((over) => Math.round(over.getBoundingClientRect().left)));
+  assert.equal(lefts.length, 2);
+  assert.equal(lefts[0], lefts[1]);
+  // The numbers of one of them need more room than is there anyway.
+  assert.ok(lefts[0] - (await page.locator('.plots .chart').first().boundingBox()).x > 86 + 10, String(lefts));
+  await close();
+});
+
+test('names are broken between their words, and legends are no wider than their charts', async () => {
+  const { page, close } = await open('#file=wide.toml', { viewport: { width: 390, height: 844 } });
+  assert.equal(await page.locator('.slider-name', { hasText: 'velocity.frequency' }).evaluate((name) => name.innerHTML), 'velocity.<wbr>frequency');
+  const wide = await page.locator('.chart').evaluateAll((charts) => charts.flatMap((chart) => [...chart.querySelectorAll('.u-legend, .u-series')]
+    .map((part) => part.getBoundingClientRect().right - chart.getBoundingClientRect().right).filter((over) => over > 0.5)));
+  assert.deepEqual(wide, []);
   await close();
 });

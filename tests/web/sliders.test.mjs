@@ -119,3 +119,42 @@ test('the newest position of a slider wins', async () => {
   await shows(page, 0.999, 'k1.force', bound + 5);
   await close();
 });
+
+test('a slider whose number has changed in the text meanwhile is refused, until the netlist has been read again', async () => {
+  const { page, close } = await open();
+  // Nothing is read that is asked for from here on.
+  await page.route('**/api/task', () => {});
+  const line = page.locator('.cm-line', { hasText: 'Tc = ' });
+  await line.click();
+  await page.keyboard.press('End');
+  for (const key of ['ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'Backspace', '3']) await page.keyboard.press(key);
+  const text = await netlist(page);
+  assert.match(text, /Tc = "3 N\*m"/);
+  const why = page.locator('[data-slider="parameters.Tc"] .why');
+  await number(page, 'parameters.Tc').fill('5');
+  await number(page, 'parameters.Tc').press('Enter');
+  assert.match(await why.textContent(), /has changed here; the slider follows/);
+  assert.equal(await netlist(page), text);
+  await slider(page, 'parameters.Tc').focus();
+  await page.keyboard.press('End');
+  assert.equal(await netlist(page), text);
+  assert.equal(await number(page, 'parameters.Tc').inputValue(), '2');
+  // One whose number stands as it was still goes.
+  await number(page, 'k1.stiffness').fill('120');
+  await number(page, 'k1.stiffness').press('Enter');
+  assert.match(await netlist(page), /stiffness = "120 N\*m\/rad"/);
+  await page.unroute('**/api/task');
+  await redrawn(page, async () => {
+    await page.locator('.cm-content').focus();
+    await page.keyboard.press('Control+End');
+    await page.keyboard.type('#');
+  });
+  assert.equal(await number(page, 'parameters.Tc').inputValue(), '3');
+  await redrawn(page, async () => {
+    await number(page, 'parameters.Tc').fill('5');
+    await number(page, 'parameters.Tc').press('Enter');
+  });
+  assert.equal(await why.isVisible(), false);
+  await shows(page, 0.999, 'k1.force', 10);
+  await close();
+});

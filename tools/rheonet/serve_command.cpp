@@ -7,6 +7,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <thread>
 
@@ -78,7 +79,7 @@ ExitStatus listen(const ServeArguments& wanted, serve::Folder& folder) {
 
 ExitStatus serve_playground(const Arguments& arguments) {
   const ServeArguments& wanted = arguments.serve;
-  if (wanted.worker) return serve::work({wanted.seconds, wanted.megabytes}) == 0 ? done : not_simulated;
+  if (wanted.worker) std::_Exit(serve::work({wanted.seconds, wanted.megabytes}));
   if (!web::are_built()) {
     say("error: `serve` cannot begin: {}\n", web::why_not_built());
     return not_simulated;

@@ -7,12 +7,14 @@
 namespace rheonet::serve {
 
 using namespace std::chrono_literals;
-using Clock = std::chrono::steady_clock;
+using Clock = Pool::Clock;
 
 namespace {
 
 constexpr std::size_t most_bytes = 64u << 20;  // of an answer
 constexpr auto tick = 20ms;                    // after which a cancelled task is noticed
+constexpr int most_tries = 20;                 // for a worker that takes the task
+constexpr double longer_aside = 3;             // times as long may it take on what others leave
 
 }  // namespace
 
@@ -31,49 +33,72 @@ std::string Job::take(std::chrono::milliseconds patience, bool& finished) {
 }
 
 void Job::run() {
-  const auto patience = std::chrono::milliseconds(static_cast<long>(2000 * pool_.limits().seconds));
-  if (std::unique_ptr<Worker> worker = pool_.acquire(patience, [this] { return cancelled_.load(); })) {
+  if (std::unique_ptr<Worker> worker = begin()) {
     const bool sound = follow(*worker);
     pool_.release(std::move(worker), sound);
-  } else if (!cancelled_) {
-    fail("too many others are simulating; try again");
   }
   const std::lock_guard lock(mutex_);
   finished_ = true;
   more_.notify_all();
 }
 
-bool Job::follow(Worker& worker) {
-  const auto until = Clock::now() + std::chrono::duration<double>(pool_.limits().seconds);
-  if (!worker.give(task_)) {
-    fail("the process that simulates has ended; try again");
-    return false;
+std::unique_ptr<Worker> Job::begin() {
+  const auto patience = std::chrono::milliseconds(static_cast<long>(2000 * pool_.limits().seconds));
+  // One that has ended while it had nothing to do is replaced.
+  for (int k = 0; k < most_tries; ++k) {
+    std::unique_ptr<Worker> worker = pool_.acquire(patience, [this] { return cancelled_.load(); });
+    if (!worker) {
+      if (!cancelled_) fail("too many others are simulating; try again");
+      return nullptr;
+    }
+    if (worker->give(task_)) return worker;
+    pool_.release(std::move(worker), false);
   }
+  fail("the processes that simulate end before they begin");
+  return nullptr;
+}
+
+bool Job::follow(Worker& worker) {
+  const auto began = Clock::now();
   for (;;) {
     std::string message;
     switch (worker.take(message, tick)) {
       case Worker::Answer::end:
         return true;
       case Worker::Answer::message:
+        if (const std::size_t bytes = told_ + message.size(); bytes > most_bytes) {
+          fail(fmt::format("the result comes to {} MB so far, and a page may have {} MB: record fewer quantities, or at fewer output "
+                           "times; `rheonet run` has no such limit", bytes >> 20U, most_bytes >> 20U));
+          return false;
+        }
         tell(message);
         break;
-      case Worker::Answer::gone:
-        fail(fmt::format("the run needs more than the {} MB of memory that it may have here", pool_.limits().megabytes));
+      case Worker::Answer::gone: {
+        const Worker::Ending ending = worker.ending();
+        fail(ending.of_memory ? fmt::format("the run needs more than the {} MB of memory that it may have here; `rheonet run` has no "
+                                            "such limit", pool_.limits().megabytes)
+                              : fmt::format("the process that simulated this was ended by {}", ending.words));
         return false;
+      }
       case Worker::Answer::nothing:
         break;
     }
-    if (cancelled_) return false;
-    if (Clock::now() > until) {
-      fail(fmt::format("the run takes longer than the {:g} s that it may take here; `rheonet run` has no such limit",
-                       pool_.limits().seconds));
-      return false;
-    }
-    if (told_ > most_bytes) {
-      fail("the run has too much to tell: record less");
-      return false;
-    }
+    if (cancelled_ || is_too_much(worker, began)) return false;
   }
+}
+
+bool Job::is_too_much(Worker& worker, Clock::time_point began) {
+  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  if (seconds > pool_.limits().seconds * (worker.is_aside() ? longer_aside : 1)) {
+    fail(fmt::format("the run takes longer than the {:g} s that it may take here; `rheonet run` has no such limit",
+                     pool_.limits().seconds));
+    return true;
+  }
+  if (!worker.is_aside() && pool_.is_in_the_way(began) && !pool_.step_aside(worker)) {
+    fail(fmt::format("too many others are simulating for a run that takes longer than {:.1g} s; try again", seconds));
+    return true;
+  }
+  return false;
 }
 
 void Job::tell(const std::string& message) {

@@ -29,8 +29,12 @@ class Job {
 
  private:
   void run();
+  /// A worker that has taken the task; nullptr if there is none, which has then been said.
+  std::unique_ptr<Worker> begin();
   /// The worker's answer, up to its end. Whether the worker can go on with another task.
   bool follow(Worker& worker);
+  /// Whether the run is to end for what it takes, which has then been said.
+  bool is_too_much(Worker& worker, Pool::Clock::time_point began);
   void tell(const std::string& message);
   void fail(const std::string& why);
 

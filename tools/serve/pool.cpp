@@ -1,33 +1,88 @@
 #include "tools/serve/pool.hpp"
 
+#include <algorithm>
 #include <system_error>
 
 namespace rheonet::serve {
 
-Pool::Pool(const Limits& limits, std::size_t size) : limits_(limits), size_(size) {
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto longest_turn = 500ms, shortest_turn = 50ms;  // of a run for whose place others wait
+constexpr auto all_turns = 1000ms;                          // that those who wait have together, about
+constexpr std::size_t most_aside = 8;                       // for each place: they need memory
+
+}  // namespace
+
+Pool::Pool(const Limits& limits, std::size_t places) : limits_(limits), places_(places) {
   // Ready beforehand: a process takes longer to start than a small scene to run.
-  for (std::size_t k = 0; k < size; ++k) idle_.push_back(std::make_unique<Worker>(limits_));
+  for (std::size_t k = 0; k < places; ++k) idle_.push_back(std::make_unique<Worker>(limits_));
 }
 
-std::unique_ptr<Worker> Pool::take_idle(std::unique_lock<std::mutex>& lock) {
-  if (!idle_.empty()) {
-    std::unique_ptr<Worker> worker = std::move(idle_.back());
-    idle_.pop_back();
-    return worker;
+std::unique_ptr<Worker> Pool::acquire(std::chrono::milliseconds patience, const std::function<bool()>& cancelled) {
+  const auto until = Clock::now() + patience;
+  {
+    std::unique_lock lock(mutex_);
+    const unsigned long number = ++last_;
+    waiting_.push_back(number);
+    while (running_ == places_ || waiting_.front() != number) {
+      if (cancelled() || Clock::now() >= until) {
+        std::erase(waiting_, number);
+        changed_.notify_all();
+        return nullptr;
+      }
+      changed_.wait_for(lock, 50ms);
+    }
+    waiting_.pop_front();
+    ++running_;
+    changed_.notify_all();
   }
-  lock.unlock();
+  if (std::unique_ptr<Worker> worker = idle_or_new()) return worker;
+  const std::lock_guard lock(mutex_);
+  --running_;
+  changed_.notify_all();
+  return nullptr;
+}
+
+std::unique_ptr<Worker> Pool::idle_or_new() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      std::unique_ptr<Worker> worker = std::move(idle_.back());
+      idle_.pop_back();
+      return worker;
+    }
+  }
   try {
     return std::make_unique<Worker>(limits_);
   } catch (const std::system_error&) {
-    lock.lock();
-    --busy_;
     return nullptr;
   }
 }
 
+bool Pool::is_in_the_way(Clock::time_point since) {
+  const std::lock_guard lock(mutex_);
+  if (waiting_.empty()) return false;
+  const std::chrono::milliseconds share = all_turns / static_cast<long>(waiting_.size());
+  return Clock::now() - since > std::clamp<std::chrono::milliseconds>(share, shortest_turn, longest_turn);
+}
+
+bool Pool::step_aside(Worker& worker) {
+  const std::lock_guard lock(mutex_);
+  if (aside_ == most_aside * places_) return false;
+  worker.step_aside();
+  ++aside_;
+  --running_;
+  changed_.notify_all();
+  return true;
+}
+
 void Pool::release(std::unique_ptr<Worker> worker, bool sound) {
-  if (!sound) {
-    worker.reset();
+  const bool was_aside = worker->is_aside();
+  // Whoever has stepped aside does not come back to the front.
+  if (!sound || was_aside) worker.reset();
+  if (!was_aside && !worker) {
     try {
       worker = std::make_unique<Worker>(limits_);
     } catch (const std::system_error&) {  // the next one that wants it tries again
@@ -35,10 +90,10 @@ void Pool::release(std::unique_ptr<Worker> worker, bool sound) {
   }
   {
     const std::lock_guard lock(mutex_);
-    if (worker) idle_.push_back(std::move(worker));
-    --busy_;
+    if (worker && idle_.size() < places_) idle_.push_back(std::move(worker));
+    --(was_aside ? aside_ : running_);
   }
-  freed_.notify_one();
+  changed_.notify_all();
 }
 
 }  // namespace rheonet::serve

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -10,37 +13,38 @@
 
 namespace rheonet::serve {
 
-/// Workers that are ready: as many as run at once, the others wait their turn.
+/// Workers that are ready, and who may use them: as many run at once as there are places, the others wait their turn, first
+/// come, first served. A run that takes long while others wait steps aside: it goes on with what they leave of the
+/// processors, and has no place among those that run. So nobody waits for runs that never end.
 class Pool {
  public:
-  Pool(const Limits& limits, std::size_t size);
+  using Clock = std::chrono::steady_clock;
 
-  /// A worker; nullptr if none becomes free in time or `cancelled` says that it is no longer wanted.
-  template <class Cancelled>
-  std::unique_ptr<Worker> acquire(std::chrono::milliseconds patience, Cancelled cancelled) {
-    using namespace std::chrono_literals;
-    const auto until = std::chrono::steady_clock::now() + patience;
-    std::unique_lock lock(mutex_);
-    while (busy_ == size_) {
-      if (cancelled() || std::chrono::steady_clock::now() >= until) return nullptr;
-      freed_.wait_for(lock, 50ms);
-    }
-    ++busy_;
-    return take_idle(lock);
-  }
+  Pool(const Limits& limits, std::size_t places);
 
-  /// Gives one back; one that is not `sound` (it was interrupted, or has gone) is replaced.
+  /// A worker with a place; nullptr if it is not its turn in time, or `cancelled` says that it is no longer wanted.
+  std::unique_ptr<Worker> acquire(std::chrono::milliseconds patience, const std::function<bool()>& cancelled);
+
+  /// Whether others wait for the place of a run that has had it since `since`: the more of them, the sooner.
+  bool is_in_the_way(Clock::time_point since);
+  /// Gives up its place to them; false if too many have done so, and it has to end.
+  bool step_aside(Worker& worker);
+
+  /// Gives a worker back, which did or did not step aside; one that is not `sound` (it was interrupted, or has gone) is
+  /// replaced.
   void release(std::unique_ptr<Worker> worker, bool sound);
   const Limits& limits() const { return limits_; }
 
  private:
-  std::unique_ptr<Worker> take_idle(std::unique_lock<std::mutex>& lock);
+  std::unique_ptr<Worker> idle_or_new();
 
   Limits limits_;
-  std::size_t size_, busy_ = 0;
+  std::size_t places_, running_ = 0, aside_ = 0;
+  std::deque<unsigned long> waiting_;  ///< the numbers of those that wait
+  unsigned long last_ = 0;             ///< number that was given
   std::vector<std::unique_ptr<Worker>> idle_;
   std::mutex mutex_;
-  std::condition_variable freed_;
+  std::condition_variable changed_;
 };
 
 }  // namespace rheonet::serve

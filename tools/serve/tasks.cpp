@@ -207,7 +207,7 @@ int work(const Limits& limits) {
     try {
       carry_out(json::parse(line));
     } catch (const std::bad_alloc&) {
-      return 1;  // the server says so
+      return out_of_memory;  // the server says so
     } catch (const plot::Mistake& mistake) {
       failed(mistake.what());
     } catch (const std::exception& error) {

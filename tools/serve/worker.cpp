@@ -5,10 +5,12 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 #include <system_error>
 
 extern char** environ;
@@ -22,6 +24,14 @@ struct Pipe {
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
   }
 };
+
+/// Waits until a process has ended; its status.
+int wait_for(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
 
 }  // namespace
 
@@ -56,10 +66,24 @@ Worker::Worker(const Limits& limits) {
 Worker::~Worker() {
   ::close(in_);
   ::close(out_);
+  if (process_ < 0) return;
   ::kill(process_, SIGKILL);
-  int status = 0;
-  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-  }
+  wait_for(process_);
+}
+
+Worker::Ending Worker::ending() {
+  const int status = wait_for(process_);
+  process_ = -1;
+  if (WIFSIGNALED(status))
+    return {false, fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))};
+  const int code = WEXITSTATUS(status);
+  return {code == out_of_memory, fmt::format("exit status {}", code)};
+}
+
+void Worker::step_aside() {
+  // Of the group, which is its own: of the process alone it would be that of its first thread.
+  ::setpriority(PRIO_PGRP, static_cast<id_t>(process_), 19);
+  aside_ = true;
 }
 
 bool Worker::give(const std::string& task) {

@@ -31,6 +31,16 @@ class Worker {
   enum class Answer { message, end, nothing, gone };
   /// Waits a while for the next message.
   Answer take(std::string& message, std::chrono::milliseconds patience);
+  /// How it ended that has gone: for want of memory, or as these words say.
+  struct Ending {
+    bool of_memory;
+    std::string words;
+  };
+  Ending ending();
+
+  /// From now on it gets what others leave of the processors.
+  void step_aside();
+  bool is_aside() const { return aside_; }
 
  private:
   pid_t process_ = -1;
@@ -38,9 +48,12 @@ class Worker {
   std::string buffer_;
   std::size_t begin_ = 0;     ///< of what has not been taken
   std::size_t searched_ = 0;  ///< before this there is no end of a line
+  bool aside_ = false;
 };
 
-/// The process itself: takes tasks from standard input until there are no more.
+/// The process itself: takes tasks from standard input until there are no more. Its exit status is `out_of_memory` if a task
+/// needs more than it may have.
+constexpr int out_of_memory = 3;
 int work(const Limits& limits);
 
 }  // namespace rheonet::serve

@@ -25,12 +25,15 @@ export class Animation {
     this.legend = element('span', { class: 'legend', hidden: true },
       element('span', { class: 'key' }, element('span', { class: 'swatch stick' }), 'sticks'),
       element('span', { class: 'key' }, element('span', { class: 'swatch slip' }), 'slips'));
+    this.host = host;
+    host.hidden = true; // until there is something to move
     host.append(this.button, this.scrub, this.speed, this.clock, this.legend);
   }
 
   // What is to move: the drawing and its run.
   attach(svg, data) {
     this.data = data;
+    this.host.hidden = !data.hasCurves;
     this.parts = svg ? [...svg.querySelectorAll('[data-element]')].map((node) => this.part(node, data.scene.ends)) : [];
     this.rods = svg ? [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node })) : [];
     this.labels = svg ? [...svg.querySelectorAll('text')].map((node) => this.label(node)) : [];

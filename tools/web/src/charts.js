@@ -1,10 +1,11 @@
 // Curves over time, and curves of one quantity against another, both with zoom and hover.
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { element, onTheme, styled } from './dom.js';
+import { breakable, element, onTheme, styled } from './dom.js';
 import { largestOf, number, shownIn, spaced } from './units.js';
 
 const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]];
+const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
 const charts = new Set();
 onTheme(() => charts.forEach((chart) => chart.repaint()));
 
@@ -108,6 +109,14 @@ export class TimeGroup {
   zoom(min, max) {
     this.members.forEach((chart) => chart.plot?.setScale('x', { min, max }));
   }
+  // The room beside the panels is that of the one that needs the most: so their times are one below the other.
+  room(chart, needed) {
+    chart.needed = needed;
+    const room = Math.max(...[...this.members].map((member) => member.needed ?? 0));
+    if (room !== this.given) queueMicrotask(() => this.members.forEach((member) => member !== chart && member.plot?.redraw(false, true)));
+    this.given = room;
+    return room;
+  }
 }
 TimeGroup.count = 0;
 
@@ -128,11 +137,12 @@ export class TimeChart extends Chart {
     this.as = as; // the unit that somebody wants
     this.shown = as ?? shownIn(unit, largestOf(curves.map((curve) => curve.values)));
     this.curves = curves;
+    const dashOf = (curve, k) => (curve.dash ?? Math.floor(k / 7)) % dashes.length;
     const series = curves.map((curve, k) => ({
       label: curve.name,
       stroke: () => colour(first + (curve.style ?? k)),
       width: 1.6,
-      dash: dashes[(curve.dash ?? Math.floor(k / 7)) % dashes.length],
+      dash: dashes[dashOf(curve, k)],
       spanGaps: true,
       pxAlign: 0,
       points: { show: false },
@@ -144,9 +154,10 @@ export class TimeChart extends Chart {
         height,
         series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6)} s`) }, ...series],
         scales: { x: { time: false } },
-        axes: [axis(labelled ? 'time [s]' : undefined, { space: apart, size: labelled ? 50 : 28 }), axis(labelOf(quantity, this.shown), { size: sideways })],
+        axes: [axis(labelled ? 'time [s]' : undefined, { space: apart, size: labelled ? 36 : 28 }),
+          axis(labelOf(quantity, this.shown), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
-        legend: { live: true },
+        legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
         hooks: {
           drawClear: [(plot) => this.drawEvents(plot)],
           setScale: [(plot, key) => key === 'x' && this.follow(plot)],
@@ -155,6 +166,7 @@ export class TimeChart extends Chart {
       this.data(),
       host,
     );
+    host.querySelectorAll('.u-label').forEach((label) => label.replaceChildren(...breakable(label.textContent)));
   }
 
   data() {

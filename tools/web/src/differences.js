@@ -45,7 +45,7 @@ export function differencesOf(runs) {
       if (!data.column(path) || !first.data.time.length || !data.time.length) continue;
       const { largest, at, scale, rms } = difference(first.data, data, path);
       rows.push([`${first.label} – ${label}`, element('code', {}, path), withUnit(largest, unit), scale > 0 ? number(largest / scale, 3) : '0',
-        largest > 0 ? `${number(at)} s` : '–', withUnit(rms, unit)]);
+        largest > 0 ? `${number(at)}\u00a0s` : '–', withUnit(rms, unit)]);
     }
   if (!rows.length) return element('p', { class: 'note' }, 'The scenes record nothing under the same name.');
   return table(['scenes', 'record', 'largest difference', 'relative', 'at', 'root mean square'], rows, 'Differences');

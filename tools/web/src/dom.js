@@ -25,6 +25,9 @@ export function table(headings, rows, caption) {
   );
 }
 
+// A path, a name or a unit, which a line breaks behind its dots and the like, and not within a word.
+export const breakable = (name) => name.split(/(?<=[._*/·])/).flatMap((part, k) => (k ? [element('wbr'), part] : [part]));
+
 let last = 0;
 export const freshId = (word) => `${word}-${++last}`;
 
@@ -33,7 +36,6 @@ export const styled = (name) => getComputedStyle(document.documentElement).getPr
 
 // Calls back whenever colours change: another theme, or paper.
 export function onTheme(changed) {
-  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', changed);
   matchMedia('print').addEventListener('change', changed);
   new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
 }

@@ -18,13 +18,13 @@ export class Folds {
     this.charts.forEach((chart) => chart.destroy());
     this.charts = [];
     const { scene, done } = data;
-    const compared = runs.filter((run) => run.data.scene);
+    const compared = runs.filter((run) => run.data.hasCurves);
     this.host.replaceChildren(...[
       compared.length > 1 ? this.fold('Differences', () => differencesOf(compared)) : null,
       this.fold('What is simulated, and why', () => this.explanation()),
       this.fold('Equations', () => equationsOf(scene)),
       this.fold('Elements', () => elementsOf(scene)),
-      data.energy?.time.length ? this.fold('Energy account', () => energyOf(data, this.charts)) : null,
+      data.hasCurves ? this.fold('Energy account', () => energyOf(data, this.charts)) : null,
       this.fold('Events', () => eventsOf(data)),
       done?.claims.length ? this.fold('Claims', () => claimsOf(data)) : null,
       done ? this.fold('Statistics', () => statisticsOf(data)) : null,

@@ -17,7 +17,7 @@ import { Runner } from './runner.js';
 import { SceneData } from './scene-data.js';
 import { lessonOf } from './sections.js';
 import { Sliders } from './sliders.js';
-import { rememberTheme, switchTheme } from './theme.js';
+import { followSystem, rememberTheme, switchTheme } from './theme.js';
 
 const typing = 250; // ms without a key after which what was typed is run
 
@@ -111,6 +111,7 @@ class Playground {
   clear() {
     this.sliders.clear();
     this.parts.drawing.replaceChildren();
+    this.parts.animation.hidden = true;
     this.drawn = null;
     this.showTitle('');
     this.showLesson({});
@@ -138,7 +139,7 @@ class Playground {
     if (!data.scene) {
       variant.stale = true;
       this.showStale();
-      if (complete) this.say(data.failed ? data.failed.message : 'The netlist has mistakes; the plots show what was there before.', true);
+      if (complete) this.say(data.failed ? data.failed.message : `The netlist has mistakes${variant.data.hasCurves ? '; the plots show what was there before' : ''}.`, true);
       return;
     }
     if (data.time.length || complete) Object.assign(variant, { data, shown: text });
@@ -153,7 +154,8 @@ class Playground {
     clearTimeout(this.later);
     this.later = setTimeout(() => this.showSections(), 200);
     if (data.failed) {
-      this.say(`The run did not come to its end: ${data.failed.message}`, true);
+      // Where there are no curves the reason stands in their place.
+      this.say(data.hasCurves ? `The run did not come to its end: ${data.failed.message}` : 'The run did not come to its end.', true);
       return;
     }
     requestAnimationFrame(() => {
@@ -290,4 +292,5 @@ class Playground {
 }
 
 rememberTheme();
+followSystem();
 new Playground(document.getElementById('playground')).files.begin();

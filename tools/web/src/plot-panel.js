@@ -1,6 +1,7 @@
 // The plots of one or several runs: over time, or one quantity against another, with a choice of what is shown.
 import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, freshId } from './dom.js';
+import { inWords } from './sections.js';
 
 const kinds = [
   { id: 'own', label: 'As the scene says' },
@@ -11,6 +12,8 @@ const kinds = [
 ];
 const few = 6; // curves of one quantity that are shown before anyone chooses
 
+const sentence = (text) => `${text[0]?.toUpperCase() ?? ''}${text.slice(1)}${/[.!?]$/.test(text) ? '' : '.'}`;
+
 export class PlotPanel {
   constructor(host, { onchange = () => {} } = {}) {
     this.host = host;
@@ -20,8 +23,9 @@ export class PlotPanel {
     this.chosen = null;
     this.charts = [];
     this.runs = [];
+    this.failures = []; // runs of which there is nothing to draw
     this.shape = '';
-    this.tabs = element('div', { class: 'tabs', role: 'radiogroup', 'aria-label': 'Kind of plot' });
+    this.tabs = element('div', { class: 'tabs', role: 'radiogroup', 'aria-label': 'Kind of plot', hidden: true });
     this.tools = element('div', { class: 'plot-tools' });
     this.body = element('div', { class: 'plots' });
     document.addEventListener('pointerdown', (event) => {
@@ -39,10 +43,14 @@ export class PlotPanel {
 
   // runs: [{ label, data }]; curves carry the labels where there are several.
   show(runs) {
-    this.runs = runs.filter((run) => run.data.scene);
+    const read = runs.filter((run) => run.data.scene);
+    this.failures = read.filter(({ data }) => data.failed && !data.hasCurves);
+    this.runs = read.filter((run) => !this.failures.includes(run));
+    this.tabs.hidden = !this.runs.length;
     this.tabs.querySelector('[data-kind="own"]').hidden = !this.ownCurves().length;
     for (const input of this.tabs.querySelectorAll('input')) input.checked = input.value === this.shownKind;
     const shape = JSON.stringify([
+      this.failures.map(({ data }) => data.failed.message),
       this.shownKind,
       this.ownCurves(),
       this.owner,
@@ -87,6 +95,8 @@ export class PlotPanel {
     this.charts = [];
     this.body.replaceChildren();
     this.tools.replaceChildren();
+    this.body.append(...this.failures.map(({ label, data }) => element('p', { class: 'note bad no-curves' },
+      `${label ? `${label}: there` : 'There'} is nothing to draw, as the run does not get beyond its start. `, inWords(sentence(data.failed.message)))));
     if (!this.runs.length) return;
     const kind = kinds.find((known) => known.id === this.shownKind);
     if (kind.id === 'time') this.buildTime();
@@ -122,7 +132,7 @@ export class PlotPanel {
         if (!panels.has(key)) panels.set(key, { x: across, y: up, curves: [] });
         const panel = panels.get(key);
         const name = this.ownCurves().every(([other]) => other === x) ? y : `${y} against ${x}`;
-        panel.curves.push({ name: this.runs.length > 1 ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y),
+        panel.curves.push({ name: label ? `${label} ${name}` : name, time: data.time, x: data.column(x), y: data.column(y),
           style: style + run * this.ownCurves().length, data });
       });
     });
@@ -165,7 +175,7 @@ export class PlotPanel {
         const panel = panels.get(key);
         if (!panel.names.includes(record.path)) panel.names.push(record.path);
         panel.curves.push({
-          name: this.runs.length > 1 ? `${label} ${record.path}` : record.path,
+          name: label ? `${label} ${record.path}` : record.path,
           time: data.time,
           values: data.columns[k],
           style: panel.names.indexOf(record.path) + (panel.names.length === 1 && this.runs.length > 1 ? run : 0),
@@ -233,7 +243,7 @@ export class PlotPanel {
     this.runs.forEach(({ label, data }, run) => {
       const x = data.column(`${this.loopOwner}.${kind.x}`);
       const y = data.column(`${this.loopOwner}.${kind.y}`);
-      if (x && y) curves.push({ name: this.runs.length > 1 ? `${label} ${this.loopOwner}` : this.loopOwner, time: data.time, x, y, style: run, data });
+      if (x && y) curves.push({ name: label ? `${label} ${this.loopOwner}` : this.loopOwner, time: data.time, x, y, style: run, data });
     });
     return curves;
   }

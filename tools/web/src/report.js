@@ -5,9 +5,11 @@ import { element, schematicOf } from './dom.js';
 import { PlotPanel } from './plot-panel.js';
 import { SceneData } from './scene-data.js';
 import { accuracyOf, claimsOf, elementsOf, energyOf, equationsOf, eventsOf, explanationOf, lessonOf, notesOf, sourcesOf, statisticsOf } from './sections.js';
+import { followSystem } from './theme.js';
 import { number } from './units.js';
 import { differencesOf } from './differences.js';
 
+followSystem();
 const { title, version, scenes } = JSON.parse(document.getElementById('data').textContent);
 const all = scenes.map(SceneData.from);
 const letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZ';
@@ -44,7 +46,7 @@ function sceneOf(data, k) {
     section('What is simulated, and why', explanationOf(data.explanation)),
     section('Elements', elementsOf(scene)),
     section('Equations', equationsOf(scene)),
-    data.energy ? section('Energy account', energyOf(data)) : null,
+    data.hasCurves ? section('Energy account', energyOf(data)) : null,
     section('Events', eventsOf(data)),
     section('Accuracy and its price', accuracyOf(data)),
     data.done ? section('Statistics', statisticsOf(data)) : null,
@@ -61,7 +63,7 @@ if (all.length > 1) {
     element('h2', {}, 'Side by side'),
     element('ul', { class: 'letters' }, all.map(({ scene }, k) => element('li', {}, element('span', { class: 'letter' }, letters[k]), ` ${scene.title || scene.file}`))),
     section('Plots', plots(runs)),
-    section('Differences', differencesOf(runs))));
+    runs.every(({ data }) => data.hasCurves) ? section('Differences', differencesOf(runs)) : null));
 }
 main.append(element('div', { class: all.length > 1 ? 'scenes several' : 'scenes' }, all.map(sceneOf)));
 addEventListener('beforeprint', () => document.querySelectorAll('details.source-text').forEach((details) => (details.open = true)));

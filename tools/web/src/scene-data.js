@@ -47,6 +47,11 @@ export class SceneData {
     return this.scene?.records ?? [];
   }
 
+  // The run has got beyond its start.
+  get hasCurves() {
+    return this.time.length > 1 && this.time.at(-1) > this.time[0];
+  }
+
   column(path) {
     const k = this.index?.get(path);
     return k === undefined ? null : this.columns[k];

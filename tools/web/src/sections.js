@@ -159,7 +159,7 @@ export function accuracyOf(data, charts = []) {
     if (certificate.records.length)
       host.append(table(['record', 'estimated error', 'relative', 'at', 'largest magnitude'],
         certificate.records.map(({ path, unit, error, relative, at, scale }) => [element('code', {}, path), withUnit(error, unit, 2),
-          relative.toExponential(1), error > 0 ? `${number(at)} s` : '–', withUnit(scale, unit)]), 'Errors'));
+          relative.toExponential(1), error > 0 ? `${number(at)}\u00a0s` : '–', withUnit(scale, unit)]), 'Errors'));
   }
   if (prices) {
     const known = prices.prices.filter(({ error }) => error > 0);

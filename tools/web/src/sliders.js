@@ -1,5 +1,5 @@
 // A slider for each number of a netlist. What is moved is written into the text of the netlist, which is all there is.
-import { element } from './dom.js';
+import { breakable, element } from './dom.js';
 
 const steps = 400;
 const decimal = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
@@ -27,7 +27,7 @@ class Slider {
       this.putBack();
     });
     this.row = element('div', { class: 'slider', title: knob.description, 'data-slider': `${knob.group}.${knob.name}` },
-      element('span', { class: 'slider-name' }, knob.name), this.range, this.number, element('span', { class: 'unit' }, knob.unit), this.why);
+      element('span', { class: 'slider-name' }, breakable(knob.name)), this.range, this.number, element('span', { class: 'unit' }, breakable(knob.unit)), this.why);
     this.show();
   }
 
@@ -158,7 +158,7 @@ export class Sliders {
         if (!groups.has(slider.knob.group)) groups.set(slider.knob.group, []);
         groups.get(slider.knob.group).push(slider.row);
       });
-      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, group === 'simulate' ? 'run' : group), rows));
+      return [...groups].map(([group, rows]) => element('fieldset', {}, element('legend', {}, breakable(group === 'simulate' ? 'run' : group)), rows));
     };
     // A demo says which are worth moving; the others are folded away.
     const asked = this.all.filter(({ knob }) => knob.asked).sort((a, b) => a.knob.asked - b.knob.asked);

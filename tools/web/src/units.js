@@ -41,7 +41,7 @@ export function spaced(value, spacing, least = 2) {
 
 export function withUnit(value, unit, digits = 4) {
   const shown = shownIn(unit, Math.abs(value));
-  return `${number(value / shown.factor, digits)}${shown.name ? ` ${shown.name}` : ''}`;
+  return `${number(value / shown.factor, digits)}${shown.name ? `\u00a0${shown.name}` : ''}`; // on one line
 }
 
 export function grouped(count) {
