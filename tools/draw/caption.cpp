@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "core/network/component.hpp"
 #include "tools/plot/units.hpp"
@@ -100,38 +101,76 @@ bool both_ways(const SceneElement& element, std::size_t i) {
   return false;
 }
 
+/// A value as its file says it, if that can be read at a glance; else as an engineer does.
+std::string say(double value, const std::string& unit, const Typed& typed) {
+  constexpr double least = 1e-3, most = 1e6, four_digits = 1e4;
+  const std::optional<Typed::Said> said = typed.say(value, unit);
+  const double magnitude = said ? std::abs(said->value) : 0;
+  if (magnitude < least || magnitude >= most) return engineering(value, unit);
+  return (said->value < 0 ? "−" : "") + (magnitude < four_digits ? number(magnitude) : fmt::format("{:.6g}", magnitude)) + ' ' +
+         plot::in_print(said->unit);
+}
+
 /// The shape of a signal, and how large and how fast it is.
 struct Shape {
   const std::string& unit;
+  const Typed& typed;
 
-  std::string operator()(const Signal::Constant& s) const { return say("", s.value); }
+  std::string operator()(const Signal::Constant& s) const { return with("", s.value); }
   std::string operator()(const Signal::Step& s) const {
-    return s.offset == 0 ? say("step ", s.height) : say("", s.offset) + say(" → ", s.offset + s.height);
+    return s.offset == 0 ? with("step ", s.height) : with("", s.offset) + with(" → ", s.offset + s.height);
   }
-  std::string operator()(const Signal::Ramp& s) const { return say("ramp ", s.slope) + " per s" + beside(s.offset); }
-  std::string operator()(const Signal::Sine& s) const { return wave("sine ", s); }
+  std::string operator()(const Signal::Ramp& s) const {
+    const std::string per_second = unit + "/s";
+    return "ramp " + (typed.say(s.slope, per_second) ? say(s.slope, per_second, typed) : with("", s.slope) + " per s") + beside(s.offset);
+  }
+  std::string operator()(const Signal::Sine& s) const { return wave(is_cosine(s) ? "cosine " : "sine ", s); }
   std::string operator()(const Signal::Square& s) const { return wave("square ", s); }
   std::string operator()(const Signal::Triangle& s) const { return wave("triangle ", s); }
   std::string operator()(const Signal::Chirp& s) const {
-    return say("chirp ", s.amplitude) +
+    return with("chirp ", s.amplitude) +
            fmt::format(", {}–{}", number(s.frequency), engineering(s.end_frequency, "Hz")) + beside(s.offset);
   }
   std::string operator()(const Signal::Pulse& s) const {
-    return say("pulse ", s.height) + ", " + engineering(s.width, "s") +
-           (s.frequency > 0 ? ", " + engineering(s.frequency, "Hz") : "") + beside(s.offset);
+    return with("pulse ", s.height) + ", " + say(s.width, "s", typed) +
+           (s.frequency > 0 ? ", " + say(s.frequency, "Hz", typed) : "") + beside(s.offset);
   }
   std::string operator()(const Signal::Table& s) const {
     return fmt::format("table, {} points", s.times.size()) + beside(s.offset);
   }
 
-  std::string say(const char* what, double value) const { return what + engineering(value, unit); }
+  std::string with(const char* what, double value) const { return what + say(value, unit, typed); }
   template <class Wave>
   std::string wave(const char* what, const Wave& s) const {
-    return say(what, s.amplitude) + ", " + engineering(s.frequency, "Hz") + beside(s.offset);
+    return with(what, s.amplitude) + ", " + say(s.frequency, "Hz", typed) + beside(s.offset);
   }
   /// What is added to it always.
   std::string beside(double offset) const {
-    return offset == 0 ? "" : (offset < 0 ? " − " : " + ") + engineering(std::abs(offset), unit);
+    return offset == 0 ? "" : (offset < 0 ? " − " : " + ") + say(std::abs(offset), unit, typed);
+  }
+  static bool is_cosine(const Signal::Sine& s) { return s.phase == std::numbers::pi / 2; }
+};
+
+/// Where in its period a signal is as it begins, and when that is; "" where both go without saying.
+struct Beginning {
+  const Typed& typed;
+
+  std::string operator()(const Signal::Constant&) const { return ""; }
+  std::string operator()(const Signal::Step& s) const { return s.time == 0 ? "" : "at " + say(s.time, "s", typed); }
+  std::string operator()(const Signal::Sine& s) const { return said(Shape::is_cosine(s) ? 0 : s.phase, s.time); }
+  template <class Other>
+  std::string operator()(const Other& s) const {
+    if constexpr (requires { s.phase; })
+      return said(s.phase, s.time);
+    else
+      return said(0, s.time);
+  }
+
+ private:
+  std::string said(double phase, double time) const {
+    std::string words = phase == 0 ? "" : "phase " + say(phase, "rad", typed);
+    if (time != 0) words += (words.empty() ? "from " : ", from ") + say(time, "s", typed);
+    return words;
   }
 };
 
@@ -142,16 +181,20 @@ const SceneFeed* feed_of(const Scene& scene, int element) {
   return found == scene.feeds.end() ? nullptr : &*found;
 }
 
-std::string signal_of(const Scene& scene, int index, std::size_t which) {
+/// The lines that say what the signal of an element is.
+std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t which, const Typed& typed) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
   if (const SceneFeed* feed = feed_of(scene, index)) {
     const SceneBlock& block = scene.blocks[static_cast<std::size_t>(feed->block)];
-    return (feed->sign < 0 ? "from −" : "from ") + scene.elements[static_cast<std::size_t>(block.element)].name;
+    return {(feed->sign < 0 ? "from −" : "from ") + scene.elements[static_cast<std::size_t>(block.element)].name};
   }
   const Parameter& parameter =
       declaration_of(element).parameters[static_cast<std::size_t>(element.signal_parameters[which])];
   const std::string unit = unit_of_parameter(scene, index, parameter);
-  return std::visit(Shape{unit}, element.signals[which].shape());
+  const Signal::Shape& shape = element.signals[which].shape();
+  std::vector<std::string> lines{std::visit(Shape{unit, typed}, shape)};
+  if (std::string beginning = std::visit(Beginning{typed}, shape); !beginning.empty()) lines.push_back(std::move(beginning));
+  return lines;
 }
 
 }  // namespace
@@ -182,24 +225,27 @@ std::string engineering(double value, const std::string& unit) {
   return sign + (factor == "1" ? "" : factor + "·") + "10" + superscript(power) + plain;
 }
 
-Caption caption_of(const Scene& scene, int index, bool with_values) {
+Caption caption_of(const Scene& scene, int index, bool with_values, const Typed& typed) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
   const Declaration& declaration = declaration_of(element);
   Caption caption{element.name, {}};
   if (!with_values) return caption;
-  std::vector<std::pair<std::string, std::string>> said;
+  std::vector<std::pair<std::string, std::vector<std::string>>> said;
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const auto& signals = element.signal_parameters;
     const auto signal = std::find(signals.begin(), signals.end(), static_cast<int>(i));
     const std::string symbol = in_print(declaration.parameters[i].symbol);
     if (signal != signals.end())
-      said.emplace_back(symbol, signal_of(scene, index, static_cast<std::size_t>(signal - signals.begin())));
+      said.emplace_back(symbol, signal_of(scene, index, static_cast<std::size_t>(signal - signals.begin()), typed));
     else if (!goes_without_saying(element, i))
-      said.emplace_back(symbol, (both_ways(element, i) ? "±" : "") +
-                                    engineering(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i])));
+      said.push_back({symbol, {(both_ways(element, i) ? "±" : "") +
+                               say(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i]), typed)}});
   }
   const bool several = said.size() > 1;
-  for (const auto& [symbol, value] : said) caption.values.push_back(several ? symbol + " = " + value : value);
+  for (auto& [symbol, lines] : said) {
+    if (several) lines.front() = symbol + " = " + lines.front();
+    caption.values.insert(caption.values.end(), lines.begin(), lines.end());
+  }
   return caption;
 }
 

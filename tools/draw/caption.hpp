@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/netlist/scene.hpp"
+#include "tools/draw/typed.hpp"
 
 namespace rheonet::draw {
 
@@ -13,8 +14,9 @@ struct Caption {
   std::vector<std::string> values;  ///< a line each
 };
 
-/// Its name and, unless they are left out, its values: those that are not as if they had not been given.
-Caption caption_of(const Scene& scene, int element, bool with_values);
+/// Its name and, unless they are left out, its values: those that are not as if they had not been given, in the units of
+/// `typed`, or else as an engineer writes them.
+Caption caption_of(const Scene& scene, int element, bool with_values, const Typed& typed);
 
 /// A value in SI as an engineer writes it, to four digits: "2.5 kN/m", "50 µm", "5·10⁻⁵ kg·m²", "∞".
 /// `unit` is as a user would type it; "1" for a number.

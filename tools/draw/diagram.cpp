@@ -79,14 +79,16 @@ class Diagram {
   double height_of(int block) const {
     return std::max(size_, port_distance * static_cast<double>(scene_.blocks[at(block)].inputs.size()) + 8);
   }
+  /// So many inputs have room at the side of a box, and not at that of a symbol that is round.
+  bool framed(int block) const { return scene_.blocks[at(block)].inputs.size() > 2; }
 
   void add_block(int block) {
     Item item{.block = block, .text = {}, .labels = {}};
-    const double height = height_of(block), half = height / 2;
+    const double half = height_of(block) / 2, side = size_ / 2;
     Layers::Item box{half, half, 0, 0};
-    item.half = half;
+    item.half = side;
     if (detail_.names) {
-      const Caption caption = caption_of(scene_, scene_.blocks[at(block)].element, detail_.values);
+      const Caption caption = caption_of(scene_, scene_.blocks[at(block)].element, detail_.values, detail_.typed);
       item.labels.push_back({caption.name, {0, -half - name_gap}, true, 12, Label::Kind::name});
       for (std::size_t i = 0; i < caption.values.size(); ++i)
         item.labels.push_back(
@@ -95,8 +97,8 @@ class Diagram {
       box.up += line_height + name_gap;
       box.down += line_height * static_cast<double>(caption.values.size()) + 2;
     }
-    item.left = -half;
-    item.right = half;
+    item.left = -side;
+    item.right = side;
     item_of_[block] = static_cast<int>(items_.size());
     items_.push_back(std::move(item));
     graph_.items.push_back(box);
@@ -194,6 +196,12 @@ class Diagram {
     std::vector<Net*> nets;
     for (auto& [key, each] : nets_)
       if (key.first == gap && !each.straight()) nets.push_back(&each);
+    // Those that go down from the lowest on, then those that go up from the highest on: so they cross each other least.
+    const auto rank = [](const Net* net) {
+      const bool down = net->to.front() > net->from;
+      return std::pair(!down, down ? -net->from : net->from);
+    };
+    std::stable_sort(nets.begin(), nets.end(), [&](const Net* a, const Net* b) { return rank(a) < rank(b); });
     std::vector<Net*> late;
     // A line that comes in at the height where another goes out must turn off before the other arrives.
     // Where two want that of each other, one of them arrives on a second track.
@@ -229,11 +237,11 @@ class Diagram {
       all.ink.labels.push_back(std::move(label));
     }
     if (items_[i].block < 0) return;
-    const double half = height_of(items_[i].block) / 2;
-    all.ink.marks.push_back({scene_.blocks[at(items_[i].block)].element,
-                             {place.x - half, place.y - half, place.x + half, place.y + half},
-                             false,
-                             {}});
+    const double half = height_of(items_[i].block) / 2, side = size_ / 2;
+    all.ink.marks.push_back({.element = scene_.blocks[at(items_[i].block)].element,
+                             .box = {place.x - side, place.y - half, place.x + side, place.y + half},
+                             .ends = {},
+                             .framed = framed(items_[i].block)});
   }
 
   void line(Piece& all, std::size_t k) {

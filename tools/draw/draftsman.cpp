@@ -87,7 +87,7 @@ Piece Draftsman::element(const Block& block) const {
   double text = 0;
   std::vector<Label> labels;
   if (detail_.names) {
-    const Caption caption = caption_of(scene_, block.element, detail_.values);
+    const Caption caption = caption_of(scene_, block.element, detail_.values, detail_.typed);
     text = caption_around(caption, 0, piece.up, piece.down, labels) + 14;
     piece.up += line_height + name_gap;
     piece.down += line_height * static_cast<double>(caption.values.size()) + 2;
@@ -136,7 +136,7 @@ void Draftsman::drive(Stand& stand, int element, bool from_left) const {
   stand.up = std::max(stand.up, above);
   stand.down = std::max(stand.down, below);
   if (detail_.names) {
-    const Caption caption = caption_of(scene_, element, detail_.values);
+    const Caption caption = caption_of(scene_, element, detail_.values, detail_.typed);
     width = std::max(width, caption_around(caption, 0, above, below, labels) + 12);
     stand.up = std::max(stand.up, above + line_height + name_gap);
     stand.down = std::max(stand.down, below + line_height * static_cast<double>(caption.values.size()) + 2);
@@ -164,7 +164,7 @@ void Draftsman::drive_above(Stand& stand, int element, double& top) const {
   stand.width = std::max(stand.width, stand.bar + size);
   top = y - reach.up * size;
   if (detail_.names) {
-    const Caption caption = caption_of(scene_, element, detail_.values);
+    const Caption caption = caption_of(scene_, element, detail_.values, detail_.typed);
     std::vector<std::string> lines{caption.name};
     lines.insert(lines.end(), caption.values.begin(), caption.values.end());
     double baseline = top - 4 - line_height * static_cast<double>(lines.size() - 1);
@@ -184,7 +184,7 @@ double Draftsman::body(Stand& stand, NodeId node, int element, const Place& plac
   double width = least, height = least;
   std::vector<Label> labels;
   if (detail_.names) {
-    const Caption caption = caption_of(scene_, element, detail_.values);
+    const Caption caption = caption_of(scene_, element, detail_.values, detail_.typed);
     std::vector<std::string> lines{caption.name};
     lines.insert(lines.end(), caption.values.begin(), caption.values.end());
     height = std::max(height, line_height * static_cast<double>(lines.size()) + 16);

@@ -5,6 +5,7 @@
 
 #include "tools/draw/network_tree.hpp"
 #include "tools/draw/picture.hpp"
+#include "tools/draw/typed.hpp"
 
 namespace rheonet::draw {
 
@@ -16,6 +17,7 @@ struct Detail {
   double gap = 8;       ///< between parallel parts
   double line = 1000;   ///< width beyond which a row goes on below
   double column = 900;  ///< height beyond which parallel parts go on beside
+  Typed typed = {};     ///< how the files say the values
 };
 
 /// A part of a drawing. Its origin is on its left edge, where it is entered; nodes on its edges are left to whoever

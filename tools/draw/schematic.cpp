@@ -23,6 +23,7 @@ Detail detail_of(std::size_t count, const Look& look) {
   Detail detail;
   detail.values = look.values && count <= few;
   detail.nodes = count <= few;
+  if (detail.values && look.sources) detail.typed = Typed(*look.sources);
   if (count > many) {
     detail.names = false;
     detail.symbol = 30;

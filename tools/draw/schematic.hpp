@@ -8,6 +8,7 @@ struct Look {
   std::string title;   ///< above the drawing; none if it is empty
   bool values = true;  ///< beside the names
   bool all = false;    ///< also what repeats what is beside it
+  const Sources* sources = nullptr;  ///< the files of the scene: values are said in their units
 };
 
 /// More than these cannot be looked at as a whole; more than those are not looked through for what repeats.

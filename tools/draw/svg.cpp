@@ -38,15 +38,25 @@ std::string part(const std::string& path, const Mark& mark, const char* attribut
   return fmt::format("<path d=\"{}\"{}/>", fitted(path, mark.box, mark.mirrored, mark.unit), attributes);
 }
 
+/// What is drawn of a component in the middle of a box that is higher than its symbol.
+Mark in_its_frame(const Mark& mark) {
+  Mark inner = mark;
+  const double half = (mark.box.right - mark.box.left) / 2, middle = (mark.box.top + mark.box.bottom) / 2;
+  inner.box.top = middle - half;
+  inner.box.bottom = middle + half;
+  return inner;
+}
+
 std::string symbol(const Mark& mark, const Scene& scene) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(mark.element)];
   const Component& component = *components()[static_cast<std::size_t>(element.declaration)];
   const Symbol& drawn = symbol_of(scene, mark.element);
+  const Mark within = mark.framed ? in_its_frame(mark) : mark;
   return fmt::format("<g class=\"{}\" data-element=\"{}\"><title>{} ({})</title>", component.declaration.type,
                      escaped(element.name), escaped(element.name), component.declaration.type) +
-         part(drawn.outline, mark, " fill=\"#ffffff\"") + part(drawn.thin, mark, " stroke-width=\"0.7\"") +
-         part(drawn.lines, mark, "") +
-         part(drawn.solid, mark, fmt::format(" fill=\"{}\" stroke=\"none\"", ink).c_str()) + "</g>\n";
+         part(mark.framed ? "M0 0 H1 V1 H0 Z" : drawn.outline, mark, " fill=\"#ffffff\"") +
+         part(drawn.thin, within, " stroke-width=\"0.7\"") + part(drawn.lines, within, "") +
+         part(drawn.solid, within, fmt::format(" fill=\"{}\" stroke=\"none\"", ink).c_str()) + "</g>\n";
 }
 
 std::string hatching(const Wall& wall) {

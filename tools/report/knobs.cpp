@@ -1,7 +1,6 @@
 #include "tools/report/knobs.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -10,29 +9,10 @@
 #include "core/netlist/document.hpp"
 #include "core/netlist/units.hpp"
 #include "core/network/component.hpp"
+#include "tools/draw/typed.hpp"
 
 namespace rheonet::report {
 namespace {
-
-/// A number with its unit, as it stands in the text.
-struct Literal {
-  double value;
-  std::string unit;
-};
-
-std::optional<Literal> literal_of(const TomlValue& value) {
-  if (value.kind == TomlValue::Kind::number) return Literal{value.number, ""};
-  if (!value.is_string()) return {};
-  const std::string& text = value.text;
-  Literal literal{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), literal.value);
-  if (error != std::errc() || !std::isfinite(literal.value)) return {};
-  const auto blanks = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
-  if (blanks == std::string::npos) return literal;
-  literal.unit = text.substr(blanks);
-  if (text[blanks - 1] != ' ' || !std::holds_alternative<Unit>(parse_unit(literal.unit))) return {};
-  return literal;
-}
 
 bool takes_part_in_wiring(const std::string& key) {
   static const std::set<std::string> words{"type", "between", "at", "in", "name", "as", "arrange", "ports", "record"};
@@ -109,7 +89,7 @@ class Finder {
   }
 
   void add(const TomlValue& value, const std::string& group, const std::string& name, const Parameter* declared) {
-    const std::optional<Literal> literal = literal_of(value);
+    const std::optional<draw::Literal> literal = draw::literal_of(value);
     if (!literal) return;
     Knob knob;
     knob.group = group;

@@ -134,9 +134,10 @@ json plot(const PlotTable& table) {
 }
 
 /// The drawing, the nodes at the left and the right end of each symbol in it, or why there is none.
-json schematic(const Scene& scene) {
+json schematic(const ReadResult& read) {
+  const Scene& scene = *read.scene;
   try {
-    const draw::Picture picture = draw::schematic(scene, {.title = ""});
+    const draw::Picture picture = draw::schematic(scene, {.title = "", .sources = &read.sources});
     json ends = json::object();
     for (const draw::Mark& mark : picture.marks) {
       json& of_element = ends[scene.elements[static_cast<std::size_t>(mark.element)].name];
@@ -193,7 +194,7 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
     const std::string cut = source.text.size() > most ? "\n... and more\n" : "";
     sources.push_back({{"file", source.path.string()}, {"role", name_of(source.role)}, {"text", source.text.substr(0, most) + cut}});
   }
-  const json drawing = schematic(scene);
+  const json drawing = schematic(read);
   return to_line({{"kind", "scene"},
                   {"file", file},
                   {"title", scene.title},

@@ -13,7 +13,8 @@ ExitStatus draw_network(const Arguments& arguments) {
   if (!read.scene || is_source(arguments.output, "--output", read.sources)) return wrong_input;
   const draw::Look look{.title = arguments.title.empty() ? read.scene->title : arguments.title,
                         .values = !arguments.no_values,
-                        .all = arguments.all};
+                        .all = arguments.all,
+                        .sources = &read.sources};
   try {
     const draw::Picture picture = draw::schematic(*read.scene, look);
     if (picture.omitted > 0)
