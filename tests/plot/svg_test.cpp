@@ -8,6 +8,7 @@
 #include "tests/support/xml.hpp"
 #include "tools/plot/compose.hpp"
 #include "tools/plot/mistake.hpp"
+#include "tools/plot/text.hpp"
 
 using namespace rheonet;
 using namespace rheonet::plot;
@@ -160,6 +161,52 @@ TEST_CASE("a constant, a single point and a range far from 0 have axes too") {
       CHECK_FALSE(contains(text, "inf"));
     }
   }
+}
+
+TEST_CASE("no two numbers of an axis touch each other, and none leaves the figure") {
+  // Where the numbers are: the middles of those across, the right ends of those that go up.
+  struct Number {
+    double x, y;
+    std::string text;
+  };
+  const auto numbers = [](const std::string& svg, const char* anchor) {
+    std::vector<Number> found;
+    const std::regex pattern(std::string("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" text-anchor=\"") + anchor + "\">([^\n]*)</text>");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), pattern), end; it != end; ++it)
+      found.push_back({std::stod((*it)[1]), std::stod((*it)[2]), std::regex_replace((*it)[3].str(), std::regex("<[^>]*>"), "")});
+    return found;
+  };
+  for (const double width : {200.0, 300.0, 640.0})
+    for (const auto& [low, high] : {std::pair(0.0, 1.0), std::pair(1e6 + 1e-5, 1e6 + 5e-5), std::pair(-123456.7, 654321.8), std::pair(1.0, 1.0000001),
+                                    std::pair(3e-9, 7e8), std::pair(2e-3, 0.15)})
+      for (const bool logarithmic : {false, true}) {
+        if (logarithmic && low <= 0) continue;
+        CAPTURE(width);
+        CAPTURE(low);
+        CAPTURE(logarithmic);
+        Figure figure;
+        figure.width = width;
+        figure.height = 160;
+        figure.x = {.label = "x", .logarithmic = logarithmic, .range = std::pair(low, high)};
+        Panel panel;
+        panel.y = {.label = "y", .logarithmic = logarithmic, .range = std::pair(low, high)};
+        panel.curves.push_back({"c", {{low, low}, {high, high}}});
+        figure.panels.push_back(panel);
+        figure.panels.push_back(panel);
+        const std::string text = svg(figure);
+        std::vector<Number> across = numbers(text, "middle");
+        REQUIRE(!across.empty());
+        across.pop_back();  // what is drawn there
+        REQUIRE(!across.empty());
+        for (std::size_t k = 0; k < across.size(); ++k) {
+          const double half = width_of(across[k].text, 12) / 2;
+          CHECK(across[k].x + half <= width);
+          if (k > 0) CHECK(across[k].x - half >= across[k - 1].x + width_of(across[k - 1].text, 12) / 2 + 4);
+        }
+        const std::vector<Number> up = numbers(text, "end");
+        REQUIRE(up.size() > 1);
+        for (std::size_t k = 1; k < up.size(); ++k) CHECK(std::abs(up[k].y - up[k - 1].y) >= 12);
+      }
 }
 
 TEST_CASE("a million rows make a small figure that has their extremes") {

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <iterator>
 #include <sstream>
 
 #include "tests/support/figure.hpp"
@@ -84,6 +85,42 @@ TEST_CASE("jumps are upright and corners sharp, wherever the rows are, in a plot
       CHECK(force[5] < force[3]);
       CHECK(force[7] > force[5]);
     }
+  }
+}
+
+TEST_CASE("jumps are upright in the figure of a run in parts and of one that is certified, whose rows stay what they are") {
+  const Folder folder(R"([elements]
+d1 = { type = "motion", at = "a", velocity = { step = 1, time = 0.503 } }
+c1 = { type = "dashpot", between = ["a", "ground"], damping = 1 }
+d2 = { type = "force", at = "b", force = { step = 2, time = 0.307 } }
+m2 = { type = "mass", at = "b", mass = 1 }
+c2 = { type = "dashpot", between = ["b", "ground"], damping = 1 }
+d3 = { type = "force", at = "c", force = { sine = 2, frequency = 3 } }
+m3 = { type = "mass", at = "c", mass = 2 }
+k3 = { type = "spring", between = ["c", "ground"], stiffness = 1 }
+[simulate]
+stop = 1
+output = { points = 5 }
+record = ["c1.force", "b.position", "c.position"]
+)");
+  for (const std::string option : {"", " --certify"}) {
+    CAPTURE(option);
+    folder.shell("rheonet run scene.toml -q -o rows.csv" + option, 0);
+    const Finished drawn = folder.shell("rheonet run scene.toml -o again.csv --plot run.svg" + option, 0);
+    if (option.empty()) CHECK(contains(drawn.err, "independent parts"));
+    CHECK(folder.read("again.csv") == folder.read("rows.csv"));
+    const std::string svg = folder.read("run.svg");
+    // The first curve goes along, up at once and along again: the jump is at 0.503 of the width.
+    const std::vector<std::string> force = matches(svg, "<path d=\"([^\"]*)\" stroke=\"[^\"]*\" stroke-width=\"1.6\"");
+    REQUIRE(!force.empty());
+    std::string path = force.front();
+    for (char& c : path) c = c == 'M' || c == 'L' ? ' ' : c;
+    std::istringstream numbers(path);
+    const std::vector<double> at{std::istream_iterator<double>(numbers), {}};
+    REQUIRE(at.size() == 8);
+    CHECK(at[2] == at[4]);
+    CHECK(at[2] / at[6] == doctest::Approx(0.503).epsilon(1e-3));
+    CHECK(at[5] < at[3]);
   }
 }
 

@@ -76,6 +76,55 @@ std::vector<Tick> ticks_of(const Axis& axis, std::pair<double, double> range, do
                           : linear_ticks(range.first, range.second, wanted);
 }
 
+constexpr double right_margin = 18, foot = 44;
+
+/// Where the middle of a label below an axis of some length is, counted from the axis's left end: the last one ends with the
+/// figure.
+double place_across(const Tick& tick, double at, double length) {
+  return std::min(at, length + right_margin - 2 - width_of(tick.label, font) / 2);
+}
+
+/// Of labels that touch the one before them only the tick is left. Whether there was none. `place` says where the middle of
+/// one is, `half` how far it reaches to both sides.
+template <class Place, class Half>
+bool keep_apart(std::vector<Tick>& ticks, Place place, Half half) {
+  bool fit = true;
+  double end = -std::numeric_limits<double>::infinity();
+  for (Tick& tick : ticks) {
+    if (tick.label.empty()) continue;
+    const double middle = place(tick);
+    if (middle - half(tick) < end) {
+      tick.label.clear();
+      fit = false;
+    } else {
+      end = middle + half(tick);
+    }
+  }
+  return fit;
+}
+
+/// Those of the axis that runs across: as many as have room for their labels.
+std::vector<Tick> ticks_across(const Axis& axis, std::pair<double, double> range, double length) {
+  constexpr double usual = 75;  // px
+  const Scale scale(axis, range, length);
+  for (double apart = usual;; apart *= 1.3) {
+    std::vector<Tick> ticks = ticks_of(axis, range, length, apart);
+    const bool fit = keep_apart(
+        ticks, [&](const Tick& tick) { return place_across(tick, scale(tick.value), length); },
+        [](const Tick& tick) { return (width_of(tick.label, font) + 8) / 2; });
+    if (fit || apart > length) return ticks;
+  }
+}
+
+/// Those of an axis that runs up.
+std::vector<Tick> ticks_up(const Axis& axis, std::pair<double, double> range, double length) {
+  constexpr double usual = 32;  // px
+  const Scale scale(axis, range, length);
+  std::vector<Tick> ticks = ticks_of(axis, range, length, usual);
+  keep_apart(ticks, [&](const Tick& tick) { return scale(tick.value); }, [](const Tick&) { return 0.55 * font; });
+  return ticks;
+}
+
 std::string text(double x, double y, const std::string& content, const std::string& attributes) {
   return fmt::format("<text x=\"{}\" y=\"{}\"{}>{}</text>\n", coordinate(x), coordinate(y), attributes, content);
 }
@@ -137,7 +186,8 @@ void axes(const Figure& figure, const Panel& panel, const Place& at, const Scale
     const bool named = !tick.label.empty();
     if (named) out += line(x, at.top, x, bottom, faint);
     out += line(x, bottom, x, bottom - (named ? tick_length : small_tick_length), dark);
-    if (named && at.numbers) out += text(x, bottom + 16, raised(tick.label), " text-anchor=\"middle\"");
+    if (!named || !at.numbers) continue;
+    out += text(at.left + place_across(tick, x - at.left, at.width), bottom + 16, raised(tick.label), " text-anchor=\"middle\"");
   }
   for (const Tick& tick : ys) {
     const double y = bottom - sy(tick.value);
@@ -221,8 +271,6 @@ struct Layout {
   std::vector<std::vector<Tick>> y_ticks;
 };
 
-constexpr double right_margin = 18, foot = 44;
-
 /// How high panels are is known when the rows of the legends are, how wide when the numbers beside the axes are, and
 /// how many rows a legend has when the width is: two rounds settle it.
 Layout layout_of(const Figure& figure, double head) {
@@ -244,7 +292,7 @@ Layout layout_of(const Figure& figure, double head) {
     layout.y_ticks.clear();
     for (std::size_t k = 0; k < figure.panels.size(); ++k) {
       const Axis& y = figure.panels[k].y;
-      layout.y_ticks.push_back(ticks_of(y, layout.y_ranges[k], layout.panel_height, 32));
+      layout.y_ticks.push_back(ticks_up(y, layout.y_ranges[k], layout.panel_height));
       for (const Tick& tick : layout.y_ticks.back()) widest = std::max(widest, width_of(tick.label, font));
       lines = std::max(lines, label_lines(y, layout.panel_height).size());
     }
@@ -276,7 +324,7 @@ std::string svg(const Figure& figure) {
   const auto x_range = range_of(figure.x, figure.panels, beside_time ? 0 : 0.03, [](const Point& p) { return p.x; });
   const Head head = head_of(figure);
   const Layout layout = layout_of(figure, head.height);
-  const auto x_ticks = ticks_of(figure.x, x_range, layout.width, 75);
+  const auto x_ticks = ticks_across(figure.x, x_range, layout.width);
 
   std::string out = head.text;
   double y = head.height;

@@ -69,10 +69,18 @@ struct Outputs {
   }
 };
 
-/// A figure must not change the rows of a run: parts are integrated by themselves only if nobody looks between rows.
-void listen_for_figure(BothSides& sides, const Scene& scene, bool certified, RunSettings& settings) {
+/// A figure must not change the rows of a run: one is integrated in parts, or certified, only if nobody looks between its rows.
+bool is_looked_into(const Scene& scene, const Arguments& arguments) {
+  return !arguments.certify && divide(scene, {}).excerpts.empty();
+}
+
+/// The figure of a run between whose rows nobody has looked, with its jumps upright: it is gone through once more for that.
+void draw_again(const Scene& scene, const Presentation& presentation, const RunSettings& before, std::optional<RunFigure>& figure) {
+  figure.emplace(scene, presentation.plot);
+  BothSides sides([&figure](double time, const std::vector<double>& values) { figure->row(time, values); });
+  RunSettings settings{.interrupt = before.interrupt, .progress = before.progress, .order = before.order};
   sides.listen(settings);
-  if (certified || !divide(scene, {}).excerpts.empty()) settings.state = {};
+  run(scene, settings);
 }
 
 }  // namespace
@@ -109,10 +117,13 @@ ExitStatus run_scene(const Arguments& arguments) {
                          .order = arguments.order,
                          .threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
                          .profile = arguments.profile};
-    if (drawn) listen_for_figure(sides, *read.scene, arguments.certify, settings);
+    if (drawn) sides.listen(settings);
+    const bool looked_into = !drawn || is_looked_into(*read.scene, arguments);
+    if (!looked_into) settings.state = {};
     std::optional<Certificate> certificate;
     if (arguments.certify) certificate = certify(*read.scene, settings);
     const Summary summary = certificate ? certificate->summary : run(*read.scene, settings);
+    if (!looked_into && summary.events > 0) draw_again(*read.scene, read.presentation, settings, figure);
     progress.erase();
     if (!outputs.close() || (figure && figure->write(arguments.figure) != done)) return not_simulated;
     if (!arguments.quiet) {
