@@ -1,6 +1,6 @@
 // A report opens from a file, with the network off.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { accessible, bingham, browser, folderWith, remove, rheonet, watched } from './support.mjs';
@@ -192,4 +192,21 @@ test('a report says what failed', async () => {
   assert.equal(name.code, 2);
   assert.match(name.stderr, /is no \.html/);
   remove(wrongs);
+});
+
+test('a report of a run that fails at its start says so where its curves would be, and fits a phone', async () => {
+  const name = 'a_folder_with_a_long_name/a_scene_that_asks_for_two_motions_at_once.toml';
+  mkdirSync(join(folder, 'a_folder_with_a_long_name'));
+  writeFileSync(join(folder, name), bingham.replace('[simulate]', 'again = { type = "motion", at = "drum", velocity = 3 }\n[simulate]'));
+  const { code } = await rheonet(['report', name, 'stiff.toml', '-o', 'fails.html'], { cwd: folder }).catch((error) => error);
+  assert.equal(code, 1);
+  const { context, page, wrong } = await open('fails.html', { viewport: { width: 390, height: 844 } });
+  assert.match(await page.locator('.comparison .no-curves').textContent(), /^A: there is nothing to draw.* Motions drive and again both prescribe node drum/);
+  await page.locator('.comparison .u-series', { hasText: 'B k1.force' }).waitFor();
+  assert.equal(await page.locator('h3', { hasText: 'Energy account' }).count(), 1);
+  assert.equal(await page.locator('h3', { hasText: 'Differences' }).count(), 0);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await accessible(page, 'a report of a run that fails');
+  assert.deepEqual(wrong, []);
+  await context.close();
 });

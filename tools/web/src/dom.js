@@ -20,7 +20,7 @@ export function table(headings, rows, caption) {
       'table',
       {},
       element('thead', {}, element('tr', {}, headings.map((text) => element('th', { scope: 'col' }, text)))),
-      element('tbody', {}, rows.map((cells) => element('tr', {}, cells.map((cell) => element('td', {}, cell))))),
+      element('tbody', {}, rows.map((cells) => element('tr', {}, cells.map((cell) => element('td', { class: typeof cell === 'string' && cell.length < 14 ? 'short' : null }, cell))))),
     ),
   );
 }

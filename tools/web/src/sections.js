@@ -3,7 +3,7 @@ import katex from 'katex';
 import 'katex/dist/katex.min.css';
 import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, table } from './dom.js';
-import { grouped, number, withUnit } from './units.js';
+import { grouped, number, spaced, withUnit } from './units.js';
 
 // A text with what stands between backticks set as code.
 export const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
@@ -47,7 +47,7 @@ export function equationsOf(scene) {
 }
 
 export function elementsOf(scene) {
-  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, values]);
+  const rows = scene.elements.map(({ name, type, place, values }) => [element('code', {}, name), type, place, values.replace(/ {2,}/g, ', ')]);
   const all = table(['element', 'type', 'between', 'values (SI)'], rows, 'Elements');
   if (scene.element_count > scene.elements.length)
     all.append(element('p', { class: 'note' }, `and ${grouped(scene.element_count - scene.elements.length)} more`));
@@ -84,7 +84,7 @@ export function eventsOf(data) {
   const names = [...new Set(items.map((item) => item[1]))];
   const shown = names.slice(0, lanes);
   const height = 22 * shown.length + 30;
-  const width = 800;
+  const width = 640;
   const left = 130;
   const x = (time) => left + ((time - start) / (stop - start)) * (width - left - 20);
   const kinds = [...new Set(items.map((item) => item[2]))];
@@ -97,10 +97,10 @@ export function eventsOf(data) {
   const axisY = 22 * shown.length + 8;
   const marks = [0, 0.25, 0.5, 0.75, 1].map((part) => {
     const time = start + part * (stop - start);
-    return `<path class="lane" d="M${x(time)} ${axisY - 4}v6"/><text x="${x(time)}" y="${axisY + 16}" text-anchor="middle">${number(time, 4)} s</text>`;
+    return `<path class="lane" d="M${x(time)} ${axisY - 4}v6"/><text x="${x(time)}" y="${axisY + 16}" text-anchor="middle">${spaced(time, (stop - start) / 4)} s</text>`;
   });
   const host = element('div', { class: 'events' });
-  host.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Events over time">${parts.join('')}${marks.join('')}</svg>`;
+  host.innerHTML = `<div class="lanes" tabindex="0" role="group" aria-label="Events over time"><svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Events over time">${parts.join('')}${marks.join('')}</svg></div>`;
   host.append(element('p', { class: 'loop-legend' }, kinds.map((kind, k) => {
     const swatch = element('span', { class: 'swatch' });
     swatch.style.background = `var(--curve-${(k % 7) + 1})`;
@@ -140,7 +140,7 @@ export function statisticsOf(data) {
 export function claimsOf(data) {
   const claims = data.done?.claims ?? [];
   if (!claims.length) return null;
-  return table(['claim', 'claimed', 'found', ''], claims.map(({ name, claimed, found, holds }) => [name, claimed, found,
+  return table(['claim', 'claimed', 'found', 'verdict'], claims.map(({ name, claimed, found, holds }) => [name, claimed, found,
     element('span', { class: holds ? 'holds' : 'fails' }, holds ? 'holds' : 'fails')]), 'Claims');
 }
 
@@ -159,7 +159,7 @@ export function accuracyOf(data, charts = []) {
     if (certificate.records.length)
       host.append(table(['record', 'estimated error', 'relative', 'at', 'largest magnitude'],
         certificate.records.map(({ path, unit, error, relative, at, scale }) => [element('code', {}, path), withUnit(error, unit, 2),
-          relative.toExponential(1), error > 0 ? `${number(at)}\u00a0s` : '–', withUnit(scale, unit)]), 'Errors'));
+          relative > 0 ? relative.toExponential(1) : '0', error > 0 ? `${number(at)}\u00a0s` : '–', withUnit(scale, unit)]), 'Errors'));
   }
   if (prices) {
     const known = prices.prices.filter(({ error }) => error > 0);
