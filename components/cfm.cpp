@@ -43,7 +43,7 @@ struct Cfm : SolidFriction {
       // Beyond what the two directions give, df/dt = -E f/B, the motion begins.
       Dual forward, backward;
       hold_rates(p, forward, backward);
-      const double margin = 1e-7 * (forward.value - backward.value), rest = -creep(force(p));
+      const double margin = 1e-7 * (forward.value - backward.value) + noise, rest = -creep(force(p));
       g[0] = (lean < 0 ? rest : forward.value) + margin - dp;
       g[1] = dp - (lean > 0 ? rest : backward.value) + margin;
     } else if (s == 0) {

@@ -178,7 +178,13 @@ class Dae {
   /// others share its mixture: with the rates of hold_rates
   ///     (p' - backward)/(forward - backward) = (the same of the first).
   struct Parallel { std::vector<int> branches; };
-  struct Follower { int branch, leader, row, own_entry, leader_entry; std::vector<int> row_entries; bool active; };
+  struct Follower {
+    int branch, leader, row;
+    bool alone;  ///< the leader has no other one
+    int own_entry, leader_entry;
+    std::vector<int> row_entries;
+    bool active;
+  };
   // standing.cpp
   void find_parallels();
   /// Holds a branch still in the state last viewed, if its law can, and with it those between the same ends. `lean` as
@@ -186,9 +192,9 @@ class Dae {
   void hold_parallel(int branch, int lean);
   /// Another branch between the same ends has been held, and this one with it.
   bool beside_held(int branch, const std::vector<Standing>& standing) const;
-  /// Rate p' of a follower, and its derivatives by p, by the leader's p and by the leader's p'.
-  struct Shared { double rate, by_own, by_leader, by_leader_rate; };
-  Shared share(const Follower& follower, double leader_rate) const;
+  /// What a follower's and its leader's share in the mixture differ by [m/s], and its derivatives by p and p' of both.
+  struct Shared { double difference, by_own, by_leader, by_own_rate, by_leader_rate; };
+  Shared share(const Follower& follower, double own_rate, double leader_rate) const;
   void share_jacobian(double cj, const double* yp, double* values, bool consistency) const;
 
   /// An entry of the Jacobian that comes of a block: d(output, or rate of a state)/d(atom) d(atom)/dy times `factor`.

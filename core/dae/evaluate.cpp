@@ -105,7 +105,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   }
   for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - drive_->blocks().rate(k);
   for (const Follower& f : followers_) {
-    if (f.active) r[f.row] = yp[f.row] - share(f, yp[ip_[at(f.leader)]]).rate;
+    if (f.active) r[f.row] = share(f, yp[ip_[at(f.branch)]], yp[ip_[at(f.leader)]]).difference;
   }
 }
 

@@ -25,7 +25,7 @@ void Dae::find_parallels() {
     const auto leader = std::find_if(branches.begin(), branches.end(), [&](int j) { return in_tree[at(j)] != 0; });
     if (leader != branches.end()) std::iter_swap(branches.begin(), leader);
     for (std::size_t k = 1; k < branches.size(); ++k) {
-      followers_.push_back({branches[k], branches.front(), ip_[at(branches[k])], -1, -1, {}, false});
+      followers_.push_back({branches[k], branches.front(), ip_[at(branches[k])], branches.size() == 2, -1, -1, {}, false});
     }
     parallels_.push_back({branches});
   }
@@ -100,40 +100,45 @@ std::vector<int> Dae::release_parallel(int branch, double w) {
   return released_branches;
 }
 
-Dae::Shared Dae::share(const Follower& follower, double leader_rate) const {
+/// In both the motion forth has the same part, which is how far a rate is on the way from the one back to the one forth. Each is
+/// multiplied by the other's way: what has hardly any force has hardly any way either, and tells nothing of that part.
+Dae::Shared Dae::share(const Follower& follower, double own_rate, double leader_rate) const {
   std::size_t i = 0, l = 0;
   const DeflectionBatch& own = batch_of(follower.branch, i);
   const DeflectionBatch& lead = batch_of(follower.leader, l);
   // With opposite ends the same motion is forward for one and backward for the other.
   const bool same = structure_->deflections[at(follower.branch)].a == structure_->deflections[at(follower.leader)].a;
-  const auto rate = [&](const Dual& p_own, const Dual& p_lead, const Dual& rate_lead) {
-    Dual forward, backward, lead_forward, lead_backward;
-    own.hold_rates(i, p_own, forward, backward);
-    lead.hold_rates(l, p_lead, lead_forward, lead_backward);
-    const Dual span = lead_forward - lead_backward;
-    // Without force neither direction relaxes anything: nothing to mix.
-    const Dual mixture = span.value == 0 ? Dual(0.5) : (rate_lead - lead_backward) / span;
-    const Dual along = same ? mixture : 1 - mixture;
-    return backward + (forward - backward) * along;
-  };
   const double p_own = view_.p[at(follower.branch)], p_lead = view_.p[at(follower.leader)];
-  const Dual by_own = rate(Dual(p_own, 1), p_lead, leader_rate);
-  return {by_own.value, by_own.derivative, rate(p_own, Dual(p_lead, 1), leader_rate).derivative,
-          rate(p_own, p_lead, Dual(leader_rate, 1)).derivative};
+  const auto way = [](const DeflectionBatch& batch, std::size_t k, double p) {
+    Dual forward, backward;
+    batch.hold_rates(k, p, forward, backward);
+    return forward.value - backward.value;
+  };
+  const double lead_way = way(lead, l, p_lead), longer = std::max(way(own, i, p_own), lead_way);
+  // Without force neither direction relaxes anything: nothing to mix.
+  const bool nothing = longer == 0 || (lead_way == 0 && !follower.alone);
+  const auto difference = [&](const Dual& p, const Dual& p_of_lead, const Dual& rate, const Dual& rate_of_lead) {
+    Dual forward, backward, lead_forward, lead_backward;
+    own.hold_rates(i, p, forward, backward);
+    if (nothing) return rate - 0.5 * (forward + backward);
+    lead.hold_rates(l, p_of_lead, lead_forward, lead_backward);
+    const Dual gone = same ? rate - backward : forward - rate;
+    return (gone * (lead_forward - lead_backward) - (rate_of_lead - lead_backward) * (forward - backward)) / longer;
+  };
+  const Dual by_own = difference(Dual(p_own, 1), p_lead, own_rate, leader_rate);
+  return {by_own.value, by_own.derivative, difference(p_own, Dual(p_lead, 1), own_rate, leader_rate).derivative,
+          difference(p_own, p_lead, Dual(own_rate, 1), leader_rate).derivative,
+          difference(p_own, p_lead, own_rate, Dual(leader_rate, 1)).derivative};
 }
 
 void Dae::share_jacobian(double cj, const double* yp, double* values, bool consistency) const {
   for (const Follower& f : followers_) {
     if (!f.active) continue;
-    const Shared s = share(f, yp ? yp[ip_[at(f.leader)]] : 0);
+    const auto rate = [&](int branch) { return yp ? yp[ip_[at(branch)]] : 0; };
+    const Shared s = share(f, rate(f.branch), rate(f.leader));
     for (int e : f.row_entries) values[e] = 0;
-    if (consistency) {
-      values[f.own_entry] = 1;
-      values[f.leader_entry] = -s.by_leader_rate;
-    } else {
-      values[f.own_entry] = cj - s.by_own;
-      values[f.leader_entry] = -s.by_leader - cj * s.by_leader_rate;
-    }
+    values[f.own_entry] = consistency ? s.by_own_rate : s.by_own + cj * s.by_own_rate;
+    values[f.leader_entry] = consistency ? s.by_leader_rate : s.by_leader + cj * s.by_leader_rate;
   }
 }
 
