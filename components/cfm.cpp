@@ -40,12 +40,12 @@ struct Cfm : SolidFriction {
   void event_functions(double p, double dp, double w, double noise, double* g) const {
     g[0] = g[1] = 1;
     if (standing) {
-      // Beyond what the two directions give, df/dt = -E f/B, the motion begins.
+      // Beyond what the two sides give the motion begins, or beside a slider rest.
       Dual forward, backward;
       hold_rates(p, forward, backward);
-      const double margin = 1e-7 * (forward.value - backward.value) + noise, rest = -creep(force(p));
-      g[0] = (lean < 0 ? rest : forward.value) + margin - dp;
-      g[1] = dp - (lean > 0 ? rest : backward.value) + margin;
+      const double margin = 1e-7 * (forward.value - backward.value) + noise;
+      g[0] = forward.value + margin - dp;
+      g[1] = dp - backward.value + margin;
     } else if (s == 0) {
       g[0] = noise > 0 ? noise - std::abs(w) : 1;  // leaving rest
     } else {
@@ -92,10 +92,11 @@ struct Cfm : SolidFriction {
   }
   // Without shape both directions have the same slope, and nothing drives the velocity back to 0.
   bool can_hold() const { return i > 0; }
+  // Both sides give dp/dt = -E f/(sigma B). Beside a slider at its bound one of them is rest, where E = sigma.
   void hold_rates(const Dual& p, Dual& forward, Dual& backward) const {
-    const Dual f = force(p);
-    forward = -slope(f, 1) * f / (sigma * B);
-    backward = -slope(f, -1) * f / (sigma * B);
+    const Dual f = force(p), rest = -f / B;
+    forward = lean < 0 ? rest : slope(f, 1) / sigma * rest;
+    backward = lean > 0 ? rest : slope(f, -1) / sigma * rest;
   }
   bool hold(double p, int leaning) {
     if (!standing) rest(p);

@@ -35,7 +35,8 @@ Instant::Instant(const Network& network, const Structure& classified, Drive& dri
       broken_(network.sliders.size(), 0),
       impulse_told_(network.scene->elements.size(), 0),
       slipping_(network.sliders.size(), 0),
-      came_to_rest_(network.sliders.size(), Modes::stuck) {}
+      came_to_rest_(network.sliders.size(), Modes::stuck),
+      slack_(classified.kind.size(), 0) {}
 
 // What slips one way must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {
@@ -52,7 +53,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   if (stepped) position_steps(t, dx, state, change.notes);
   const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   // A force that comes through a delay is no step of the drive, which does no work then.
-  if (take_delayed_steps(t, state, change) && !driven) stepped = false;
+  const bool delayed = take_delayed_steps(t, state, change);
+  if (delayed && !driven) stepped = false;
   change.heat += halt(t, fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
@@ -61,6 +63,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     if (event && !stepped_) came_to_rest_[k] = modes.slider[k];
     slipping_[k] = event ? 0 : modes.slider[k];
   }
+  take_back_excess(!stepped_ && !delayed, modes, force);
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
   for (bool again = true; again;) {
     // A long way leaves a rounding of its own: a second jump takes the rest.
@@ -77,6 +80,19 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     stepped = false;
   }
   return change;
+}
+
+/// Between steps of the drive what a slider bears beyond its bound is an error of the integrator's steps. It has its bound then,
+/// and the balance at its ends is off by the rest, which nothing need jump for.
+void Instant::take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force) {
+  std::fill(slack_.begin(), slack_.end(), 0.0);
+  for (std::size_t k = 0; smooth && k < force.size(); ++k) {
+    const int side = force[k] > 0 ? 1 : -1;
+    const double most = bound(k, side), excess = std::abs(force[k]) - most;
+    if (modes.slider[k] != Modes::stuck || !(excess > 0)) continue;
+    force[k] = side * most;
+    for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += excess;
+  }
 }
 
 /// Steps that come through a delay stretch what feels them, all at once. Nothing moves at its ends then: what it stores

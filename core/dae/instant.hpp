@@ -103,6 +103,7 @@ class Instant {
   /// A branch that cannot stand has turned.
   bool reversed(const Fired& fired, int branch) const;
   void take_directions(const Onset& onset, const State& state, Change& change);
+  void take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider, int side) const;
   bool massless(NodeId node) const {
@@ -123,6 +124,7 @@ class Instant {
   std::vector<char> impulse_told_;     ///< of each element: that a step of a position gives it an impulse
   std::vector<signed char> slipping_;  ///< the direction in which it slips already
   std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this instant
+  std::vector<double> slack_;          ///< of each node: by so much its forces need not balance [N]
 };
 
 }  // namespace rheonet

@@ -55,10 +55,11 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
                                                 const std::vector<double>& force) const {
   const std::size_t nodes = structure_.kind.size();
   const Nodal now = nodal(state, force, false);
-  std::vector<double> sum(nodes, 0), magnitude(nodes, 0);
+  std::vector<double> sum(nodes, 0), magnitude(nodes, 0), slack(nodes, 0);
   for (std::size_t n = 0; n < nodes; ++n) {
     sum[at(speaker(static_cast<NodeId>(n)))] += now.sum[n];
     magnitude[at(speaker(static_cast<NodeId>(n)))] += now.magnitude[n];
+    slack[at(speaker(static_cast<NodeId>(n)))] += slack_[n];
   }
   bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   ConvexNetwork problem(static_cast<int>(nodes));
@@ -68,7 +69,7 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
       problem.fix(slot(node), dx[n]);
     } else if (speaker(node) != node) {
       problem.fix(slot(node), 0);
-    } else if (std::abs(sum[n]) > balance_rounding * magnitude[n]) {
+    } else if (std::abs(sum[n]) > balance_rounding * magnitude[n] + slack[n]) {
       problem.load(slot(node), -sum[n]);
       needed = true;
     }

@@ -101,7 +101,7 @@ void Instant::add_nodes(Onset& onset, const State& state) const {
       onset.problem.set_inertia(node, structure_.mass[n] / onset.h);
       onset.slope_around[n] = structure_.mass[n] / onset.h;
     }
-    const bool balanced = std::abs(onset.now.sum[n]) <= balance_rounding * onset.now.magnitude[n];
+    const bool balanced = std::abs(onset.now.sum[n]) <= balance_rounding * onset.now.magnitude[n] + slack_[n];
     if (!balanced) onset.problem.load(node, -onset.now.sum[n]);
   }
   onset.problem.fix(slot(ground), 0);
@@ -204,7 +204,7 @@ void Instant::add_sliders(Onset& onset) const {
       (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
     }
     onset.slider[k] = onset.problem.add(slot(b.a), slot(b.b), law);
-    onset.bound_side[k] = law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
+    onset.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
   }
 }
 
@@ -334,13 +334,26 @@ std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vect
                                    const std::vector<int>& slider_of, const std::vector<int>& side,
                                    const std::vector<double>& at_rest, const Fired& fired, Modes& modes,
                                    Change& change) const {
-  std::vector<int> slipping, candidates;
+  std::vector<int> slipping, candidates, stopped;
   Sets firm(structure_.kind.size());
   for (std::size_t k = 0; k < slider_of.size(); ++k) {
     if (problem.direction(slider_of[k]) != 0) continue;
     const Branch& b = network_.sliders[k].branch;
-    if (side[k] != 0) {
-      candidates.push_back(static_cast<int>(k));
+    if (side[k] == 0) {
+      firm.join(b.a, b.b);
+    } else {
+      (came_to_rest_[k] != 0 ? stopped : candidates).push_back(static_cast<int>(k));
+    }
+  }
+  // What has just come to rest has its full force still, and slips on if friction beside it would rest.
+  for (const int k : stopped) {
+    const Branch& b = network_.sliders[at(k)].branch;
+    const auto ends = [&](const Branch& of) { return std::minmax(firm.find(of.a), firm.find(of.b)); };
+    const bool beside = std::any_of(change.standing.begin(), change.standing.end(), [&](const Standing& one) {
+      return ends(network_.deflections[at(one.branch)]) == ends(b);
+    });
+    if (beside) {
+      candidates.push_back(k);
     } else {
       firm.join(b.a, b.b);
     }

@@ -78,7 +78,8 @@ class DeflectionBatch {
   virtual int direction(std::size_t i) const = 0;
   /// Element i can be held still at all.
   virtual bool can_hold(std::size_t i) const = 0;
-  /// While it is held: the rates p' that motion to either side would begin with; the true one lies between them.
+  /// While it is held: the rates p' that motion to either side would begin with, or rest where a slider leaves it one side
+  /// only; the true one lies between them.
   virtual void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const = 0;
 
   /// Slope df/dp with which a motion in `direction` begins at deflection p; 0 for rest.

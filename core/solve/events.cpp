@@ -140,7 +140,10 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   evaluate(t, y, yp, at_begin_.data());
   // Never exactly 0, as of limits.
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) + std::numeric_limits<double>::min() : 0; };
-  for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = margin(at_begin_[k]);
+  // Where an instant and the equations see it a little differently an event is due when there is more of it: else it would be
+  // back at once.
+  const auto more = [&](double g) { return 2 * margin(g); };
+  for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = more(at_begin_[k]);
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
     const double g = at_begin_[law_margin_.size() + i];

@@ -280,7 +280,7 @@ void Tolerances::find_difference_rounding(const Dae::View& view) {
 /// held still, which may take any force. Where no balance tells the force of a dashpot it follows from a velocity, and has the
 /// rounding of that.
 void Tolerances::loosen_balanced_forces() {
-  if (!any_solved_) return;
+  if (!any_balanced_) return;
   const Structure& structure = dae_->structure();
   BalancedForces forces(structure);
   struct Follower { int unknown; double per_unit; };
@@ -302,7 +302,7 @@ void Tolerances::loosen_balanced_forces() {
     if (unknown < 0) continue;
     const double stiffness = std::abs(slope[j]);
     std::size_t i = 0;
-    if (!network_.batch_of(static_cast<int>(j), i).holds(i)) {
+    if (!balances_[j] && !network_.batch_of(static_cast<int>(j), i).holds(i)) {
       forces.add_told(structure.deflections[j], stiffness * tolerance_[at(unknown)]);
     } else {
       forces.add(structure.deflections[j]);

@@ -131,6 +131,8 @@ class Tolerances {
   std::vector<double> plain_rounding_;    ///< but for dilatant laws
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
+  std::vector<char> balances_;            ///< of each deflection branch: its deflection follows from a balance of forces
+  bool any_balanced_ = false;             ///< some do, or some dashpot is solved for its force
   bool any_solved_ = false;               ///< some dashpot is solved for its force
   std::vector<double> stopping_;          ///< of each node: what a velocity may be wrong by for the force that stops it [m/s]
   std::vector<double> carried_seen_;                  ///< of each rate branch: the fastest that both its ends have been [m/s]
