@@ -18,7 +18,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-void BalanceRounding::attach(const Structure& structure) {
+void BalanceRounding::attach(const Network& network, const Structure& structure) {
+  network_ = &network;
   structure_ = &structure;
   place_.assign(structure.kind.size(), 0);
   for (std::size_t n = 0; n < place_.size(); ++n) place_[n] = structure.group[n] + 1;
@@ -86,7 +87,11 @@ void BalanceRounding::find(const Dae::View& view, const std::vector<double>& slo
     by_[at(low)] = std::abs(slope[at(branches_[at(i)].branch)]);
   }
   for (const Held& h : branches_) {
-    const double force = force_[at(component_[at(h.a != 0 ? h.a : h.b)])], held = held_together(h.a, h.b);
+    // What stands still beside others does not go their way: its deflection is its own.
+    std::size_t i = 0;
+    const bool stands = network_->batch_of(h.branch, i).holds(i);
+    const double held = stands ? std::abs(slope[at(h.branch)]) : held_together(h.a, h.b);
+    const double force = force_[at(component_[at(h.a != 0 ? h.a : h.b)])];
     rounding_[at(h.branch)] = held > 0 ? force / held : 0;
   }
 }

@@ -15,7 +15,7 @@ namespace rheonet {
 /// all the time.
 class BalanceRounding {
  public:
-  void attach(const Structure& structure);
+  void attach(const Network& network, const Structure& structure);
   /// Nothing floats: no deflection is told by a balance.
   bool none() const { return branches_.empty(); }
   /// At this view, with the slopes df/dp of all deflection branches there [N/m].
@@ -28,6 +28,7 @@ class BalanceRounding {
   void find_forces(const Dae::View& view, const std::vector<double>& slope);
   double held_together(int a, int b) const;
 
+  const Network* network_ = nullptr;
   const Structure* structure_ = nullptr;
   std::vector<Held> branches_;
   std::vector<int> place_;      ///< of each node: 0 for all that do not float, else that of its group

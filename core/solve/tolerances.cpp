@@ -8,6 +8,7 @@
 
 #include "core/dae/rate_law.hpp"
 #include "core/network/index.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -103,7 +104,21 @@ void Tolerances::attach(Dae& dae) {
   find_parts();
   find_jitter();
   find_gaps();
-  balance_rounding_.attach(structure);
+  balance_rounding_.attach(network_, structure);
+  find_held();
+}
+
+/// What sliders that stick hold together, up to where it is held by what moves as it is told to.
+void Tolerances::find_held() {
+  const Structure& structure = dae_->structure();
+  const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
+  Sets held(structure.kind.size());
+  for (std::size_t k = 0; k < structure.stuck.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (structure.stuck[k] && !known(b.a) && !known(b.b)) held.join(b.a, b.b);
+  }
+  held_.clear();
+  for (std::size_t n = 0; n < structure.kind.size(); ++n) held_.push_back(held.find(static_cast<NodeId>(n)));
 }
 
 void Tolerances::find_gaps() {
@@ -354,20 +369,19 @@ void Tolerances::find_slip_noise() {
   if (slip_noise_.empty()) return;
   const Structure& structure = dae_->structure();
   const std::vector<double>& slope = dae_->slopes();
-  node_noise_.assign(structure.kind.size(), 0);
+  held_noise_.assign(structure.kind.size(), 0);
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const Branch& b = structure.deflections[j];
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
-    if (unknown < 0 || b.a == b.b) continue;
+    if (unknown < 0 || structure.deflections[j].a == structure.deflections[j].b) continue;
     const double noise = std::abs(slope[j]) * tolerance_[at(unknown)];
-    for (const NodeId node : {b.a, b.b}) {
-      if (structure.kind[at(node)] != Kind::known) node_noise_[at(node)] += noise;
-    }
+    for (const NodeId node : {network_.deflections[j].a, network_.deflections[j].b}) held_noise_[at(held_[at(node)])] += noise;
   }
+  // What moves as it is told to takes any force.
+  const auto noise_at = [&](NodeId node) { return structure.kind[at(node)] == Kind::known ? 0 : held_noise_[at(held_[at(node)])]; };
   for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
-    const Branch& b = structure.sliders[k];
+    const Branch& b = network_.sliders[k].branch;
     const double bound = network_.sliders[k].law.breakaway;
-    const double noise = structure.stuck[k] ? std::max(node_noise_[at(b.a)], node_noise_[at(b.b)]) : 0;
+    const double noise = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
     slip_noise_[k] = std::isfinite(bound) ? std::min(noise, slip_share * local() * bound) : 0;
   }
 }

@@ -70,6 +70,7 @@ class Tolerances {
   /// in may be a small movement beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void find_gaps();
+  void find_held();
   double local() const;
   using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
   Scales scales_to_come(double time, const Scales& largest) const;
@@ -142,7 +143,8 @@ class Tolerances {
   Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
   std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_, grain_;
-  std::vector<double> node_noise_;  ///< of each node: the errors of forces there [N]
+  std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
+  std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]
 };
 
 }  // namespace rheonet
