@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 
 #include "core/dae/instant.hpp"
@@ -80,12 +78,6 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   }
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
-  }
-  if (getenv("DBGO")) {
-    fprintf(stderr,"onset t %.17g h %g fired sliders", t, h); for (int k: fired.sliders) fprintf(stderr," %d",k); fprintf(stderr," starts"); for (int k: fired.starts) fprintf(stderr," %d",k); fprintf(stderr," turns"); for (int k: fired.turns) fprintf(stderr," %d",k);fprintf(stderr," rests"); for (int k: fired.rests) fprintf(stderr," %d",k); fprintf(stderr,"\n");
-    for (std::size_t n = 0; n < nodes; ++n) fprintf(stderr,"  node %d v %.10g value %.10g\n",(int)n,state.velocity[n],problem.value(slot(static_cast<NodeId>(n))));
-    for (std::size_t k = 0; k < onset.slider.size(); ++k) { auto [lo,hi]=problem.bounds(onset.slider[k]); fprintf(stderr,"  slider %d mode %d force %.17g bounds %g %g dir %d f %g side %d came %d\n",(int)k,modes.slider[k],force[k],lo/h,hi/h,problem.direction(onset.slider[k]),problem.force(onset.slider[k])/h,onset.bound_side[k],came_to_rest_[k]);}
-    for (std::size_t k = 0; k < onset.law.size(); ++k) if (onset.law[k]>=0) { auto [lo,hi]=problem.bounds(onset.law[k]); fprintf(stderr,"  law %d bounds %.10g %.10g dir %d f %.10g p %g atrest %g\n",(int)k,lo/h,hi/h,problem.direction(onset.law[k]),problem.force(onset.law[k])/h,state.p[k],onset.at_rest[k]/h);}
   }
   take_directions(onset, state, change);
   std::vector<int> broken;

@@ -22,6 +22,10 @@ void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));
 }
 
+// What an iteration leaves may be this share of a step's allowed error. More of it, as by IDA's default, is noise in the
+// estimates of errors, and keeps the order low and steps short.
+constexpr double iteration_share = 0.02;
+
 }  // namespace
 
 struct Integrator::Implementation {
@@ -70,6 +74,7 @@ struct Integrator::Implementation {
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
+    require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;

@@ -282,8 +282,9 @@ void Tolerances::find_difference_rounding(const Dae::View& view) {
 void Tolerances::loosen_balanced_forces() {
   if (!any_balanced_) return;
   const Structure& structure = dae_->structure();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   BalancedForces forces(structure);
-  struct Follower { int unknown; double per_unit; };
+  struct Follower { int unknown; double per_unit, most; };
   std::vector<Follower> followers;
   std::vector<double> of_velocity;  // of those that are forces of dashpots
   for (std::size_t r = 0; r < structure.rates.size(); ++r) {
@@ -292,21 +293,29 @@ void Tolerances::loosen_balanced_forces() {
       forces.add_told(structure.rates[r], dashpot_rounding_[r]);
     } else {
       forces.add(structure.rates[r]);
-      followers.push_back({unknown, 1});
+      followers.push_back({unknown, 1, infinite});
       of_velocity.push_back(dashpot_rounding_[r]);
     }
   }
   const std::vector<double>& slope = dae_->slopes();
+  std::vector<double> way(structure.kind.size(), 0);  // of each node: the longest of the deflections there [m]
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    const double seen = seen_[static_cast<std::size_t>(Sort::deflection)][j];
+    for (const NodeId node : {structure.deflections[j].a, structure.deflections[j].b}) way[at(node)] = std::max(way[at(node)], seen);
+  }
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
     if (unknown < 0) continue;
     const double stiffness = std::abs(slope[j]);
     std::size_t i = 0;
-    if (!balances_[j] && !network_.batch_of(static_cast<int>(j), i).holds(i)) {
+    const bool held = network_.batch_of(static_cast<int>(j), i).holds(i);
+    if (balanced_[j] < 0 && !held) {
       forces.add_told(structure.deflections[j], stiffness * tolerance_[at(unknown)]);
     } else {
       forces.add(structure.deflections[j]);
-      followers.push_back({unknown, stiffness > 0 ? 1 / stiffness : 0});
+      // Where friction has hardly any slope it is its deflection that places its end.
+      const double most = held ? infinite : local() * way[at(balanced_[j])];
+      followers.push_back({unknown, stiffness > 0 ? 1 / stiffness : 0, most});
     }
   }
   forces.find();
@@ -315,7 +324,7 @@ void Tolerances::loosen_balanced_forces() {
   }
   for (std::size_t k = 0; k < followers.size(); ++k) {
     double& tolerance = tolerance_[at(followers[k].unknown)];
-    if (forces.found(k)) tolerance = std::max(tolerance, followers[k].per_unit * forces.noise(k));
+    if (forces.found(k)) tolerance = std::max(tolerance, std::min(followers[k].most, followers[k].per_unit * forces.noise(k)));
   }
 }
 

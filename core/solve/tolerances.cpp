@@ -92,11 +92,13 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
   for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
-  balances_.assign(network_.deflections.size(), 0);
+  balanced_.assign(network_.deflections.size(), -1);
+  any_balanced_ = any_solved_;
   for (const Structure::Group& group : structure.groups) {
-    if (group.tree_branch >= 0) balances_[at(group.tree_branch)] = 1;
+    if (group.tree_branch < 0) continue;
+    balanced_[at(group.tree_branch)] = group.node;
+    any_balanced_ = true;
   }
-  any_balanced_ = any_solved_ || std::find(balances_.begin(), balances_.end(), 1) != balances_.end();
   tolerance_.assign(n, relative_);
   grain_.assign(n, 0);
   rounding_.assign(n, 0);

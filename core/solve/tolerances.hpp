@@ -132,7 +132,7 @@ class Tolerances {
   std::vector<double> plain_rounding_;    ///< but for dilatant laws
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
-  std::vector<char> balances_;            ///< of each deflection branch: its deflection follows from a balance of forces
+  std::vector<NodeId> balanced_;          ///< of each deflection branch: the node whose balance tells its deflection, -1
   bool any_balanced_ = false;             ///< some do, or some dashpot is solved for its force
   bool any_solved_ = false;               ///< some dashpot is solved for its force
   std::vector<double> stopping_;          ///< of each node: what a velocity may be wrong by for the force that stops it [m/s]

@@ -1,0 +1,162 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet::test;
+
+namespace {
+
+struct Crowd { const char* what; const char* toml; };
+
+const Crowd crowds[] = {
+    {"two frictions that stand together, one of which has relaxed to almost nothing", R"([elements]
+e1 = { type = "cfm", between = ["n0", "ground"], stiffness = 409, coulomb = 1.35, damping = 0.613, exponent = 0.5 }
+e2 = { type = "cfm", between = ["n0", "ground"], stiffness = 237, coulomb = 0.838, damping = 9.34, exponent = 2 }
+e3 = { type = "dashpot", between = ["n1", "ground"], damping = 1.45, flow_index = 0.7 }
+e4 = { type = "sfm", between = ["n1", "ground"], stiffness = 447, coulomb = 0.19, exponent = 0 }
+e5 = { type = "spring", between = ["n2", "n1"], stiffness = 148 }
+e6 = { type = "vfm", between = ["n2", "n1"], damping = 0.465, stiffness = 220 }
+e7 = { type = "sfm", between = ["n3", "n2"], stiffness = 611, coulomb = 0.122, exponent = 2 }
+e8 = { type = "dashpot", between = ["n3", "n2"], damping = 19.1 }
+e9 = { type = "cfm", between = ["n0", "n2"], stiffness = 17.6, coulomb = 1.23, damping = 9.13, exponent = 3 }
+e10 = { type = "vfm", between = ["n1", "n3"], damping = 5.25, stiffness = 92.1 }
+e11 = { type = "vfm", between = ["n0", "n2"], damping = 20, stiffness = 79.1 }
+f = { type = "motion", at = "n3", position = { sine = 0.462, frequency = 0.494 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "e9.force", "e10.force", "e11.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"a slider and friction that stick at their bounds while another slider slips", R"([elements]
+e1 = { type = "vfm", between = ["n0", "ground"], damping = 17.1, stiffness = 172 }
+e2 = { type = "slider", between = ["n0", "ground"], coulomb = 0.122 }
+e3 = { type = "slider", between = ["n1", "n0"], coulomb = 0.188 }
+e4 = { type = "cfm", between = ["n1", "n0"], stiffness = 165, coulomb = 0.111, damping = 2.89, exponent = 1 }
+e5 = { type = "spring", between = ["n1", "ground"], stiffness = 3.79 }
+m6 = { type = "mass", at = "n1", mass = 4.53 }
+f = { type = "force", at = "n1", force = { sine = 1.3, frequency = 0.477, phase = 5.68667 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "n0.velocity", "n1.velocity"]
+)"},
+    {"two frictions that lean on a slider at its bound", R"([elements]
+e1 = { type = "slider", between = ["n0", "ground"], coulomb = 0.439 }
+e2 = { type = "cfm", between = ["n0", "ground"], stiffness = 38, coulomb = 1.59, damping = 7.99, exponent = 3 }
+e3 = { type = "dashpot", between = ["n1", "n0"], damping = 0.755 }
+e4 = { type = "slider", between = ["n1", "n0"], coulomb = 0.25 }
+e5 = { type = "cfm", between = ["ground", "n0"], stiffness = 79.9, coulomb = 0.258, damping = 1.91, exponent = 0.5 }
+e6 = { type = "sfm", between = ["ground", "n1"], stiffness = 779, coulomb = 0.119, exponent = 1 }
+e7 = { type = "vfm", between = ["n1", "n0"], damping = 5.3, stiffness = 960 }
+m8 = { type = "mass", at = "n1", mass = 0.694 }
+f = { type = "force", at = "n0", force = { ramp = -1.73, offset = 1.73 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "n0.velocity", "n1.velocity"]
+)"},
+    {"friction that relaxes beside elastoplastic friction, on the edge of sliding", R"([elements]
+e1 = { type = "cfm", between = ["n0", "ground"], stiffness = 756, coulomb = 1.66, damping = 1.17, exponent = 0.5 }
+e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 351, coulomb = 0.919, damping = 3.09, exponent = 2 }
+e3 = { type = "sfm", between = ["n1", "n0"], stiffness = 147, coulomb = 0.564, exponent = 0 }
+e4 = { type = "sfm", between = ["n2", "n1"], stiffness = 14.2, coulomb = 0.353, exponent = 1 }
+e5 = { type = "sfm", between = ["n3", "n2"], stiffness = 256, coulomb = 1.75, exponent = 1 }
+e6 = { type = "spring", between = ["n1", "n0"], stiffness = 106 }
+e7 = { type = "vfm", between = ["n1", "n3"], damping = 10.8, stiffness = 487 }
+m8 = { type = "mass", at = "n3", mass = 0.11 }
+f = { type = "motion", at = "n0", velocity = { triangle = 0.716, frequency = 0.949 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"a small force of friction that follows from the balance of large ones", R"([elements]
+e1 = { type = "vfm", between = ["n0", "ground"], damping = 1.7, stiffness = 234 }
+e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 986, coulomb = 2.39, damping = 0.43, exponent = 2 }
+e3 = { type = "sfm", between = ["n1", "n0"], stiffness = 349, coulomb = 3, exponent = 0.5 }
+e4 = { type = "sfm", between = ["n2", "n1"], stiffness = 14.3, coulomb = 0.147, exponent = 1 }
+e5 = { type = "cfm", between = ["n2", "n1"], stiffness = 231, coulomb = 0.772, damping = 9.24, exponent = 0 }
+e6 = { type = "spring", between = ["n3", "n2"], stiffness = 24.8 }
+e7 = { type = "sfm", between = ["n3", "n2"], stiffness = 876, coulomb = 0.496, exponent = 1 }
+e8 = { type = "dashpot", between = ["n0", "ground"], damping = 12.7 }
+m9 = { type = "mass", at = "n2", mass = 0.673 }
+m10 = { type = "mass", at = "n3", mass = 2.61 }
+f = { type = "force", at = "n1", force = { sine = 1.42, frequency = 0.565 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"friction that stands beside friction that has slid far", R"([elements]
+e1 = { type = "dashpot", between = ["n0", "ground"], damping = 1.94, flow_index = 0.7 }
+e2 = { type = "slider", between = ["n1", "ground"], coulomb = 0.215, breakaway = 0.3225 }
+e3 = { type = "cfm", between = ["n2", "n1"], stiffness = 28.5, coulomb = 0.487, damping = 0.364, exponent = 3 }
+e4 = { type = "cfm", between = ["n2", "n1"], stiffness = 958, coulomb = 1.16, damping = 3.45, exponent = 0.5 }
+e5 = { type = "sfm", between = ["n3", "n2"], stiffness = 86.5, coulomb = 1.65, exponent = 0.5 }
+e6 = { type = "slider", between = ["n0", "n2"], coulomb = 0.268, breakaway = 0.3216 }
+m7 = { type = "mass", at = "n1", mass = 0.761 }
+m8 = { type = "mass", at = "n3", mass = 3.49 }
+f = { type = "motion", at = "n3", position = { sine = 0.952, frequency = 0.535 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"a slider held by another one, whose force rises from its bound by the second order of time", R"([elements]
+e1 = { type = "sfm", between = ["n0", "ground"], stiffness = 25, coulomb = 0.595, exponent = 1 }
+e2 = { type = "slider", between = ["n0", "ground"], coulomb = 0.105, breakaway = 0.1575 }
+e3 = { type = "slider", between = ["n1", "n0"], coulomb = 0.183 }
+e4 = { type = "sfm", between = ["n2", "n1"], stiffness = 266, coulomb = 0.727, exponent = 1 }
+e5 = { type = "spring", between = ["n2", "n1"], stiffness = 110 }
+e6 = { type = "spring", between = ["n3", "n2"], stiffness = 5.37 }
+e7 = { type = "sfm", between = ["n3", "n2"], stiffness = 79.8, coulomb = 0.202, exponent = 3 }
+e8 = { type = "sfm", between = ["n3", "ground"], stiffness = 209, coulomb = 2.62, exponent = 1 }
+m9 = { type = "mass", at = "n2", mass = 0.745 }
+f = { type = "force", at = "n1", force = { sine = 2.9, frequency = 2.47 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"friction in series between masses, each on the edge of sliding", R"([elements]
+e1 = { type = "sfm", between = ["n0", "ground"], stiffness = 52.5, coulomb = 1.21, exponent = 1 }
+e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 13.6, coulomb = 0.566, damping = 1.79, exponent = 1 }
+e3 = { type = "sfm", between = ["n2", "n1"], stiffness = 272, coulomb = 2.23, exponent = 0 }
+e4 = { type = "sfm", between = ["n3", "n2"], stiffness = 13.3, coulomb = 0.221, exponent = 2 }
+e5 = { type = "spring", between = ["n3", "n2"], stiffness = 38.2 }
+m6 = { type = "mass", at = "n2", mass = 0.487 }
+m7 = { type = "mass", at = "n3", mass = 4.26 }
+f = { type = "motion", at = "n3", position = { sine = 0.756, frequency = 0.5 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+};
+
+}  // namespace
+
+// Networks drawn at random in which several frictions and sliders are at their bounds at once. Each switched over and over, or
+// went on in ever shorter steps: an instant and the equations after it saw the edge between standing and sliding differently, or
+// what rounding and the errors of steps leave was taken for motion.
+TEST_CASE("where many frictions meet at their bounds runs end, and every accuracy holds what it promises") {
+  for (const Crowd& crowd : crowds) {
+    CAPTURE(crowd.what);
+    const Trajectory best = simulate(crowd.toml, 1e-9);
+    for (const double accuracy : {1e-3, 1e-6}) {
+      CAPTURE(accuracy);
+      const Trajectory rows = simulate(crowd.toml, accuracy);
+      REQUIRE(rows.time().size() == best.time().size());
+      for (const std::string& name : best.header) {
+        CAPTURE(name);
+        double worst = 0;
+        for (std::size_t k = 0; k < best.time().size(); ++k) worst = std::max(worst, std::abs(rows[name][k] - best[name][k]));
+        CHECK(worst <= 1.1 * accuracy * best.scale(name));
+      }
+    }
+  }
+}
