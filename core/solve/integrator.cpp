@@ -24,7 +24,7 @@ void require(int flag, const char* call) {
 
 // What an iteration leaves may be this share of a step's allowed error. More of it, as by IDA's default, is noise in the
 // estimates of errors, and keeps the order low and steps short.
-constexpr double iteration_share = 0.02;
+constexpr double iteration_share = 0.02, no_farther = 0.1;
 
 }  // namespace
 
@@ -74,7 +74,7 @@ struct Integrator::Implementation {
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
-    require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
+    if (!dae.rough()) require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
@@ -163,13 +163,14 @@ struct Integrator::Implementation {
     return rate / (1 - rate) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
   }
 
-  /// IDA takes an iteration that has come to the rounding of the unknowns, and gets no further, for one that fails.
+  /// IDA takes an iteration that has come to the rounding of the unknowns, and gets no further, for one that fails. So it is
+  /// with one that gets no further where it would be done by IDA's default.
   static int converged_but_for_rounding(SUNNonlinearSolver solver, N_Vector y, N_Vector change, realtype tolerance,
                                         N_Vector weight, void* user) {
     auto& self = *static_cast<Implementation*>(user);
     const int flag = self.ida_test(solver, y, change, tolerance, weight, self.ida_test_data);
     if (flag != SUN_NLS_CONV_RECVR) return flag;
-    return N_VWrmsNorm(change, weight) <= self.rounding(weight) ? SUN_NLS_SUCCESS : flag;
+    return N_VWrmsNorm(change, weight) <= std::max(self.rounding(weight), no_farther) ? SUN_NLS_SUCCESS : flag;
   }
 
   bool turns_back(N_Vector change, N_Vector weight) const {
