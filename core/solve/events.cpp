@@ -51,6 +51,8 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
     const Branch& b = structure.sliders[k];
     if (!structure.stuck[k] && b.a == b.b) continue;
     rates_needed_ = rates_needed_ || floating(b);
+    const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
+    if (!structure.stuck[k] && firm(b.a) && firm(b.b)) slipping_.push_back({static_cast<int>(k), sliders_.size(), 0, false});
     sliders_.push_back(static_cast<int>(k));
     events_.push_back({static_cast<int>(k), of_slider});
   }
@@ -138,6 +140,10 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
   at_begin_.resize(events_.size());
   evaluate(t, y, yp, at_begin_.data());
+  if (!slipping_.empty()) {
+    const Dae::View& view = dae_.view(t, y, yp);
+    for (Slipping& one : slipping_) one.slope = slope(one, view);
+  }
   // Never exactly 0, as of limits.
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) + std::numeric_limits<double>::min() : 0; };
   // Where an instant and the equations see it a little differently an event is due when there is more of it: else it would be
@@ -229,15 +235,38 @@ const Dae::View& NetworkEvents::seen_between(double t, const double* y, const do
   return held_.empty() ? dae_.view(t, y, yp) : resolved(t, y, yp);
 }
 
+double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
+  const Branch& b = dae_.structure().sliders[at(one.slider)];
+  return modes_.slider[at(one.slider)] * (view.acceleration[at(b.a)] - view.acceleration[at(b.b)]);
+}
+
+/// What slips may all but come to rest, or just do so, and be pulled on.
+bool NetworkEvents::any_dips(const Integrator& integrator) {
+  if (slipping_.empty()) return false;
+  const Dae::View& view = dae_.view(integrator.time(), integrator.y().data(), integrator.yp().data());
+  bool any = false;
+  for (Slipping& one : slipping_) {
+    const double now = slope(one, view);
+    one.dips = one.slope < 0 && now > 0;
+    one.slope = now;
+    any = any || one.dips;
+  }
+  return any;
+}
+
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
   constexpr int refinements = 4;
   constexpr double near = 0.1;  // a parabola tells where the least value is, not how little
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
   if (!(b > a)) return first;
+  const bool dips = any_dips(integrator);
+  if (!dips && !sticks()) return first;
+  std::vector<char> dipping(sliders_.size(), 0);
+  for (const Slipping& one : slipping_) dipping[one.watched] = one.dips;
   look_at_step(integrator, a, b);
   for (std::size_t i = 0; i < suddens() + held_.size(); ++i) {
-    if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])]) continue;
+    if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])] && !dipping[i]) continue;
     double left = a, middle = (a + b) / 2, right = b;
     double gl = left_[i], gm = middle_[i], gr = right_[i];
     const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});

@@ -33,8 +33,8 @@ class NetworkEvents final : public EventFunctions {
 
   /// Sliders stick here that may break away, friction rests, or blocks limit what they take in.
   bool sticks() const;
-  /// A force may go beyond a bound and come back within one step: the first such instant in the last step, and the event
-  /// that it is.
+  /// A force may go beyond a bound, or a mass back against what it slips on, and come back within one step: the first such
+  /// instant in the last step, and the event that it is.
   struct Missed { double t; int which; };
   std::optional<Missed> missed(const Integrator& integrator);
 
@@ -67,6 +67,11 @@ class NetworkEvents final : public EventFunctions {
   struct Held { std::size_t law; int which; std::size_t event; };
   void find_held();
   double held_function(const Held& held, const Dae::View& view) const;
+  /// A slider that slips between what has a momentum or moves as it is told to: its number among all and among the watched, how
+  /// its velocity changes at the end of the last step [m/s^2], and whether it had a least value within that.
+  struct Slipping { int slider; std::size_t watched; double slope; bool dips; };
+  double slope(const Slipping& one, const Dae::View& view) const;
+  bool any_dips(const Integrator& integrator);
   /// Of the sliders and limits, then of friction at rest.
   double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
@@ -85,6 +90,7 @@ class NetworkEvents final : public EventFunctions {
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
   std::vector<Held> held_;
+  std::vector<Slipping> slipping_;
   std::vector<double> step_y_, step_yp_;
   std::vector<double> left_, middle_, right_;  ///< event functions of the sliders, limits and friction at rest over a step
   static constexpr double not_looked = std::numeric_limits<double>::quiet_NaN();

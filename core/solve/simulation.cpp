@@ -223,7 +223,7 @@ class Run {
         restart(t, until, shrink);
         continue;
       }
-      if (const auto missed = settings_.locate_events && system_->events.sticks() ? system_->events.missed(system_->integrator) : std::nullopt) {
+      if (const auto missed = settings_.locate_events ? system_->events.missed(system_->integrator) : std::nullopt) {
         system_->integrator.cut(missed->t, missed->which);
         outcome = Integrator::Outcome::event;
       }
