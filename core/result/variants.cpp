@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/network/alternatives.hpp"
 #include "core/network/component.hpp"
 #include "core/network/index.hpp"
+#include "core/network/reductions.hpp"
 #include "core/network/resolved.hpp"
+#include "core/result/explain.hpp"
 #include "core/result/run.hpp"
 
 namespace rheonet {
@@ -70,6 +73,22 @@ Scene with(const Scene& scene, const Alternative& alternative, double share, con
   return result;
 }
 
+/// The names of those that make something smaller.
+std::vector<std::string> worthwhile_reductions(const Scene& scene) {
+  const auto size = [](const Scene& of) {
+    const Explanation explained = explain(of);
+    return std::pair{explained.cost.unknowns, explained.structure.integrations};
+  };
+  const auto reduced = size(scene);
+  std::vector<std::string> result;
+  for (const ReductionWords& words : reductions()) {
+    Scene kept = scene;
+    kept.keep.push_back(words.name);
+    if (size(kept) != reduced) result.push_back(words.name);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<Manner> manners(const Scene& scene) {
@@ -77,6 +96,11 @@ std::vector<Manner> manners(const Scene& scene) {
   std::vector<Manner> result;
   for (const int order : {5, 4, 3, 2}) result.push_back({.name = fmt::format("order up to {}", order), .order = order});
   if (glance_at.switches) result.push_back({.name = "events at the ends of steps", .locate_events = false});
+  for (const std::string& reduction : worthwhile_reductions(scene)) {
+    Manner kept{.name = fmt::format("without the reduction `{}`", reduction), .scene = {scene}};
+    kept.scene.front().keep.push_back(reduction);
+    result.push_back(std::move(kept));
+  }
   for (const Alternative& alternative : alternatives()) {
     const auto moves = [&](const auto& element) {
       return element.second > 0 && type_of(scene.elements[at(element.first)]) == alternative.type;

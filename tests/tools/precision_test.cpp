@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/program.hpp"
@@ -74,6 +77,89 @@ TEST_CASE("precision --variants: what it costs to smooth sliders and not to look
   CHECK(error.at("every slider smoothed below 0.0001 of its fastest motion") < error.at("every slider smoothed below 0.01 of its fastest motion"));
   CHECK(contains(result.out, "\nevents at the ends of steps\n"));
   CHECK(contains(result.out, "the cheapest that meets the 1e-06 asked for: "));
+}
+
+namespace {
+
+/// Rows of a list of prices as CSV: of each manner the error, at the tightest accuracy.
+std::map<std::string, double> errors_in(const std::string& csv) {
+  std::map<std::string, double> error;
+  std::istringstream rows(csv);
+  std::string line;
+  std::getline(rows, line);
+  const auto columns = std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find(",manner")), ',') + 1;
+  while (std::getline(rows, line)) {
+    std::vector<std::string> cells;
+    std::istringstream text(line);
+    for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+    error[cells[static_cast<std::size_t>(columns)]] = std::stod(cells[2]);
+  }
+  return error;
+}
+
+// A spring that is moved to and fro beside a spring and a slider: x = a sin(w t).
+const std::string bundle = R"([elements]
+drive = { type = "motion", at = "p", position = { sine = "0.31 m", frequency = "1.7 Hz" } }
+m = { type = "mass", at = "a", mass = 0.7 }
+k = { type = "spring", between = ["p", "a"], stiffness = "K" }
+k1 = { type = "spring", between = ["a", "b"], stiffness = 130 }
+s1 = { type = "slider", between = ["b", "ground"], coulomb = 2.3 }
+k2 = { type = "spring", between = ["a", "c"], stiffness = 70 }
+s2 = { type = "slider", between = ["c", "ground"], coulomb = 3.1 }
+[parameters]
+K = 400
+[simulate]
+stop = 1.3
+output = { points = 101 }
+record = ["a.position", "k.force"]
+)";
+
+}  // namespace
+
+TEST_CASE("precision --variants prices closed forms against states, and tells no difference beyond the accuracy") {
+  const Folder folder(bundle);
+  const Finished result = folder.shell("rheonet precision scene.toml --variants --accuracies 1e-5 --accuracy 1e-5 --runs 1 -o prices.csv", 0);
+  const auto error = errors_in(folder.read("prices.csv"));
+  CHECK(contains(result.out, "\nwithout the reduction `bundles`\n"));
+  CHECK(error.at("without the reduction `bundles`") <= 1e-5);
+  CHECK(error.at("order up to 5") <= 1e-5);
+  CHECK_FALSE(contains(result.out, "reduction `chains`"));  // there is none to make
+}
+
+TEST_CASE("precision --variant: another scene, other values, and what they get wrong") {
+  const Folder folder(bundle);
+  // The same, wired otherwise: with the names turned about.
+  std::string other = bundle;
+  for (const auto& [from, to] : {std::pair{"\"a\"", "\"mass\""}, {"a.position", "mass.position"}}) {
+    for (std::size_t at = 0; (at = other.find(from, at)) != other.npos; at += std::string(to).size()) other.replace(at, std::string(from).size(), to);
+  }
+  folder.write("other.toml", other);
+  const std::string words = "rheonet precision scene.toml --accuracies 1e-6 --runs 1 -o prices.csv ";
+  const Finished result = folder.shell(words + "--variant other.toml --pair a.position=mass.position --variant 'parameters.K=404' "
+                                               "--variant 'other.toml; parameters.K=440; m.mass=0.8' --variant simulate.stop=1.1", 0);
+  auto error = errors_in(folder.read("prices.csv"));
+  CHECK(contains(result.out, "scene.toml: 0 s to 1.1 s,"));
+  CHECK(contains(result.out, "\nparameters.K=404\n"));
+  CHECK(error.at("order up to 5") <= 1e-6);
+  CHECK(error.at("other.toml") <= 1e-6);
+  CHECK(error.at("simulate.stop=1.1") <= 1e-6);
+  CHECK(error.at("parameters.K=404") > 1e-3);
+  CHECK(error.at("parameters.K=404") < 0.1);
+  CHECK(error.at("\"other.toml; parameters.K=440; m.mass=0.8\"") > error.at("parameters.K=404"));
+}
+
+TEST_CASE("precision --variant refuses what cannot be priced beside the scene") {
+  const Folder folder(bundle);
+  folder.write("oscillator.toml", oscillator);
+  const auto run = [&folder](const std::string& words) { return folder.shell("timeout 20 rheonet precision scene.toml " + words, 2).err; };
+  CHECK(contains(run("--variant no.toml"), "in the variant `no.toml`"));
+  CHECK(contains(run("--variant something"), "`something` is neither a scene nor a value"));
+  CHECK(contains(run("--variant parameters.Q=3"), "in the variant `parameters.Q=3`"));
+  CHECK(contains(run("--variant oscillator.toml"), "it has to have all that the scene records, or what `--pair` names"));
+  CHECK(contains(run("--variant oscillator.toml --pair a.position=k1.force --pair k.force=k1.force"), "are different quantities"));
+  CHECK(contains(run("--variant scene.toml --pair b.position=a.position"), "the scene does not record `b.position`"));
+  CHECK(contains(run("--variant scene.toml --pair k.force"), "`--pair k.force` names 1 records, not two"));
+  CHECK(contains(run("--variant simulate.start=0.1"), "the runs start at different times"));
 }
 
 TEST_CASE("precision says when a closed form and the scene do not fit") {

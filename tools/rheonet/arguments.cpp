@@ -245,7 +245,11 @@ struct CommandLine {
     add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
              "E,...");
     precision->add_option("--runs", runs, "of each accuracy, whose CPU time is taken; 5 if not given")->type_name("N");
-    precision->add_flag("--variants", arguments.variants, "also otherwise than usual: the order of the method limited, events not located, sliders smoothed");
+    precision->add_flag("--variants", arguments.variants, "also otherwise than usual: the order of the method limited, events not located, reductions not made, sliders smoothed");
+    add_list(precision, "--variant", arguments.variant_texts,
+             "also another scene, or this one with other values, `;` between them; errors are those against this scene",
+             "SCENE.toml|PATH=VALUE", false);
+    add_list(precision, "--pair", arguments.pairs, "what a variant has in place of a record of the scene", "RECORD=RECORD");
     precision->add_option("-o,--output", arguments.overlay, "where the list goes as CSV; `-` is standard output")
         ->type_name("FILE");
     precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");

@@ -6,9 +6,9 @@
 #include "tools/rheonet/effects_report.hpp"
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/output.hpp"
-#include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/watched.hpp"
 
 namespace rheonet::tool {
 
@@ -23,18 +23,11 @@ ExitStatus weigh_effects(const Arguments& arguments) {
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
 
-  Progress progress(true);
   Ladder ladder;
-  try {
-    ladder = ladder_of(scene, {.runs = arguments.runs,
-                               .interrupt = &end_on_signals(),
-                               .progress = [&progress](double fraction) { progress.update(fraction); }});
-  } catch (const SimulationError& error) {
-    progress.erase();
-    report(error, read.sources);
-    return not_simulated;
-  }
-  progress.erase();
+  const bool simulated = do_watched(read.sources, [&](const auto& progress) {
+    ladder = ladder_of(scene, {.runs = arguments.runs, .interrupt = &end_on_signals(), .progress = progress});
+  });
+  if (!simulated) return not_simulated;
   const std::string text = describe(scene, arguments.scene, ladder, arguments.within.value_or(default_within));
   // Data on standard output are for a program to read: the report is then a message beside them.
   arguments.overlay == "-" ? say("{}", text) : fmt::print("{}", text);

@@ -46,7 +46,9 @@ inline constexpr const char* footer_of_compare =
 inline constexpr const char* footer_of_precision =
     "For instance:\n"
     "  rheonet precision scene.toml\n"
-    "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n\n"
+    "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n"
+    "  rheonet precision one-element.toml --variant wired.toml --pair oil.force=oil.spring.force\n"
+    "  rheonet precision layers.toml --variant parameters.N=10 --variant \"parameters.N=20; parameters.gap=2 mm\"\n\n"
     "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
     "written; 2 the scene or the command line is wrong.";
 

@@ -8,8 +8,8 @@
 #include "core/result/run.hpp"
 #include "tools/plot/mistake.hpp"
 #include "tools/rheonet/both_sides.hpp"
-#include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/watched.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -64,21 +64,16 @@ class SceneSource final : public PlotSource {
 
   std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override {
     std::vector<plot::Trace> traces(pairs.size());
-    Progress progress(true);
     BothSides drawn([&](double time, const std::vector<double>& values) {
       const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
       for (std::size_t k = 0; k < pairs.size(); ++k) traces[k].add({value(pairs[k].first), value(pairs[k].second)});
     });
-    RunSettings settings{.progress = [&](double fraction) { progress.update(fraction); }};
-    drawn.listen(settings);
-    try {
+    const bool simulated = do_watched(read_.sources, [&](const auto& progress) {
+      RunSettings settings{.progress = progress};
+      drawn.listen(settings);
       run(*read_.scene, settings);
-    } catch (const SimulationError& error) {
-      progress.erase();
-      report(error, read_.sources);
-      throw PlotEnded{not_simulated};
-    }
-    progress.erase();
+    });
+    if (!simulated) throw PlotEnded{not_simulated};
     return traces;
   }
 

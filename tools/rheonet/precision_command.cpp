@@ -1,18 +1,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <iterator>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/result/precision.hpp"
+#include "tools/rheonet/asked_variants.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/figure_file.hpp"
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/output.hpp"
 #include "tools/rheonet/precision_report.hpp"
-#include "tools/rheonet/progress.hpp"
 #include "tools/rheonet/reading.hpp"
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/watched.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -44,26 +47,25 @@ ExitStatus price_scene(const Arguments& arguments) {
   options.claims = false;  // they are about the scene's own accuracy
   const ReadResult read = read_and_report(arguments.scene, options);
   if (!read.scene) return wrong_input;
-  const Scene& scene = *read.scene;
+  Scene scene = *read.scene;
+  std::optional<std::vector<Manner>> asked = asked_variants(arguments, scene);
+  if (!asked) return wrong_input;
   if (!arguments.figure.empty() && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.overlay, "--output", read.sources)) return wrong_input;
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
 
-  Progress progress(true);
   PriceList list;
-  try {
+  const bool simulated = do_watched(read.sources, [&](const auto& progress) {
+    std::vector<Manner> all = arguments.variants ? manners(scene) : std::vector<Manner>{{.name = "order up to 5"}};
+    std::move(asked->begin(), asked->end(), std::back_inserter(all));
     list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
-                              .manners = arguments.variants ? manners(scene) : std::vector<Manner>{{.name = "order up to 5"}},
+                              .manners = std::move(all),
                               .runs = arguments.runs,
                               .interrupt = &end_on_signals(),
-                              .progress = [&progress](double fraction) { progress.update(fraction); }});
-  } catch (const SimulationError& error) {
-    progress.erase();
-    report(error, read.sources);
-    return not_simulated;
-  }
-  progress.erase();
+                              .progress = progress});
+  });
+  if (!simulated) return not_simulated;
   const std::string text = describe(scene, arguments.scene, list);
   // Data on standard output are for a program to read: the report is then a message beside them.
   arguments.overlay == "-" || arguments.figure == "-" ? say("{}", text) : fmt::print("{}", text);

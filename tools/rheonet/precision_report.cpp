@@ -112,7 +112,7 @@ const std::string& name_of_manner(const PriceList& list, const Price& price) {
 /// "accuracy = 1e-05, order up to 3".
 std::string name_of(const PriceList& list, const Price& price) {
   return fmt::format("accuracy = {:g}", price.method.tolerance) +
-         (price.method.manner == 0 ? "" : ", " + name_of_manner(list, price));
+         (price.method.manner == 0 ? "" : ", " + printable(name_of_manner(list, price)));
 }
 
 std::string recommendation(const Scene& scene, const PriceList& list) {
@@ -140,7 +140,7 @@ std::string describe(const Scene& scene, const std::string& file, const PriceLis
                                  scene.stop, scene.accuracy);
   text += yardstick_words(scene, list);
   for (const auto& prices : by_manner(list)) {
-    if (prices.front()->method.manner != 0) text += fmt::format("\n{}\n", name_of_manner(list, *prices.front()));
+    if (prices.front()->method.manner != 0) text += fmt::format("\n{}\n", printable(name_of_manner(list, *prices.front())));
     text += table_of(scene, list, prices);
   }
   return text + '\n' + recommendation(scene, list);
@@ -159,7 +159,7 @@ std::string table(const Scene& scene, const PriceList& list) {
     text += fmt::format("{}", p.method.order);
     put(p.method.tolerance, p.error(), p.errors.empty() ? "" : scene.records[p.worst].path,
         p.errors.empty() ? 0 : p.errors[p.worst].time, median(p), p.cpu_quantile(0.25), p.cpu_quantile(0.75), s.steps,
-        s.rejected_steps, s.residual_evaluations, s.jacobian_evaluations, s.restarts, name_of_manner(list, p));
+        s.rejected_steps, s.residual_evaluations, s.jacobian_evaluations, s.restarts, cell(name_of_manner(list, p)));
     for (const RecordError& error : p.errors) put(error.relative());
     text += '\n';
   }

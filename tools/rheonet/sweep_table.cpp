@@ -10,6 +10,7 @@
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/network/error.hpp"
+#include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -21,14 +22,6 @@ const RunFigure figures[] = {
     {"steps", [](const Summary& s) { return static_cast<double>(s.steps); }},
     {"events", [](const Summary& s) { return static_cast<double>(s.events); }},
 };
-
-/// On one line, and in quotes if it must be; a quote in it becomes an apostrophe, which every reader of CSV understands.
-std::string cell(std::string_view text) {
-  std::string result;
-  for (const char c : text) result += c == '\n' ? ' ' : c == '"' ? '\'' : c;
-  result = printable(result);
-  return result.find_first_of(",;#") == result.npos ? result : '"' + result + '"';
-}
 
 void append_number(std::string& text, double value) {
   text += ',';

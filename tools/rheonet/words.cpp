@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/netlist/characters.hpp"
 #include "tools/rheonet/table.hpp"
 
 namespace rheonet::tool {
@@ -86,5 +87,12 @@ std::string wrapped(const std::string& text, std::size_t indent) {
 }
 
 std::string in_words(const Signal& signal, const std::string& unit) { return std::visit(Words{unit}, signal.shape()); }
+
+std::string cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) result += c == '\n' ? ' ' : c == '"' ? '\'' : c;
+  result = printable(result);
+  return result.find_first_of(",;#") == result.npos ? result : '"' + result + '"';
+}
 
 }  // namespace rheonet::tool

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/netlist/signal.hpp"
@@ -16,5 +17,9 @@ std::string wrapped(const std::string& text, std::size_t indent);
 
 /// "square wave of 2 m/s, 3 Hz": a signal whose values have the given unit.
 std::string in_words(const Signal& signal, const std::string& unit);
+
+/// Text as a cell of a CSV file: on one line, and in quotes if it must be; a quote in it becomes an apostrophe, which every reader
+/// of CSV understands.
+std::string cell(std::string_view text);
 
 }  // namespace rheonet::tool
