@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "tools/bench/hand/hand.hpp"
 #include "tools/bench/hand/ida.hpp"
 
 namespace rheonet::hand {
@@ -63,19 +62,8 @@ Run block(const Block& scene, double tolerance, const std::vector<double>& times
   if (scene.coulomb > 0) Ida::check(IDARootInit(ida.memory, 1, root), "IDARootInit");
   ida.Y()[0] = scene.position;
   begin(ida, motion);
-  Run run;
   const auto row = [&](double t, const double* y) { return std::vector{y[0], y[1], motion.spring(t, y[0])}; };
-  run.rows.push_back(row(0, ida.Y()));
-  while (ida.t < times.back()) {
-    const int flag = ida.step(times.back());
-    ida.take(times, run.rows, row);
-    if (flag != IDA_ROOT_RETURN) continue;
-    ++run.events;
-    run.steps += ida.steps();
-    begin(ida, motion);
-  }
-  run.steps += ida.steps();
-  return run;
+  return follow(ida, times, row, [&] { begin(ida, motion); });
 }
 
 Run stick_slip(double tolerance, const std::vector<double>& times) {

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/hand/hand.hpp"
+
 namespace rheonet::hand {
 
 /// IDA with what belongs to it: all that is common to the programs written by hand.
@@ -84,5 +86,28 @@ class Ida {
   SUNMatrix matrix = nullptr;
   SUNLinearSolver solver = nullptr;
 };
+
+/// Goes to the last of the times, and takes down row(t, y) at each of them. At every root `restart` begins anew.
+template <class Row, class Restart>
+Run follow(Ida& ida, const std::vector<double>& times, Row row, Restart restart) {
+  Run run;
+  run.rows.push_back(row(ida.t, ida.Y()));
+  while (ida.t < times.back()) {
+    const int flag = ida.step(times.back());
+    ida.take(times, run.rows, row);
+    if (flag != IDA_ROOT_RETURN) continue;
+    ++run.events;
+    run.steps += ida.steps();
+    restart();
+  }
+  run.steps += ida.steps();
+  return run;
+}
+
+/// The same of what has no roots.
+template <class Row>
+Run follow(Ida& ida, const std::vector<double>& times, Row row) {
+  return follow(ida, times, row, [] {});
+}
 
 }  // namespace rheonet::hand

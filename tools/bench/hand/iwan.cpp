@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/bench/hand/hand.hpp"
 #include "tools/bench/hand/ida.hpp"
 
 namespace rheonet::hand {
@@ -106,19 +105,8 @@ Run iwan(int pairs, double tolerance, const std::vector<double>& times) {
   Ida::check(IDASetUserData(ida.memory, &bundle), "IDASetUserData");
   Ida::check(IDARootInit(ida.memory, pairs + 1, roots), "IDARootInit");
   Ida::check(IDASetInitStep(ida.memory, 1e-6), "IDASetInitStep");
-  Run run;
   const auto row = [](double, const double* y) { return std::vector{y[0]}; };
-  run.rows.push_back({0});
-  while (ida.t < times.back()) {
-    const int flag = ida.step(times.back());
-    ida.take(times, run.rows, row);
-    if (flag != IDA_ROOT_RETURN) continue;
-    ++run.events;
-    run.steps += ida.steps();
-    switch_modes(ida, bundle);
-  }
-  run.steps += ida.steps();
-  return run;
+  return follow(ida, times, row, [&] { switch_modes(ida, bundle); });
 }
 
 }  // namespace rheonet::hand

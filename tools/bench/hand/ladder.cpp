@@ -1,6 +1,5 @@
 // A chain of masses joined by springs and dashpots, pushed at the free end: position and velocity of each mass, KLU.
 
-#include "tools/bench/hand/hand.hpp"
 #include "tools/bench/hand/ida.hpp"
 
 namespace rheonet::hand {
@@ -55,15 +54,7 @@ Run ladder(int masses, double tolerance, const std::vector<double>& times) {
   Ida::check(IDASetInitStep(ida.memory, 1e-9), "IDASetInitStep");
   ida.P()[1] = push / m;
   Ida::check(IDAReInit(ida.memory, 0, ida.y, ida.yp), "IDAReInit");
-  Run run;
-  const auto row = [&](double, const double* y) { return std::vector{y[0], y[1], k * (y[0] - (masses > 1 ? y[2] : 0))}; };
-  run.rows.push_back({0, 0, 0});
-  while (ida.t < times.back()) {
-    ida.step(times.back());
-    ida.take(times, run.rows, row);
-  }
-  run.steps = ida.steps();
-  return run;
+  return follow(ida, times, [&](double, const double* y) { return std::vector{y[0], y[1], k * (y[0] - (masses > 1 ? y[2] : 0))}; });
 }
 
 }  // namespace rheonet::hand

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/bench/hand/hand.hpp"
 #include "tools/bench/hand/ida.hpp"
 
 namespace rheonet::hand {
@@ -27,15 +26,7 @@ int jacobian(double, double cj, N_Vector, N_Vector, N_Vector, SUNMatrix J, void*
 Run maxwell(double tolerance, const std::vector<double>& times) {
   Ida ida(1, 0, residual, jacobian, tolerance, 1e-2 * tolerance);
   Ida::check(IDASetInitStep(ida.memory, 1e-6), "IDASetInitStep");
-  Run run;
-  const auto row = [](double, const double* y) { return std::vector{y[0]}; };
-  run.rows.push_back({0});
-  while (ida.t < times.back()) {
-    ida.step(times.back());
-    ida.take(times, run.rows, row);
-  }
-  run.steps = ida.steps();
-  return run;
+  return follow(ida, times, [](double, const double* y) { return std::vector{y[0]}; });
 }
 
 }  // namespace rheonet::hand
