@@ -37,4 +37,24 @@ class CsvWriter {
   double last_flush_ = 0;
 };
 
+/// go(), and then the flush of `writer` that is owed, also where go() throws: what has been thrown is what is said then, and
+/// closing the file tells of a writing that fails.
+template <class Writer, class Go>
+auto flushed(Writer& writer, Go go) {
+  const auto kept = [&] {
+    try {
+      return go();
+    } catch (...) {
+      try {
+        writer.flush();
+      } catch (const SimulationError&) {
+      }
+      throw;
+    }
+  };
+  auto result = kept();
+  writer.flush();
+  return result;
+}
+
 }  // namespace rheonet

@@ -138,8 +138,7 @@ class Explainer {
 
   static std::string what_is_left(const Reduced& law) {
     if (!law.component) return "carries no force";
-    if (law.component->slip && std::isinf(law.component->slip(law.values).coulomb)) return "is a rigid link";
-    return "is a `" + law.component->declaration.type + "`";
+    return "is " + name_of(law);
   }
 
   void find_limits() {

@@ -50,18 +50,7 @@ Summary run_merged(const Scene& scene, const Merging& merging, const RunSettings
   reduced.csv = nullptr;
   if (settings.csv || settings.row) reduced.row = [&whole](double time, const std::vector<double>& values) { whole.row(time, values); };
   if (settings.state) reduced.state = [&whole](double time, const std::vector<double>& values) { whole.state(time, values); };
-  Summary summary;
-  try {
-    summary = go(merging.scene, reduced);
-  } catch (...) {
-    try {
-      whole.flush();
-    } catch (const SimulationError&) {  // what ended the run is said, and closing the file tells of this
-    }
-    throw;
-  }
-  whole.flush();
-  return summary;
+  return flushed(whole, [&] { return go(merging.scene, reduced); });
 }
 
 }  // namespace rheonet

@@ -264,27 +264,16 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   const Network network = build_network(scene);
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
-  SimulationStatistics statistics;
   Profile profile;
-  try {
-    statistics = simulate(network, needed,
-                          {.stop = scene.stop - scene.start,
-                           .accuracy = settings.tolerance.value_or(scene.accuracy),
-                           .order = settings.order,
-                           .locate_events = locate_events,
-                           .switch_times = settings.events != nullptr || settings.event,
-                           .interrupt = settings.interrupt,
-                           .progress = settings.progress,
-                           .profile = settings.profile ? &profile : nullptr},
-                          recorder);
-  } catch (...) {
-    try {
-      recorder.flush();
-    } catch (const SimulationError&) {  // what ended the run is said, and closing the file tells of this
-    }
-    throw;
-  }
-  recorder.flush();
+  const SimulationSettings how{.stop = scene.stop - scene.start,
+                               .accuracy = settings.tolerance.value_or(scene.accuracy),
+                               .order = settings.order,
+                               .locate_events = locate_events,
+                               .switch_times = settings.events != nullptr || settings.event,
+                               .interrupt = settings.interrupt,
+                               .progress = settings.progress,
+                               .profile = settings.profile ? &profile : nullptr};
+  const SimulationStatistics statistics = flushed(recorder, [&] { return simulate(network, needed, how, recorder); });
 
   Summary summary;
   summary.unknowns = recorder.unknowns();
