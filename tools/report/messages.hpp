@@ -48,6 +48,9 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
 /// How many records were there before.
 std::size_t record_what_pages_show(Scene& scene);
 
+/// Adds the line and column of what stands in the scene's own file.
+void add_place(const Spot& spot, nlohmann::json& message);
+
 /// Text as JSON: what is no UTF-8 is replaced.
 std::string to_line(const nlohmann::json& message);
 

@@ -144,10 +144,7 @@ json claims(const Scene& scene, const Summary& summary) {
 
 std::string failure_message(const SimulationError& error, const Sources& sources) {
   json message = {{"kind", "failed"}, {"message", error.what()}};
-  if (error.spot && error.spot->file == 0) {
-    message["line"] = error.spot->line;
-    message["column"] = error.spot->column;
-  }
+  if (error.spot) add_place(*error.spot, message);
   if (error.spot)
     message["text"] = format({.severity = Severity::error, .spot = *error.spot, .message = error.what(), .hint = {}}, sources);
   return to_line(message);

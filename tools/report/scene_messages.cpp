@@ -156,6 +156,12 @@ json schematic(const ReadResult& read) {
 
 std::string to_line(const json& message) { return message.dump(-1, ' ', false, json::error_handler_t::replace); }
 
+void add_place(const Spot& spot, json& message) {
+  if (spot.file != 0) return;
+  message["line"] = spot.line;
+  message["column"] = spot.column;
+}
+
 std::string mistakes_message(const ReadResult& read) {
   json items = json::array();
   for (const Diagnostic& d : read.diagnostics) {
@@ -163,10 +169,7 @@ std::string mistakes_message(const ReadResult& read) {
                  {"message", printable(d.message)},
                  {"hint", printable(d.hint)},
                  {"text", format(d, read.sources)}};
-    if (d.spot.file == 0) {
-      item["line"] = d.spot.line;
-      item["column"] = d.spot.column;
-    }
+    add_place(d.spot, item);
     items.push_back(item);
   }
   return to_line({{"kind", "mistakes"}, {"items", items}});
