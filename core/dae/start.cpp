@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/dae/pair_start.hpp"
@@ -27,17 +28,30 @@ double initial_displacement(const Network& network, const Branch& branch) {
   return not_given;
 }
 
+/// Those that start with a given displacement; also of springs and dashpots that are rigid links, or have no force.
+std::vector<Branch> displaced_branches(const Network& network) {
+  std::vector<Branch> result;
+  const auto add = [&](const Branch& b) {
+    if (!std::isnan(initial_displacement(network, b))) result.push_back(b);
+  };
+  for (const Branch& b : network.deflections) add(b);
+  for (const Branch& b : network.rates) add(b);
+  for (const Network::Slider& s : network.sliders) add(s.branch);
+  for (std::size_t e = 0; e < network.places.size(); ++e) {
+    const SceneElement& element = network.scene->elements[e];
+    if (network.places[e].role != Role::nothing || element.at) continue;
+    const auto node = [&](NodeId n) { return network.node_of[static_cast<std::size_t>(n)]; };
+    add({static_cast<int>(e), node(element.a), node(element.b)});
+  }
+  return result;
+}
+
 /// Gives nodes whose position the user left open the one that follows from the initial displacement of an element.
 void follow_displacements(const Network& network, std::vector<double>& x, std::vector<char>& fixed) {
   const Scene& scene = *network.scene;
+  const std::vector<Branch> displaced = displaced_branches(network);
   std::vector<const Branch*> open;
-  const auto collect = [&](const std::vector<Branch>& branches) {
-    for (const Branch& b : branches) {
-      if (!std::isnan(initial_displacement(network, b))) open.push_back(&b);
-    }
-  };
-  collect(network.deflections);
-  collect(network.rates);
+  for (const Branch& b : displaced) open.push_back(&b);
   for (bool again = true; again;) {
     again = false;
     for (const Branch*& b : open) {
@@ -102,6 +116,70 @@ void follow_block(const Network& network, const Network::Motion& motion, double&
   x = motion.from;
 }
 
+/// Where nodes start [m], and whether that is given or follows from what is.
+struct Places {
+  std::vector<double> x;
+  std::vector<char> fixed;
+};
+
+Places given_places(const Network& network) {
+  Places places{std::vector<double>(network.nodes(), 0), std::vector<char>(network.nodes(), 0)};
+  places.fixed[ground] = 1;
+  for (std::size_t n = 1; n < network.nodes(); ++n) {
+    const double given = network.node(static_cast<NodeId>(n)).position;
+    if (std::isnan(given)) continue;
+    places.x[n] = given;
+    places.fixed[n] = 1;
+  }
+  return places;
+}
+
+void follow_motion(const Network& network, const Network::Motion& motion, Places& places) {
+  const Scene& scene = *network.scene;
+  const SceneNode& node = network.node(motion.node);
+  const std::string& name = scene.elements[static_cast<std::size_t>(motion.element)].name;
+  double& x = places.x[static_cast<std::size_t>(motion.node)];
+  const bool given = std::exchange(places.fixed[static_cast<std::size_t>(motion.node)], 1) != 0;
+  if (motion.block >= 0) return follow_block(network, motion, x, given);
+  if (motion.position) {
+    const double before = motion.signal.before(0), after = motion.signal.value(0);
+    const double tolerance = same_value * (std::abs(before) + std::abs(after));
+    const bool there_already = given && std::abs(x - after) <= tolerance;
+    if (given && !there_already && std::abs(x - before) > tolerance) {
+      throw SimulationError(
+          node.spot, fmt::format("node `{}` cannot start at position {}: motion `{}` puts it at {}; leave out one of them", node.name,
+                                 with_unit(scene, x, Quantity::position), name, with_unit(scene, after, Quantity::position)));
+    }
+    x = there_already ? after : before;
+  }
+  if (const double velocity = initial_velocity(motion); contradicts(node, velocity)) {
+    refuse_velocity(network, node,
+                    fmt::format("motion `{}` gives it {}; leave out one of them", name, with_unit(scene, velocity, Quantity::velocity)));
+  }
+}
+
+/// With laws at the deflections that they start with.
+State first_state(const Network& network, const std::vector<double>& x, const Drive& drive) {
+  State state;
+  state.position = x;
+  state.velocity.assign(x.size(), 0);
+  for (std::size_t n = 1; n < x.size(); ++n) {
+    const double given = network.node(static_cast<NodeId>(n)).velocity;
+    if (!std::isnan(given)) state.velocity[n] = given;
+  }
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.deflections[static_cast<std::size_t>(laws.first) + i];
+      const double d = x[static_cast<std::size_t>(b.a)] - x[static_cast<std::size_t>(b.b)];
+      const double d0 = initial_displacement(network, b);
+      state.p.push_back(laws.batch->start(i, std::isnan(d0) ? d : d0));
+      state.offset.push_back(d - state.p.back());
+    }
+  }
+  for (std::size_t k = 0; k < drive.blocks().states(); ++k) state.blocks.push_back(drive.blocks().initial(k));
+  return state;
+}
+
 /// What rigid links join to a motion or to the ground has no velocity of its own.
 void refuse_velocities_against_links(const Network& network) {
   struct Leader {
@@ -131,70 +209,15 @@ void refuse_velocities_against_links(const Network& network) {
 }  // namespace
 
 Start start(const Network& network, const Structure& classified) {
-  const Scene& scene = *network.scene;
-  const std::size_t nodes = network.nodes();
-  std::vector<double> x(nodes, 0);
-  std::vector<char> fixed(nodes, 0);
-  fixed[ground] = 1;
-  for (std::size_t n = 1; n < nodes; ++n) {
-    const double given = network.node(static_cast<NodeId>(n)).position;
-    if (std::isnan(given)) continue;
-    x[n] = given;
-    fixed[n] = 1;
-  }
-  for (const Network::Motion& m : network.motions) {
-    const std::size_t n = static_cast<std::size_t>(m.node);
-    const SceneNode& node = network.node(m.node);
-    const std::string& name = scene.elements[static_cast<std::size_t>(m.element)].name;
-    if (m.block >= 0) {
-      follow_block(network, m, x[n], fixed[n] != 0);
-      fixed[n] = 1;
-      continue;
-    }
-    const double velocity = initial_velocity(m);
-    if (m.position) {
-      const double before = m.signal.before(0), after = m.signal.value(0);
-      const double tolerance = same_value * (std::abs(before) + std::abs(after));
-      const bool there_already = fixed[n] && std::abs(x[n] - after) <= tolerance;
-      if (fixed[n] && !there_already && std::abs(x[n] - before) > tolerance) {
-        throw SimulationError(
-            node.spot,
-            fmt::format("node `{}` cannot start at position {}: motion `{}` puts it at {}; leave out one of them",
-                        node.name, with_unit(scene, x[n], Quantity::position), name,
-                        with_unit(scene, after, Quantity::position)));
-      }
-      x[n] = there_already ? after : before;
-    }
-    if (contradicts(node, velocity)) {
-      refuse_velocity(network, node,
-                      fmt::format("motion `{}` gives it {}; leave out one of them", name,
-                                  with_unit(scene, velocity, Quantity::velocity)));
-    }
-    fixed[n] = 1;
-  }
+  Places places = given_places(network);
+  for (const Network::Motion& m : network.motions) follow_motion(network, m, places);
   refuse_velocities_against_links(network);
-  follow_displacements(network, x, fixed);
+  follow_displacements(network, places.x, places.fixed);
 
-  Start result{.state = {}, .drive = Drive(network, classified, 0, x), .chosen = {}};
-  State& state = result.state;
-  state.position = x;
-  state.velocity.assign(nodes, 0);
-  for (std::size_t n = 1; n < nodes; ++n) {
-    const double given = network.node(static_cast<NodeId>(n)).velocity;
-    if (!std::isnan(given)) state.velocity[n] = given;
-  }
-  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network.deflections[static_cast<std::size_t>(laws.first) + i];
-      const double d = x[static_cast<std::size_t>(b.a)] - x[static_cast<std::size_t>(b.b)];
-      const double d0 = initial_displacement(network, b);
-      state.p.push_back(laws.batch->start(i, std::isnan(d0) ? d : d0));
-      state.offset.push_back(d - state.p.back());
-    }
-  }
-  for (std::size_t k = 0; k < result.drive.blocks().states(); ++k) state.blocks.push_back(result.drive.blocks().initial(k));
-  const std::vector<std::string> chosen = start_pairs(network, x);
-  result.chosen = balance_start(network, classified, fixed, state);
+  Start result{.state = {}, .drive = Drive(network, classified, 0, places.x), .chosen = {}};
+  result.state = first_state(network, places.x, result.drive);
+  const std::vector<std::string> chosen = start_pairs(network, places.x);
+  result.chosen = balance_start(network, classified, places.fixed, result.state);
   result.chosen.insert(result.chosen.end(), chosen.begin(), chosen.end());
   return result;
 }

@@ -153,6 +153,7 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
       if (parameter.fallback && parameter.kind == Parameter::Kind::value) element.values[i] = *parameter.fallback;
       return;
     }
+    element.given.set(i);
     if (parameter.unit != Parameter::Unit::quantity) {
       const auto number = formula.evaluate(environment, context_.mistakes);
       good = number && check_bounds(number->value, parameter, formula, context_.domain, 1, context_.mistakes) && good;

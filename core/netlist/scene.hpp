@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -39,6 +40,7 @@ struct SceneElement {
   NodeId b = ground;   ///< ground for an element `at` one node
   bool at = false;     ///< written with `at`
   std::vector<double> values;   ///< SI, one for each declared parameter; not_given for signals and absent initial values
+  std::bitset<32> given;        ///< of each declared parameter: the netlist gives it this value, not its default
   std::vector<Signal> signals;  ///< the signals, in order of declaration, of the parameters in signal_parameters
   std::vector<int> signal_parameters;  ///< indices into Declaration::parameters
   Spot spot;           ///< of its name

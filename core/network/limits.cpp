@@ -1,6 +1,8 @@
 #include "core/network/limits.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 namespace rheonet {
@@ -15,6 +17,46 @@ Reduced take_limits(const Component* component, std::vector<double> values, std:
     values = limit->values(values);
     component = find_component(limit->becomes);
   }
+}
+
+std::string name_of(const Reduced& law) {
+  if (law.component->slip && std::isinf(law.component->slip(law.values).breakaway)) return "a rigid link";
+  return "a `" + law.component->declaration.type + "`";
+}
+
+namespace {
+
+bool same(const Reduced& x, const Reduced& y) {
+  const auto same_value = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  return x.component == y.component && std::equal(x.values.begin(), x.values.end(), y.values.begin(), y.values.end(), same_value);
+}
+
+/// Two values within its bounds at which no law has a limit.
+std::array<double, 2> ordinary_values(const Parameter& p) {
+  const double low = std::max(p.lower, 0.0), length = std::isfinite(p.upper) ? p.upper - low : 1;
+  return {low + 0.37 * length, low + 0.71 * length};
+}
+
+}  // namespace
+
+std::vector<std::size_t> without_meaning(const Component& component, const std::vector<double>& values) {
+  std::vector<const Limit*> taken;
+  const Reduced law = take_limits(&component, values, &taken);
+  std::vector<std::size_t> result;
+  if (taken.empty() || !law.component) return result;
+  const std::vector<Parameter>& parameters = component.declaration.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const Parameter& p = parameters[k];
+    if (p.kind == Parameter::Kind::signal || (p.kind == Parameter::Kind::initial && p.quantity == Quantity::position)) continue;
+    const auto as_before = [&](double value) {
+      std::vector<double> other = values;
+      other[k] = value;
+      return same(law, take_limits(&component, std::move(other)));
+    };
+    const std::array<double, 2> tried = ordinary_values(p);
+    if (std::all_of(tried.begin(), tried.end(), as_before)) result.push_back(k);
+  }
+  return result;
 }
 
 }  // namespace rheonet

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/resolved.hpp"
 
@@ -58,32 +59,6 @@ std::vector<Reduced> laws_of(const Scene& scene) {
     laws.push_back(take_limits(declared, resolved_values(scene, element)));
   }
   return laws;
-}
-
-void tell_lost_times(Network& network) {
-  for (const SceneElement& element : network.scene->elements) {
-    const std::vector<double> values = resolved_values(*network.scene, element);
-    if (!left_out_of(*network.scene, element).empty()) continue;  // on demand, and told by whoever demands it
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (values[k] != 0 || !(element.values[k] > 0)) continue;
-      const Declaration& declared = components()[static_cast<std::size_t>(element.declaration)]->declaration;
-      network.notes.push_back(fmt::format("`{}` of {:.3g} s is left out: it is less than what tells the times of this run apart",
-                                          element.name + "." + declared.parameters[k].name, element.values[k]));
-    }
-  }
-}
-
-void tell_left_out(Network& network) {
-  const Scene& scene = *network.scene;
-  std::vector<std::string> told;
-  for (const EffectLeftOut& out : scene.without) {
-    const bool concerns = std::any_of(scene.elements.begin(), scene.elements.end(), [&](const SceneElement& e) {
-      const std::vector<Effect> brought = brought_by(e);
-      return out.concerns(e.name) && std::find(brought.begin(), brought.end(), out.effect) != brought.end();
-    });
-    if (concerns || (out.effect == Effect::feedback && !scene.feeds.empty())) told.push_back(out.in_words());
-  }
-  if (!told.empty()) network.notes.push_back(fmt::format("left out of this run: {}", fmt::join(told, ", ")));
 }
 
 /// Nodes between pairs are left out.
@@ -244,6 +219,7 @@ Network build_network(const Scene& scene) {
   number_nodes(network);
   tell_lost_times(network);
   tell_left_out(network);
+  tell_meaningless(network);
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };
   const auto name_node = [&](NodeId node) {

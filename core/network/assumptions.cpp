@@ -1,0 +1,67 @@
+#include "core/network/assumptions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/network/effects.hpp"
+#include "core/network/index.hpp"
+#include "core/network/limits.hpp"
+#include "core/network/listed.hpp"
+#include "core/network/resolved.hpp"
+
+namespace rheonet {
+
+void tell_lost_times(Network& network) {
+  for (const SceneElement& element : network.scene->elements) {
+    const std::vector<double> values = resolved_values(*network.scene, element);
+    if (!left_out_of(*network.scene, element).empty()) continue;  // on demand, and told by whoever demands it
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (values[k] != 0 || !(element.values[k] > 0)) continue;
+      const Declaration& declared = components()[static_cast<std::size_t>(element.declaration)]->declaration;
+      network.notes.push_back(fmt::format("`{}` of {:.3g} s is left out: it is less than what tells the times of this run apart",
+                                          element.name + "." + declared.parameters[k].name, element.values[k]));
+    }
+  }
+}
+
+void tell_left_out(Network& network) {
+  const Scene& scene = *network.scene;
+  std::vector<std::string> told;
+  for (const EffectLeftOut& out : scene.without) {
+    const bool concerns = std::any_of(scene.elements.begin(), scene.elements.end(), [&](const SceneElement& e) {
+      const std::vector<Effect> brought = brought_by(e);
+      return out.concerns(e.name) && std::find(brought.begin(), brought.end(), out.effect) != brought.end();
+    });
+    if (concerns || (out.effect == Effect::feedback && !scene.feeds.empty())) told.push_back(out.in_words());
+  }
+  if (!told.empty()) network.notes.push_back(fmt::format("left out of this run: {}", fmt::join(told, ", ")));
+}
+
+void tell_meaningless(Network& network) {
+  const Scene& scene = *network.scene;
+  std::vector<std::pair<std::string, std::vector<std::string>>> told;  // why, and what
+  for (const SceneElement& element : scene.elements) {
+    const Component& component = *components()[at(element.declaration)];
+    if (component.limits.empty() || element.given.none()) continue;
+    const std::vector<double> values = resolved_values(scene, element);
+    std::vector<const Limit*> taken;
+    const Reduced law = take_limits(&component, values, &taken);
+    if (taken.empty()) continue;
+    for (const std::size_t k : without_meaning(component, values)) {
+      if (!element.given.test(k)) continue;
+      const std::string why = left_out_of(scene, element).empty() ? taken.front()->when : "without what the scene leaves out";
+      const std::string reason = fmt::format("to {} ({})", name_of(law), why);
+      auto found = std::find_if(told.begin(), told.end(), [&](const auto& t) { return t.first == reason; });
+      if (found == told.end()) found = told.insert(found, {reason, {}});
+      found->second.push_back(element.name + "." + component.declaration.parameters[k].name_in(scene.domain));
+    }
+  }
+  for (const auto& [reason, paths] : told) {
+    network.notes.push_back(fmt::format("{} mean{} nothing {}, and {} left out", listed(paths), paths.size() > 1 ? "" : "s", reason,
+                                        paths.size() > 1 ? "are" : "is"));
+  }
+}
+
+}  // namespace rheonet
