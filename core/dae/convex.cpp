@@ -223,6 +223,17 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
   return met;
 }
 
+/// What the last step has brought together sticks; false if there is nothing such.
+bool ConvexNetwork::stick_where_met() {
+  bool met = false;
+  for (Branch& b : branches_) {
+    if (!b.apart || b.stuck || difference(b) != 0) continue;
+    b.apart = false;
+    met = b.stuck = true;
+  }
+  return met;
+}
+
 ConvexNetwork::Outcome ConvexNetwork::solve() {
   choose_weak();
   stick_at_first();
@@ -234,16 +245,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
-    // Several may come together in one step.
-    for (bool met = true; met;) {
-      met = false;
-      for (Branch& b : branches_) {
-        if (!b.apart || b.stuck || difference(b) != 0) continue;
-        b.apart = false;
-        met = b.stuck = true;
-      }
-      if (met) merge();
-    }
+    while (stick_where_met()) merge();  // several may come together in one step
     bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d, false)) {

@@ -78,6 +78,7 @@ class ConvexNetwork {
   double slope_along(const std::vector<double>& d, double step) const;
   void choose_weak();
   void stick_at_first();
+  bool stick_where_met();
   void merge();
   bool balanced(std::vector<double>& gradient) const;
   bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants);

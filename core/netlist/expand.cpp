@@ -136,6 +136,27 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   return true;
 }
 
+/// One value, or its default; false if it is none that it may be.
+bool Expander::element_value(const Plan& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
+  const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
+  const Formula& formula = plan.values[i];
+  if (!formula.given()) {
+    if (parameter.fallback && parameter.kind == Parameter::Kind::value) element.values[i] = *parameter.fallback;
+    return true;
+  }
+  element.given.set(i);
+  std::optional<double> value;
+  if (parameter.unit == Parameter::Unit::quantity) {
+    value = formula.evaluate(environment, parameter.quantity, context_.domain, context_.mistakes, flow_index);
+  } else if (const auto number = formula.evaluate(environment, context_.mistakes)) {
+    value = number->value;
+    flow_index = 1;
+  }
+  if (!value) return false;
+  element.values[i] = *value;
+  return check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.mistakes);
+}
+
 bool Expander::element_values(const Plan& plan, const Environment& environment, SceneElement& element) {
   const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
   const std::vector<Parameter>& parameters = declaration.parameters;
@@ -146,32 +167,13 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
   };
   bool good = true;
   element.values.assign(parameters.size(), not_given);
-  const auto evaluate = [&](std::size_t i, double flow_index) {
-    const Parameter& parameter = parameters[i];
-    const Formula& formula = plan.values[i];
-    if (!formula.given()) {
-      if (parameter.fallback && parameter.kind == Parameter::Kind::value) element.values[i] = *parameter.fallback;
-      return;
-    }
-    element.given.set(i);
-    if (parameter.unit != Parameter::Unit::quantity) {
-      const auto number = formula.evaluate(environment, context_.mistakes);
-      good = number && check_bounds(number->value, parameter, formula, context_.domain, 1, context_.mistakes) && good;
-      if (number) element.values[i] = number->value;
-      return;
-    }
-    const auto value =
-        formula.evaluate(environment, parameter.quantity, context_.domain, context_.mistakes, flow_index);
-    good = value && check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.mistakes) && good;
-    if (value) element.values[i] = *value;
-  };
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (parameters[i].flow_index.empty()) evaluate(i, 1);
+    if (parameters[i].flow_index.empty()) good = element_value(plan, environment, i, 1, element) && good;
   // What has a flow index in its unit, and what is the same as another, comes after those.
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].flow_index.empty()) continue;
     const double n = element.values[index_of(parameters[i].flow_index)];
-    if (!std::isnan(n)) evaluate(i, n);
+    if (!std::isnan(n)) good = element_value(plan, environment, i, n, element) && good;
   }
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (!parameters[i].same_as.empty() && !plan.values[i].given())
@@ -184,7 +186,11 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
       good = false;
     }
   }
+  return element_signals(plan, environment, element) && good;
+}
 
+bool Expander::element_signals(const Plan& plan, const Environment& environment, SceneElement& element) {
+  bool good = true;
   for (std::size_t i = 0; i < plan.signals.size(); ++i) {
     const auto signal = plan.signals[i].evaluate(environment, context_);
     good = signal && good;
@@ -197,7 +203,8 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
     element.signal_parameters.push_back(feed.parameter);
   }
   for (const std::size_t i : plan.default_signals) {
-    element.signals.emplace_back(Signal::Constant{*parameters[i].fallback});
+    const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
+    element.signals.emplace_back(Signal::Constant{*parameter.fallback});
     element.signal_parameters.push_back(static_cast<int>(i));
   }
   return good;

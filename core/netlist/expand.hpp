@@ -61,7 +61,9 @@ class Expander {
   bool instance(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
   bool repeat(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
 
+  bool element_value(const Plan& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
   bool element_values(const Plan& plan, const Environment& environment, SceneElement& element);
+  bool element_signals(const Plan& plan, const Environment& environment, SceneElement& element);
   /// What is peculiar to the element made last: the inputs and units of a block, what feeds a source.
   void wire(const Plan& plan, const Environment& environment, int element);
   std::string path_of(const Wire& wire) const;

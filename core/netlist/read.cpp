@@ -88,17 +88,16 @@ class Reader {
 
     const Environment& environment = parameters_of(document_);
     if (const TomlEntry* checks = document_.find("check")) evaluate_checks(checks->value, environment, mistakes_);
-    const std::size_t before = mistakes_.errors();
-    auto included = read_includes(document_, canonical, context_);
-    context_.models_missing = mistakes_.errors() > before;
-    override_models(included);
-    Models models;
-    for (IncludedFile& other : included)
-      if (const TomlEntry* table = other.document.find("models"))
-        declare_models(table->value, parameters_of(other.document), context_, models);
-    if (const TomlEntry* table = document_.find("models")) declare_models(table->value, environment, context_, models);
-    plan_models(context_, models);
+    const std::set<std::string> doubtful = read_network(elements, environment, canonical);
+    read_start_and_effects(environment, doubtful);
+    read_questions(simulate, environment, doubtful);
+  }
 
+  /// Elements and the models of which they are made. Returns what something is wrong with: it is not reported again where it is
+  /// used.
+  std::set<std::string> read_network(const TomlEntry* elements, const Environment& environment, const fs::path& canonical) {
+    Models models;
+    read_models(environment, canonical, models);
     Planner planner(context_, models);
     Scope scope;
     if (elements) planner.read_elements(elements->value, scope);
@@ -108,19 +107,38 @@ class Reader {
     expander.run(scope, environment, element_overrides(scope));
     check_names(scope, mistakes_);  // again: overrides may have named nodes
 
-    // What something is wrong with is not reported again where it is used.
     std::set<std::string> doubtful = expander.failed();
     if (elements)
       for (const TomlEntry& entry : elements->value.entries)
         if (!scope.find(entry.key)) doubtful.insert(entry.key);
     if (!doubtful.empty())
       for (const Scope::Node& node : scope.nodes) doubtful.insert(node.name);
-
     connect(expander.loose_ends(), doubtful, context_, scene_);
+    return doubtful;
+  }
+
+  /// Those of the scene and of what it includes.
+  void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
+    const std::size_t before = mistakes_.errors();
+    included_ = read_includes(document_, canonical, context_);
+    context_.models_missing = mistakes_.errors() > before;
+    override_models(included_);
+    for (IncludedFile& other : included_)
+      if (const TomlEntry* table = other.document.find("models"))
+        declare_models(table->value, parameters_of(other.document), context_, models);
+    if (const TomlEntry* table = document_.find("models")) declare_models(table->value, environment, context_, models);
+    plan_models(context_, models);
+  }
+
+  void read_start_and_effects(const Environment& environment, const std::set<std::string>& doubtful) {
     if (const TomlEntry* nodes = document_.find("nodes"))
       read_initial_values(nodes->value, environment, doubtful, context_, scene_);
     scene_.keep = options_.keep;
     read_effects(document_.find("effects"), options_.without, options_.only, context_, result_.sources, scene_);
+  }
+
+  /// How the run is to be, what is recorded and claimed of it, and how it is shown.
+  void read_questions(const TomlEntry* simulate, const Environment& environment, const std::set<std::string>& doubtful) {
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // A million default records of a scene that is refused would be for nothing.
@@ -260,6 +278,7 @@ class Reader {
   Presentation presentation_;
   TomlValue document_;
   std::deque<Override> overrides_;
+  std::deque<IncludedFile> included_;
   std::deque<Environment> environments_;
   std::deque<std::vector<NamedFormula>> formulas_;
 };

@@ -147,14 +147,18 @@ void Tolerances::for_each_dilatant(Visit visit) const {
   }
 }
 
-/// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
-/// eps (V + F/sqrt(k m)) at a mass, eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and what comes of
-/// eps V until it has crept away. Without this a network in equilibrium would be followed into its rounding.
-void Tolerances::find_rounding(const Dae::View& view) {
-  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+/// Of each part of the network the largest force and velocity; of each node what is around it; of each deflection branch its law.
+struct Tolerances::Loads {
+  std::vector<double> force, speed;        ///< N, m/s
+  std::vector<double> stiffness, damping;  ///< N/m, N s/m
+  std::vector<double> f, df, dc;           ///< N, N/m, 1/s
+};
+
+Tolerances::Loads Tolerances::find_loads(const Dae::View& view) const {
   const Structure& structure = dae_->structure();
-  const std::size_t nodes = structure.kind.size();
-  std::vector<double> force(nodes, 0), speed(nodes, 0), stiffness(nodes, 0), damping(nodes, 0);
+  const std::size_t nodes = structure.kind.size(), count = structure.deflections.size();
+  const std::vector<double> none(nodes, 0), of_branches(count);
+  Loads loads{none, none, none, none, of_branches, of_branches, of_branches};
   const auto add = [](std::vector<double>& sum, const Branch& b, double x) {
     sum[at(b.a)] += x;
     sum[at(b.b)] += x;
@@ -162,59 +166,68 @@ void Tolerances::find_rounding(const Dae::View& view) {
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
   const auto meet = [&](const Branch& b, double f) {
     if (known(b.a) && known(b.b)) return;
-    const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
-    force[part] = std::max(force[part], std::abs(f));
-    speed[part] = std::max(speed[part], speed_at(view, b));
+    const std::size_t part = at(part_of(b));
+    loads.force[part] = std::max(loads.force[part], std::abs(f));
+    loads.speed[part] = std::max(loads.speed[part], speed_at(view, b));
   };
-  const std::size_t count = structure.deflections.size();
-  std::vector<double> f(count), df(count), c(count), dc(count);
+  std::vector<double> creep(count);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     const std::size_t k = at(laws.first);
-    laws.batch->linearise(&view.p[k], &f[k], &df[k], &c[k], &dc[k]);
+    laws.batch->linearise(&view.p[k], &loads.f[k], &loads.df[k], &creep[k], &loads.dc[k]);
   }
   for (std::size_t j = 0; j < count; ++j) {
-    add(stiffness, structure.deflections[j], std::abs(df[j]));
-    meet(structure.deflections[j], f[j]);
+    add(loads.stiffness, structure.deflections[j], std::abs(loads.df[j]));
+    meet(structure.deflections[j], loads.f[j]);
   }
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
       meet(structure.rates[r], view.rate_force[r]);
-      if (const double B = laws.batch->impulse(i); std::isfinite(B)) add(damping, structure.rates[r], B);
+      if (const double B = laws.batch->impulse(i); std::isfinite(B)) add(loads.damping, structure.rates[r], B);
     }
   }
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) meet(structure.sliders[k], view.slider_force[k]);
   for (std::size_t n = 0; n < nodes; ++n) {
-    double& largest = force[at(part_[n])];
+    double& largest = loads.force[at(part_[n])];
     largest = std::max(largest, std::abs(view.applied[n]));
   }
-  plain_rounding_.assign(nodes, 0);
+  return loads;
+}
+
+/// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
+/// eps (V + F/sqrt(k m)) at a mass, eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and what comes of
+/// eps V until it has crept away. Without this a network in equilibrium would be followed into its rounding.
+void Tolerances::find_rounding(const Dae::View& view) {
+  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  const Structure& structure = dae_->structure();
+  const Loads loads = find_loads(view);
+  const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
+  plain_rounding_.assign(structure.kind.size(), 0);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const auto [sort, k] = quantity_[i];
     rounding_[i] = 0;
     drift_[i] = {};
     if (sort == Sort::velocity) {
-      const double impedance = std::sqrt(stiffness[k] * structure.mass[k]) + damping[k];
+      const double impedance = std::sqrt(loads.stiffness[k] * structure.mass[k]) + loads.damping[k];
       const std::size_t part = at(part_[k]);
-      rounding_[i] = eps * (speed[part] + (impedance > 0 ? force[part] / impedance : 0));
+      rounding_[i] = eps * (loads.speed[part] + (impedance > 0 ? loads.force[part] / impedance : 0));
       plain_rounding_[part] = std::max(plain_rounding_[part], rounding_[i]);
     } else if (sort == Sort::deflection) {
       const Branch& b = structure.deflections[k];
       const bool alone = known(b.a) && known(b.b);
-      const std::size_t part = at(part_[at(known(b.a) ? b.b : b.a)]);
+      const std::size_t part = at(part_of(b));
+      const double f = std::abs(loads.f[k]), df = std::abs(loads.df[k]), dc = std::abs(loads.dc[k]);
       // At its bound friction has hardly any slope, and its deflection goes with others.
-      const double slope = std::max(std::abs(df[k]), view.p[k] != 0 ? std::abs(f[k] / view.p[k]) : 0);
-      if (df[k] != 0) rounding_[i] += eps * (alone ? std::abs(f[k]) : force[part]) / slope;
-      drift_[i] = {eps * (alone ? speed_at(view, b) : speed[part]),
-                   dc[k] != 0 ? 1 / std::abs(dc[k]) : std::numeric_limits<double>::infinity()};
+      const double slope = std::max(df, view.p[k] != 0 ? f / std::abs(view.p[k]) : 0);
+      if (df != 0) rounding_[i] += eps * (alone ? f : loads.force[part]) / slope;
+      drift_[i] = {eps * (alone ? speed_at(view, b) : loads.speed[part]), dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
-      const Branch& b = structure.rates[k];
-      rounding_[i] = eps * force[at(part_[at(known(b.a) ? b.b : b.a)])];
+      rounding_[i] = eps * loads.force[at(part_of(structure.rates[k]))];
     }
   }
   rounding_at_rest_ = plain_rounding_;
   find_dashpot_rounding(view);
-  find_force_rounding(view, df, force);
+  find_force_rounding(view, loads.df, loads.force);
   find_rounding_now(view);
 }
 

@@ -255,76 +255,84 @@ Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest
   return scales;
 }
 
-void Tolerances::update(double t, const std::vector<double>& yp) {
-  // Time itself is known to half a unit in the last place; what changes with it meanwhile cannot be resolved.
-  const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
-  const Structure& structure = dae_->structure();
+/// Of each sort the largest that has been seen or is foreseen; of forces those of all elements, and what is applied.
+Tolerances::Scales Tolerances::find_largest() {
   const std::vector<double>& slope = dae_->slopes();
   Scales largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
   double force = applied_force_;
   for (double f : force_seen_) force = std::max(force, f);
-  for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    const Quantity& q = quantity_[i];
+  for (const Quantity& q : quantity_) {
     double& l = largest[static_cast<std::size_t>(q.sort)];
-    l = std::max({l, seen(q), foreseen_of(quantity_[i])});
+    l = std::max({l, seen(q), foreseen_of(q)});
     if (q.sort == Sort::force) force = std::max(force, seen(q));
-    if (q.sort == Sort::deflection) force = std::max(force, std::abs(slope[q.index]) * foreseen_of(quantity_[i]));
+    if (q.sort == Sort::deflection) force = std::max(force, std::abs(slope[q.index]) * foreseen_of(q));
   }
   largest[static_cast<std::size_t>(Sort::force)] = force;
-  std::optional<Scales> to_come;  // mostly not asked for
+  return largest;
+}
+
+/// 0 where nothing has been seen of it.
+double Tolerances::scale_of(const Quantity& q, const Scales& largest, const LeastShares& least) {
+  double scale = seen(q);
+  const auto resolve = [&](double beside, double share) {
+    if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
+  };
+  if (q.sort == Sort::position) {
+    if (has_gap_[q.index]) resolve(gap_seen_[q.index], least.position);
+    resolve(place_seen_[q.index], least.position);
+    scale = std::max(scale, least.way * way_seen_[q.index]);
+  }
+  if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least.velocity);
+  scale = std::max(scale, foreseen_of(q));
+  if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
+  if (q.sort != Sort::deflection) return scale;
+  // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
+  const double stiffness = std::abs(dae_->slopes()[q.index]);
+  const double own = std::max(force_seen_[q.index], stiffness * foreseen_of(q));
+  const double by_force = std::max(own, floor_of_kind * largest[static_cast<std::size_t>(Sort::force)]);
+  return by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale;
+}
+
+/// What is noise is allowed. `jitter`: what rounding of the time makes of it.
+void Tolerances::bear_noise(std::size_t i, double t, double jitter, double largest_velocity) {
+  const Quantity& q = quantity_[i];
+  double& tolerance = tolerance_[i];
+  tolerance = std::max({tolerance, jitters_[i] ? jitter : 0.0, rounding_[i]});
+  if (q.sort == Sort::deflection) {
+    grain_[i] = balance_rounding_.of(static_cast<int>(q.index));
+    tolerance = std::max({tolerance, value_grains * std::numeric_limits<double>::epsilon() * seen(q),
+                          step_ * difference_rounding_[q.index], balance_grains * grain_[i]});
+  }
+  if (q.sort == Sort::velocity && dae_->structure().mass[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
+  if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
+  const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
+  tolerance = std::max(tolerance, drift.velocity * std::min(t - begin_, drift.lasting));
+  // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
+  if (q.sort == Sort::deflection || q.sort == Sort::position) tolerance = std::max(tolerance, relative_ * largest_velocity * ahead_);
+}
+
+void Tolerances::update(double t, const std::vector<double>& yp) {
+  // Time itself is known to half a unit in the last place; what changes with it meanwhile cannot be resolved.
+  const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
+  const Scales largest = find_largest();
+  largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
   const auto least_share = [&](double least, double grains) {
     return std::max(least, grains * std::numeric_limits<double>::epsilon() / local());
   };
-  const double least_velocity = least_share(least_relative, velocity_grains);
-  const double least_position = least_share(least_relative, position_grains);
-  const double least_of_way = least_share(least_distance, distance_grains);
-
+  const LeastShares least{.velocity = least_share(least_relative, velocity_grains),
+                          .position = least_share(least_relative, position_grains),
+                          .way = least_share(least_distance, distance_grains)};
+  std::optional<Scales> to_come;  // mostly not asked for
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    const Quantity& q = quantity_[i];
-    double scale = seen(q);
-    const auto resolve = [&](double beside, double share) {
-      if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
-    };
-    if (q.sort == Sort::position) {
-      if (has_gap_[q.index]) resolve(gap_seen_[q.index], least_position);
-      resolve(place_seen_[q.index], least_position);
-      scale = std::max(scale, least_of_way * way_seen_[q.index]);
-    }
-    if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least_velocity);
-    scale = std::max(scale, foreseen_of(q));
-    if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
-    if (q.sort == Sort::deflection) {
-      // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
-      const std::size_t j = q.index;
-      const double stiffness = std::abs(slope[j]);
-      const double own = std::max(force_seen_[j], stiffness * foreseen_of(quantity_[i]));
-      const double by_force = std::max(own, floor_of_kind * force);
-      if (by_force > 0 && stiffness > 0) scale = std::min(scale, by_force / stiffness);
-    }
+    double scale = scale_of(quantity_[i], largest, least);
     if (scale == 0) {
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
-      scale = (*to_come)[static_cast<std::size_t>(q.sort)];
+      scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
     }
-    tolerance_[i] = std::max({local() * scale, jitters_[i] ? grain * std::abs(yp[i]) : 0.0, rounding_[i]});
-    if (q.sort == Sort::deflection) {
-      grain_[i] = balance_rounding_.of(static_cast<int>(q.index));
-      tolerance_[i] = std::max({tolerance_[i], value_grains * std::numeric_limits<double>::epsilon() * seen(q),
-                                step_ * difference_rounding_[q.index], balance_grains * grain_[i]});
-    }
-    if (q.sort == Sort::velocity && structure.mass[q.index] == 0) {
-      tolerance_[i] = std::max(tolerance_[i], rounding_now_[at(part_[q.index])]);
-    }
-    if (q.sort == Sort::velocity && dae_->rough()) tolerance_[i] = std::min(tolerance_[i], std::max(stopping_[q.index], grain * std::abs(yp[i])));
-    const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
-    tolerance_[i] = std::max(tolerance_[i], drift.velocity * std::min(t - begin_, drift.lasting));
-    // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
-    if (q.sort == Sort::deflection || q.sort == Sort::position) {
-      const double velocity = largest[static_cast<std::size_t>(Sort::velocity)];
-      tolerance_[i] = std::max(tolerance_[i], relative_ * velocity * ahead_);
-    }
+    tolerance_[i] = local() * scale;
+    bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
-  largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
   const auto unresolved = [&](const std::vector<double>& rounding) {
     return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
   };

@@ -74,9 +74,17 @@ class Tolerances {
   double local() const;
   using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
   Scales scales_to_come(double time, const Scales& largest) const;
+  /// The least shares of their own size to which velocities and positions are resolved beside others, and of the way of two
+  /// nodes the distance between them.
+  struct LeastShares { double velocity, position, way; };
+  Scales find_largest();
+  double scale_of(const Quantity& q, const Scales& largest, const LeastShares& least);
+  void bear_noise(std::size_t i, double t, double jitter, double largest_velocity);
   void update(double t, const std::vector<double>& yp);
   void find_parts();
   void find_jitter();
+  struct Loads;
+  Loads find_loads(const Dae::View& view) const;
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
   void loosen_positions();
