@@ -8,6 +8,7 @@
 #include "core/network/sets.hpp"
 #include "core/network/index.hpp"
 #include "core/network/time_grain.hpp"
+#include "core/solve/stop_chains.hpp"
 
 namespace rheonet {
 
@@ -48,9 +49,12 @@ void Softening::find_stops(const Structure& classified) {
     const bool direct = heavy(b.a) && heavy(b.b);
     const Ends found = direct ? ends_of(b) : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
     stops_[r] = found.heavy > 1 && (found.mass || !direct);
-    const auto yields = [&](NodeId n) { return classified.kind[at(n)] == Kind::massive ? 1 / classified.mass[at(n)] : 0; };
-    if (direct && found.mass) mass_[r] = 1 / (yields(b.a) + yields(b.b));
   });
+  const auto yields = [&](NodeId n) { return classified.kind[at(n)] == Kind::massive ? 1 / classified.mass[at(n)] : 0; };
+  for (const StopChain& chain : find_stop_chains(network_, classified)) {
+    const double yielding = yields(chain.a) + yields(chain.b);
+    for (const int r : chain.rates) mass_[at(r)] = yielding > 0 ? 1 / yielding : 0;
+  }
 }
 
 void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {

@@ -31,7 +31,7 @@ class Softening {
   /// together. Elsewhere what a pseudoplastic law carries is told by its neighbours, and its velocity follows from that down
   /// to nothing.
   std::vector<char> stops_;
-  std::vector<double> mass_;  ///< of each rate branch: of its ends against each other [kg]; 0 where one has neither a mass nor a motion
+  std::vector<double> mass_;  ///< of each rate branch: that it brings to rest, with others in series [kg]; 0 where it does not
 };
 
 }  // namespace rheonet

@@ -21,30 +21,31 @@ constexpr double noisy = 10;
 
 }  // namespace
 
-/// A pseudoplastic dashpot between masses, or a mass and what moves as it is given to, brings them to rest at a finite time:
-/// f = B w^n, with a slope without bound in the end. The same error of a velocity w there is a larger one of the force, and a
+/// Pseudoplastic dashpots between masses, or a mass and what moves as it is given to, bring them to rest at a finite time:
+/// f = B w^n, with a slope without bound in the end. The same error of a velocity there is a larger one of the force, and a
 /// larger one of the time of rest: each is to leave the force right.
 void Tolerances::find_stopping(const Dae::View& view) {
   if (!dae_->rough()) return;
-  const Structure& structure = dae_->structure();
-  stopping_.assign(structure.kind.size(), std::numeric_limits<double>::infinity());
-  const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.kind[at(node)] == Kind::massive; };
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const std::size_t r = at(laws.first) + i;
-      const Branch& b = structure.rates[r];
-      const double n = laws.batch->growth(i).exponent, largest = dashpot_seen_[r];
-      if (n >= 1 || b.a == b.b || !heavy(b.a) || !heavy(b.b)) continue;
-      const double w = std::abs(view.rate_velocity[r]);
-      const double together = std::min(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
-      carried_seen_[r] = std::max(carried_seen_[r], together);
-      if (!(unfelt(static_cast<int>(r)) < std::numeric_limits<double>::infinity())) continue;
-      const double f = std::abs(laws.batch->force_at(i, w)), allowed = local() * largest;
-      const double steepening = n < 0.5 ? std::max(most_steepening, std::pow(last_share, (1 - 2 * n) / (1 - n))) : 1;
-      const double by_slope = f > 0 ? steepening * allowed * w / (n * f) : 0;
-      const double most = std::max({by_slope, laws.batch->velocity_at(i, allowed), carried_noise(r)});
-      for (const NodeId node : {b.a, b.b}) stopping_[at(node)] = std::min(stopping_[at(node)], most);
+  stopping_.assign(dae_->structure().kind.size(), std::numeric_limits<double>::infinity());
+  for (const StopChain& chain : stop_chains_) {
+    const double together = std::min(std::abs(view.velocity[at(chain.a)]), std::abs(view.velocity[at(chain.b)]));
+    double most = 0, least = 0, noise = 0, largest_exponent = 0;
+    for (const int r : chain.rates) {
+      carried_seen_[at(r)] = std::max(carried_seen_[at(r)], together);
+      noise = carried_noise(at(r));
+      std::size_t i = 0;
+      const RateBatch& law = network_.rate_of(r, i);
+      const double n = law.growth(i).exponent, allowed = local() * dashpot_seen_[at(r)];
+      const double w = std::abs(view.rate_velocity[at(r)]), f = std::abs(law.force_at(i, w));
+      if (f > 0) most += allowed * w / (n * f);  // by their slopes
+      least += law.velocity_at(i, allowed);
+      largest_exponent = std::max(largest_exponent, n);  // in the end it is the slowest
     }
+    if (least == 0) continue;  // no force yet
+    const double n = largest_exponent;
+    const double steepening = n < 0.5 ? std::max(most_steepening, std::pow(last_share, (1 - 2 * n) / (1 - n))) : 1;
+    most = std::max({steepening * most, least, noise});
+    for (const NodeId node : {chain.a, chain.b}) stopping_[at(node)] = std::min(stopping_[at(node)], most);
   }
 }
 

@@ -103,6 +103,7 @@ void Tolerances::attach(Dae& dae) {
   grain_.assign(n, 0);
   rounding_.assign(n, 0);
   drift_.assign(n, {});
+  stop_chains_ = dae.rough() ? find_stop_chains(network_, structure) : std::vector<StopChain>{};
   find_parts();
   find_jitter();
   find_gaps();

@@ -7,6 +7,7 @@
 #include "core/dae/dae.hpp"
 #include "core/solve/balance_rounding.hpp"
 #include "core/solve/kinks.hpp"
+#include "core/solve/stop_chains.hpp"
 
 namespace rheonet {
 
@@ -143,6 +144,7 @@ class Tolerances {
   std::vector<NodeId> balanced_;          ///< of each deflection branch: the node whose balance tells its deflection, -1
   bool any_balanced_ = false;             ///< some do, or some dashpot is solved for its force
   bool any_solved_ = false;               ///< some dashpot is solved for its force
+  std::vector<StopChain> stop_chains_;    ///< in the present modes
   std::vector<double> stopping_;          ///< of each node: what a velocity may be wrong by for the force that stops it [m/s]
   std::vector<double> carried_seen_;                  ///< of each rate branch: the fastest that both its ends have been [m/s]
   std::vector<double> dashpot_rounding_;  ///< of each: what the rounding of velocities leaves of its force [N]

@@ -63,4 +63,24 @@ TEST_CASE("a pseudoplastic dashpot brings two masses to rest against each other"
   }
 }
 
+// In series two of the same exponent are one: w = (f/B1)^(1/n) + (f/B2)^(1/n).
+TEST_CASE("pseudoplastic dashpots in series bring a mass to rest") {
+  for (const double n : {0.35, 0.6}) {
+    const Stopping exact{n};
+    const double B1 = 1.7, B2 = std::pow(std::pow(B, -1 / n) - std::pow(B1, -1 / n), -n);
+    for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+      CAPTURE(n);
+      CAPTURE(accuracy);
+      SceneBuilder b;
+      b.at("m", "mass", "a", {{"mass", m}});
+      b.between("c1", "dashpot", "a", "b", {{"damping", B1}, {"flow_index", n}});
+      b.between("c2", "dashpot", "b", "ground", {{"damping", B2}, {"flow_index", n}});
+      b.start("a", 0.2, v0);
+      const Trajectory run = simulate(b.finish(1.2 * exact.at_rest(), 1000, accuracy));
+      for (const char* force : {"c1.force", "c2.force"}) check_against(run, {force, [&](double t) { return exact.force(t); }}, accuracy);
+      check_against(run, {"a.velocity", [&](double t) { return exact.velocity(t); }}, accuracy);
+    }
+  }
+}
+
 }  // namespace rheonet::test

@@ -40,4 +40,19 @@ TEST_CASE("forces beyond all numbers are told as such where nothing can slip") {
   CHECK_EQ(refused(peak, 0, 2), "at t = 1 s forces lie beyond the range of double precision; check the values of `m`, `push`");
 }
 
+TEST_CASE("a step in position whose shares rounding hides is told with the motion and the dashpots") {
+  const auto refusal_of = [](double thick, double thin) {
+    SceneBuilder b;
+    b.motion("m", "a", "position", Signal(Signal::Step{1.1, 0.3, 0}));
+    b.between("d1", "dashpot", "a", "b", {{"damping", thick}, {"flow_index", 3}});
+    b.between("d2", "dashpot", "b", "c", {{"damping", thin}, {"flow_index", 3}});
+    b.between("d3", "dashpot", "c", "ground", {{"damping", 1}, {"flow_index", 3}});
+    return attempt(b.finish(1, 10, 1e-6)).refusal;
+  };
+  CHECK_EQ(refusal_of(3, 2), "");
+  CHECK_EQ(refusal_of(1e300, 1e-300),
+           "at t = 0.3 s rounding hides how dashpots `d1`, `d2`, `d3` share the step in position of `m`: their values lie too far "
+           "apart; give the step a time to rise in");
+}
+
 }  // namespace rheonet::test
