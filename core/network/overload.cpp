@@ -25,7 +25,10 @@ void report_undecided(const Network& network, const std::string& what) {
   if (friction.empty()) {
     std::vector<std::string> all;
     for (const SceneElement& e : network.scene->elements) all.push_back(e.name);
-    throw SimulationError(fmt::format("{} forces lie beyond the range of double precision; check the values of {}", what, listed(all)));
+    throw SimulationError(fmt::format(
+        "{} it cannot be decided what moves which way: forces differ by rounding only, or lie beyond the range of double precision; "
+        "check the values of {}, or ask for another accuracy",
+        what, listed(all)));
   }
   throw SimulationError(fmt::format(
       "{} it cannot be decided what of {} slips: the forces there differ by rounding only; make their forces of sliding differ, "

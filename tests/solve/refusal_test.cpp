@@ -37,7 +37,9 @@ TEST_CASE("what changes too fast is told with all that has a part in it, at the 
 
 TEST_CASE("forces beyond all numbers are told as such where nothing can slip") {
   const Signal peak(Signal::Table{.times = {0, 1, 1.5}, .values = {0, 1e308, 0}, .time = 0, .offset = 0});
-  CHECK_EQ(refused(peak, 0, 2), "at t = 1 s forces lie beyond the range of double precision; check the values of `m`, `push`");
+  CHECK_EQ(refused(peak, 0, 2), 
+           "at t = 1 s it cannot be decided what moves which way: forces differ by rounding only, or lie beyond the range of double "
+           "precision; check the values of `m`, `push`, or ask for another accuracy");
 }
 
 TEST_CASE("a step in position whose shares rounding hides is told with the motion and the dashpots") {
