@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { netlist, number, redrawn, setUp, shows, slider, stickSlip } from './desk.mjs';
-import { accessible, bingham, done, rheonet, watched } from './support.mjs';
+import { accessible, bingham, done, rheonet, serve, watched } from './support.mjs';
 
 // A place that needs many digits, above a velocity of few.
 const wide = `[nodes]
@@ -281,4 +281,27 @@ test('names are broken between their words, and legends are no wider than their 
     .map((part) => part.getBoundingClientRect().right - chart.getBoundingClientRect().right).filter((over) => over > 0.5)));
   assert.deepEqual(wide, []);
   await close();
+});
+
+test('a run that is cut short shows what there is of it', async () => {
+  const hurried = await serve(desk.folder, '--time-limit', '1');
+  const context = await desk.chromium.newContext();
+  const { page, wrong } = await watched(context, hurried.origin);
+  await page.goto(`${hurried.origin}/#file=bingham.toml`);
+  await done(page);
+  await replaced(page, stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'every = "1e3 s"'));
+  await page.waitForFunction(() => /takes longer than the 1 s/.test(document.querySelector('.status').textContent));
+  assert.match(await page.textContent('h1'), /Stick and slip/);
+  await page.locator('.u-series', { hasText: 'block.position' }).waitFor();
+  await page.locator('details[data-name="Statistics"]').waitFor({ state: 'detached' });
+  for (const name of await page.locator('.sections summary').allTextContents()) await page.locator('.sections summary', { hasText: name }).first().click();
+  await page.locator('.explanation').waitFor();
+  assert.equal(await page.locator('details[data-name="Energy account"]').count(), 0);
+  // Or why there is nothing so far.
+  await replaced(page, stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'every = "1 s"'));
+  await page.locator('.no-curves').waitFor();
+  assert.match(await page.textContent('.no-curves'), /nothing to draw so far\. The run takes longer than the 1 s/);
+  assert.deepEqual(wrong, []);
+  await context.close();
+  await hurried.stop();
 });

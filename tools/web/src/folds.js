@@ -24,7 +24,7 @@ export class Folds {
       this.fold('What is simulated, and why', () => this.explanation()),
       this.fold('Equations', () => equationsOf(scene)),
       this.fold('Elements', () => elementsOf(scene)),
-      data.hasCurves ? this.fold('Energy account', () => energyOf(data, this.charts)) : null,
+      data.hasEnergy ? this.fold('Energy account', () => energyOf(data, this.charts)) : null,
       this.fold('Events', () => eventsOf(data)),
       done?.claims.length ? this.fold('Claims', () => claimsOf(data)) : null,
       done ? this.fold('Statistics', () => statisticsOf(data)) : null,

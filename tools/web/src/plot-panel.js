@@ -96,7 +96,7 @@ export class PlotPanel {
     this.body.replaceChildren();
     this.tools.replaceChildren();
     this.body.append(...this.failures.map(({ label, data }) => element('p', { class: 'note bad no-curves' },
-      `${label ? `${label}: there` : 'There'} is nothing to draw, as the run does not get beyond its start. `, inWords(sentence(data.failed.message)))));
+      `${label ? `${label}: there` : 'There'} is nothing to draw${data.failed.limit ? ' so far' : ', as the run does not get beyond its start'}. `, inWords(sentence(data.failed.message)))));
     if (!this.runs.length) return;
     const kind = kinds.find((known) => known.id === this.shownKind);
     if (kind.id === 'time') this.buildTime();

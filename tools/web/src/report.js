@@ -46,7 +46,7 @@ function sceneOf(data, k) {
     section('What is simulated, and why', explanationOf(data.explanation)),
     section('Elements', elementsOf(scene)),
     section('Equations', equationsOf(scene)),
-    data.hasCurves ? section('Energy account', energyOf(data)) : null,
+    data.hasEnergy ? section('Energy account', energyOf(data)) : null,
     section('Events', eventsOf(data)),
     section('Accuracy and its price', accuracyOf(data)),
     data.done ? section('Statistics', statisticsOf(data)) : null,

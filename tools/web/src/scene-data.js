@@ -52,6 +52,11 @@ export class SceneData {
     return this.time.length > 1 && this.time.at(-1) > this.time[0];
   }
 
+  // Of a run that was cut short nobody knows where its energy went.
+  get hasEnergy() {
+    return Boolean(this.energy) && this.energy.time.length > 1;
+  }
+
   column(path) {
     const k = this.index?.get(path);
     return k === undefined ? null : this.columns[k];
