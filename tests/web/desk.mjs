@@ -79,6 +79,19 @@ export async function shows(page, part, record, expected, tolerance = 1e-3) {
   assert.fail(`${record} is ${value}, expected ${expected}`);
 }
 
+// What is written on charts from now on: a function that gives the numbers in it so far.
+export async function numbersOnCanvas(page) {
+  await page.evaluate(() => {
+    const { fillText } = CanvasRenderingContext2D.prototype;
+    window.written = new Set();
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {
+      window.written.add(text);
+      return fillText.call(this, text, ...where);
+    };
+  });
+  return async () => (await page.evaluate(() => [...window.written])).map(Number).filter(Number.isFinite);
+}
+
 export const slider = (page, name) => page.locator(`[data-slider="${name}"] input[type="range"]`);
 export const number = (page, name) => page.locator(`[data-slider="${name}"] input[type="text"]`);
 export const netlist = (page) => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map((line) => line.textContent).join('\n'));

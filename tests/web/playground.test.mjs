@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { netlist, number, redrawn, setUp, shows, slider, stickSlip } from './desk.mjs';
+import { netlist, number, numbersOnCanvas, redrawn, setUp, shows, slider, stickSlip } from './desk.mjs';
 import { accessible, bingham, done, rheonet, serve, watched } from './support.mjs';
 
 // A place that needs many digits, above a velocity of few.
@@ -304,4 +304,19 @@ test('a run that is cut short shows what there is of it', async () => {
   assert.deepEqual(wrong, []);
   await context.close();
   await hurried.stop();
+});
+
+test('what is 0 all the time is drawn in the middle of an axis that has 0 in its middle', async () => {
+  const { page, close } = await open();
+  const written = await numbersOnCanvas(page);
+  const still = '[elements]\nk = { type = "spring", between = ["a", "ground"], stiffness = 1 }\nm = { type = "mass", at = "a", mass = 1 }\n[simulate]\nstop = "3 s"\nrecord = ["k.force"]\n';
+  await redrawn(page, () => replaced(page, still));
+  await page.locator('.u-series', { hasText: 'k.force' }).waitFor();
+  let numbers = await written();
+  assert.ok(numbers.includes(-1) && numbers.includes(1) && !numbers.includes(100), String(numbers));
+  await page.locator('.plot-head label', { hasText: 'Force against displacement' }).click();
+  await page.locator('.chart.loop').waitFor();
+  numbers = await written();
+  assert.ok(!numbers.includes(100), String(numbers));
+  await close();
 });

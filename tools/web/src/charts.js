@@ -39,6 +39,9 @@ function apart(_plot, _axis, min, max, length) {
 // A value that is read from a curve: three digits more than the height of what is shown.
 const read = (plot, scale, value, least) => spaced(value, (plot.scales[scale].max - plot.scales[scale].min) / 100, least);
 
+// What an axis shows of values from min to max: somewhat more. What is 0 all the time has its line in the middle.
+const shownOf = (min, max, more) => (min === 0 && max === 0 ? [-1, 1] : uPlot.rangeNum(min, max, more, true));
+
 const labelOf = (quantity, shown) => (shown.name ? `${quantity} [${shown.name}]` : quantity);
 
 // What charts have in common: they fill their host, and zoom by keys.
@@ -153,7 +156,7 @@ export class TimeChart extends Chart {
         width: Math.max(this.width(), 240),
         height,
         series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6)} s`) }, ...series],
-        scales: { x: { time: false } },
+        scales: { x: { time: false }, y: { range: (_, min, max) => shownOf(min, max, 0.1) } },
         axes: [axis(labelled ? 'time [s]' : undefined, { space: apart, size: labelled ? 36 : 28 }),
           axis(labelOf(quantity, this.shown), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
@@ -263,7 +266,7 @@ export class LoopChart extends Chart {
     this.sides = [x, y];
     this.curves = curves;
     this.findUnits();
-    const range = (_, min, max) => (log ? [min / 2, max * 2] : uPlot.rangeNum(min, max, 0.08, true));
+    const range = (_, min, max) => (log ? [min / 2, max * 2] : shownOf(min, max, 0.08));
     const scale = { time: false, range, distr: log ? 3 : 1 };
     const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map((v) => number(v, 2)) } : {};
     this.plot = new uPlot(
