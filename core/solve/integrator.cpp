@@ -54,6 +54,8 @@ struct Integrator::Implementation {
   bool locate = true;
   Statistics past;  // of the stretches before the last restart
   bool started = false;
+  long rejected = 0;    // error tests failed since the restart
+  int grown_back = 0;   // steps in a row whose length was tried larger, and went back
 
   Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
                  const Options& options)
@@ -217,6 +219,24 @@ struct Integrator::Implementation {
     require(IDASetStopTime(ida, stop - lost), "IDASetStopTime");
   }
 
+  /// After a step. IDA raises the order after a few steps of one length, and doubles the length of a step whose error is small.
+  /// Where the error of what is stiff goes with a change of that length, each doubling is rejected, and the order would be 1
+  /// for good. Then no length is doubled until the order has gone up.
+  void rise() {
+    constexpr int enough = 6;
+    constexpr double growth = 2, none = 1e6;  // IDA's own: steps grow where they may by that
+    int order = 0;
+    long failures = 0;
+    IDAGetLastOrder(ida, &order);
+    IDAGetNumErrTestFails(ida, &failures);
+    const bool back = order == 1 && failures > rejected;
+    rejected = failures;
+    const bool was_held = grown_back >= enough;
+    grown_back = back || (was_held && order == 1 && grown_back < 4 * enough) ? grown_back + 1 : 0;
+    const bool held = grown_back >= enough;
+    if (held != was_held) require(IDASetEtaFixedStepBounds(ida, 1, held ? none : growth), "IDASetEtaFixedStepBounds");
+  }
+
   /// Whether the last step has gone over an event, and which.
   bool passed() {
     functions.resize(fired.size());
@@ -280,6 +300,7 @@ void Integrator::restart(double t, const std::vector<double>& y, const std::vect
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
   require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
   s.started = true;
+  s.rejected = 0;
 }
 
 Integrator::Outcome Integrator::step() {
@@ -288,6 +309,7 @@ Integrator::Outcome Integrator::step() {
   double reached = s.time;
   const int flag = IDASolve(s.ida, s.stop, &reached, s.ny, s.np, IDA_ONE_STEP);
   if (flag == IDA_SUCCESS) s.keep_time();
+  if (flag >= 0) s.rise();
   if (flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN) s.time = reached + s.lost;
   if (flag == IDA_TSTOP_RETURN) s.time = s.stop;
   if ((flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN) && !s.locate && s.passed()) return Outcome::event;

@@ -136,6 +136,25 @@ stop = 3
 output = { points = 61 }
 record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
 )"},
+    {"a small viscous force between masses and friction, all of it on the move", R"([elements]
+e1 = { type = "sfm", between = ["n0", "ground"], stiffness = 52, coulomb = 1.92, exponent = 3 }
+e2 = { type = "sfm", between = ["n0", "ground"], stiffness = 313, coulomb = 0.312, exponent = 1 }
+e3 = { type = "sfm", between = ["n1", "n0"], stiffness = 89.2, coulomb = 0.197, exponent = 0 }
+e4 = { type = "sfm", between = ["n1", "n0"], stiffness = 31.2, coulomb = 0.934, exponent = 0 }
+e5 = { type = "vfm", between = ["n2", "n1"], damping = 0.332, stiffness = 595 }
+e6 = { type = "cfm", between = ["n3", "n2"], stiffness = 223, coulomb = 0.595, damping = 5.74, exponent = 1 }
+e7 = { type = "slider", between = ["n3", "n2"], coulomb = 0.748 }
+e8 = { type = "sfm", between = ["n2", "n1"], stiffness = 28.4, coulomb = 1.67, exponent = 0 }
+e9 = { type = "vfm", between = ["n3", "n2"], damping = 0.602, stiffness = 562 }
+e10 = { type = "vfm", between = ["n1", "ground"], damping = 15.1, stiffness = 67.8 }
+m11 = { type = "mass", at = "n2", mass = 0.119 }
+m12 = { type = "mass", at = "n3", mass = 4.22 }
+f = { type = "force", at = "n1", force = { ramp = 0.777 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "e9.force", "e10.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
 };
 
 }  // namespace
