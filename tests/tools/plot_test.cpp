@@ -215,6 +215,18 @@ TEST_CASE("the figure of a run has a file of its own") {
   CHECK_FALSE(folder.has("a.svg"));
 }
 
+TEST_CASE("a figure does not overwrite what it is drawn from") {
+  const Folder folder(scene);
+  folder.write("scene.svg", scene);
+  CHECK(folder.shell("rheonet run -q scene.svg -o rows.csv --plot ./scene.svg", 2).err ==
+        "error: `--plot ./scene.svg` would overwrite the scene itself\n");
+  CHECK(folder.shell("rheonet precision scene.svg --plot scene.svg", 2).err ==
+        "error: `--plot scene.svg` would overwrite the scene itself\n");
+  CHECK(folder.shell("rheonet plot scene.svg -o ./scene.svg", 2).err ==
+        "error: `--output ./scene.svg` would overwrite what it draws, `scene.svg`\n");
+  CHECK(folder.read("scene.svg") == scene);
+}
+
 TEST_CASE("a .png is made by rsvg-convert; without it plot says so") {
   const Folder folder(scene);
   folder.shell("rheonet plot scene.toml -o a.png", 0);

@@ -15,14 +15,26 @@ drive_of_the_place = { type = "motion", at = "a_place_that_is_far_from_the_origi
 stop = 1
 record = ["a_place_that_is_far_from_the_origin_of_all.position", "a_place_that_is_far_from_the_origin_of_all.velocity"]
 `;
-const desk = setUp({ 'bingham.toml': bingham, 'more/stick-slip.toml': stickSlip, 'wide.toml': wide });
+// One whose rows come in many parts, beside a place that tells how far the run has come.
+const slow = `[elements]
+shaker = { type = "motion", at = "a", velocity = { sine = "1 m/s", frequency = "300 Hz" } }
+spring = { type = "spring", between = ["a", "b"], stiffness = 1e5 }
+block = { type = "slider", between = ["b", "ground"], coulomb = "1 N" }
+mass = { type = "mass", at = "b", mass = "10 g" }
+clock = { type = "motion", at = "hand", velocity = "1 m/s" }
+[simulate]
+stop = 3
+output = { every = "0.2 ms" }
+record = ["spring.force", "hand.position"]
+`;
+const desk = setUp({ 'bingham.toml': bingham, 'slow.toml': slow, 'more/stick-slip.toml': stickSlip, 'wide.toml': wide });
 const { open } = desk;
 
 test('the gallery shows the netlists of the folder, and opens one', async () => {
   const { page, close } = await open('');
   await page.waitForSelector('dialog.gallery[open] .card svg');
-  assert.deepEqual(await page.locator('.card-title').allTextContents(), ['Bingham element', 'wide.toml', 'Stick and slip']);
-  assert.match(await page.locator('.card').nth(2).textContent(), /A block that is pulled through a spring/);
+  assert.deepEqual(await page.locator('.card-title').allTextContents(), ['Bingham element', 'slow.toml', 'wide.toml', 'Stick and slip']);
+  assert.match(await page.locator('.card').nth(3).textContent(), /A block that is pulled through a spring/);
   await accessible(page, 'gallery');
   await page.locator('.gallery input').fill('stick');
   assert.equal(await page.locator('.card:visible').count(), 1);
@@ -47,6 +59,20 @@ test('a mistake is marked where it is, and what was there stays', async () => {
   assert.ok(await page.locator('.plots .chart canvas').count());
   await redrawn(page, () => page.keyboard.press('Control+z'));
   assert.equal(await page.locator('.mistake, .cm-lintRange-error, .plots.stale').count(), 0);
+  await close();
+});
+
+test('a run whose rows come in parts is shown to its end', async () => {
+  const { page, close } = await open('#file=slow.toml');
+  await shows(page, 0.999, 'hand.position', 2.997, 5e-3);
+  await page.locator('.plots .chart').first().focus();
+  await page.keyboard.press('+');
+  await redrawn(page, async () => {
+    await number(page, 'spring.stiffness').fill('9e4');
+    await number(page, 'spring.stiffness').press('Enter');
+  });
+  // Zoomed in, the part that was looked at stays.
+  await shows(page, 0.999, 'hand.position', 2.25, 0.1);
   await close();
 });
 

@@ -210,3 +210,19 @@ test('a report of a run that fails at its start says so where its curves would b
   assert.deepEqual(wrong, []);
   await context.close();
 });
+
+test('of two scenes nothing is compared that has different units', async () => {
+  const line = `[elements]
+pull = { type = "motion", at = "a", velocity = "1 m/s" }
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 7 }
+[simulate]
+stop = 1
+record = ["k1.force"]
+`;
+  writeFileSync(join(folder, 'line.toml'), line);
+  await rheonet(['report', 'stiff.toml', 'line.toml', '-o', 'units.html'], { cwd: folder });
+  const { context, page, wrong } = await open('units.html');
+  await page.locator('.note', { hasText: 'The scenes record nothing under the same name and in the same unit.' }).waitFor();
+  assert.deepEqual(wrong, []);
+  await context.close();
+});

@@ -163,6 +163,10 @@ ExitStatus draw(const Arguments& arguments) {
   const std::vector<Wanted> wanted = wanted_curves(plot);
   const bool alone = arguments.scenes.size() == 1;
   std::vector<std::unique_ptr<PlotSource>> sources;
+  std::error_code error;
+  for (const std::string& file : arguments.scenes)
+    if (std::filesystem::equivalent(file, arguments.output, error))
+      throw Mistake(fmt::format("`--output {}` would overwrite what it draws, `{}`", printable(arguments.output), printable(file)));
   for (const std::string& file : arguments.scenes)
     sources.push_back(open_plot_source(file, arguments, records_of(wanted, plot.x), !alone));
   std::vector<std::vector<plot::ColumnPair>> pairs;

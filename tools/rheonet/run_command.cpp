@@ -90,7 +90,8 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (!read.scene) return wrong_input;
   const bool drawn = !arguments.figure.empty();
   if (drawn && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
-  if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources))
+  if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources) ||
+      is_source(arguments.figure, "--plot", read.sources))
     return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();

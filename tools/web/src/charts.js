@@ -175,8 +175,12 @@ export class TimeChart extends Chart {
   data() {
     const scaled = (values) => (this.shown.factor === 1 ? values : values.map((value) => value / this.shown.factor));
     const times = new Set(this.curves.map((curve) => curve.time));
-    if (times.size <= 1) return [this.curves[0]?.time ?? [], ...this.curves.map((curve) => scaled(curve.values))];
-    return joined(this.curves.map((curve) => [curve.time, scaled(curve.values)]));
+    const data = times.size <= 1
+      ? [this.curves[0]?.time ?? [], ...this.curves.map((curve) => scaled(curve.values))]
+      : joined(this.curves.map((curve) => [curve.time, scaled(curve.values)]));
+    // The times of a run that goes on grow in place.
+    this.span = data[0].length ? [data[0][0], data[0].at(-1)] : null;
+    return data;
   }
 
   // New values in place of the old ones; the zoom stays.
@@ -190,11 +194,10 @@ export class TimeChart extends Chart {
     if (!whole) this.plot.redraw();
   }
 
-  // All of the time is shown.
+  // All of the time is shown that there was when it was last drawn.
   full() {
     const { min, max } = this.plot.scales.x;
-    const x = this.plot.data[0];
-    return !(x.length && (min > x[0] || max < x[x.length - 1]));
+    return !(this.span && (min > this.span[0] || max < this.span[1]));
   }
 
   follow(plot) {

@@ -42,11 +42,12 @@ export function differencesOf(runs) {
   const rows = [];
   for (const { label, data } of others)
     for (const { path, unit } of first.data.records.slice(0, first.data.scene.own_records)) {
+      if (unit !== data.records.find((record) => record.path === path)?.unit) continue;
       if (!data.column(path) || !first.data.time.length || !data.time.length) continue;
       const { largest, at, scale, rms } = difference(first.data, data, path);
       rows.push([`${first.label} – ${label}`, element('code', {}, path), withUnit(largest, unit), scale > 0 ? number(largest / scale, 3) : '0',
         largest > 0 ? `${number(at)}\u00a0s` : '–', withUnit(rms, unit)]);
     }
-  if (!rows.length) return element('p', { class: 'note' }, 'The scenes record nothing under the same name.');
+  if (!rows.length) return element('p', { class: 'note' }, 'The scenes record nothing under the same name and in the same unit.');
   return table(['scenes', 'record', 'largest difference', 'relative', 'at', 'root mean square'], rows, 'Differences');
 }
