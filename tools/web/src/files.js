@@ -49,8 +49,9 @@ export class Files {
       const { scenes, plots } = await decode(value);
       this.desk.begin({ scenes: scenes.slice(0, 2).map(({ text, file }) => ({ text: String(text), file: String(file) })), plots });
       return true;
-    } catch (error) {
-      this.desk.notify(`The link cannot be read: ${error.message}`);
+    } catch {
+      // What the browser says of it (of characters and compression) helps nobody.
+      this.desk.notify('The link cannot be read: a part of it is missing, or was changed on its way. Ask for it once more.');
       return false;
     }
   }
