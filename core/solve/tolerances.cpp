@@ -143,6 +143,12 @@ void Tolerances::find_gaps() {
 }
 
 void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
+  longest_.resize(part_.size(), 0);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (quantity_[i].sort != Sort::deflection) continue;
+    double& longest = longest_[at(part_of(dae_->structure().deflections[quantity_[i].index]))];
+    longest = std::max(longest, std::abs(y[i]));
+  }
   for (std::size_t i = 0; i < y.size(); ++i) seen(quantity_[i]) = std::max(seen(quantity_[i]), std::abs(y[i]));
   const Structure& structure = dae_->structure();
   const auto meet = [&](const Branch& b, double w) {
@@ -307,6 +313,10 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   }
   if (q.sort == Sort::velocity && dae_->structure().mass[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
   if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
+  if (q.sort == Sort::position) {
+    // The motion of what hangs on springs and friction comes of theirs, which are rounded.
+    tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
+  }
   const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
   tolerance = std::max(tolerance, drift.velocity * std::min(t - begin_, drift.lasting));
   // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.

@@ -131,6 +131,7 @@ class Tolerances {
   std::vector<double> place_seen_, way_seen_;
   std::vector<char> has_gap_;                         ///< of each node: it has one at present
   std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
+  std::vector<double> longest_;                       ///< of each part: its longest deflection so far [m]
   std::vector<char> jitters_;                         ///< of each unknown: with the rounding of time
   std::vector<double> rounding_;                      ///< of each unknown: what rounding leaves of it where it is 0
   /// That of a velocity, and how long it adds up in what comes of it [s].
