@@ -23,80 +23,6 @@ double speed_at(const Dae::View& view, const Branch& b) {
   return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
 }
 
-/// How well forces are known that balance others [N]: as well as all the others at a node where they are the only one that is
-/// not told by a law of its own.
-class BalancedForces {
- public:
-  explicit BalancedForces(const Structure& structure) : nodes_(structure.kind.size()) {
-    // A momentum, or what moves as it is told to, takes any force.
-    for (std::size_t n = 0; n < nodes_.size(); ++n) nodes_[n].any = structure.kind[n] == Kind::known || structure.mass[n] > 0;
-  }
-
-  void add_told(const Branch& b, double noise) {
-    if (b.a == b.b) return;
-    nodes_[at(b.a)].noise += noise;
-    nodes_[at(b.b)].noise += noise;
-  }
-  void add(const Branch& b) {
-    const int index = static_cast<int>(forces_.size());
-    forces_.push_back({b, 0, b.a == b.b});
-    if (b.a == b.b) return;
-    for (const NodeId node : {b.a, b.b}) {
-      nodes_[at(node)].forces.push_back(index);
-      ++nodes_[at(node)].open;
-    }
-  }
-  /// Follows every balance as far as it tells something.
-  void find() {
-    for (std::size_t n = 0; n < nodes_.size(); ++n) look_at(static_cast<NodeId>(n));
-    follow();
-  }
-  bool found(std::size_t force) const { return forces_[force].found; }
-  double noise(std::size_t force) const { return forces_[force].noise; }
-  /// The same from what is known of one more.
-  void tell(std::size_t force, double noise) {
-    settle(forces_[force], noise);
-    follow();
-  }
-
- private:
-  struct Force { Branch ends; double noise; bool found; };
-  struct Node {
-    double noise = 0;         ///< of the forces that are told or found
-    int open = 0;             ///< the others
-    bool any = false;
-    std::vector<int> forces;  ///< all that had to be found
-  };
-
-  void look_at(NodeId node) {
-    if (!nodes_[at(node)].any && nodes_[at(node)].open == 1) next_.push_back(node);
-  }
-  void settle(Force& force, double noise) {
-    force.noise = noise;
-    force.found = true;
-    for (const NodeId node : {force.ends.a, force.ends.b}) {
-      nodes_[at(node)].noise += noise;
-      --nodes_[at(node)].open;
-      look_at(node);
-    }
-  }
-  void follow() {
-    while (!next_.empty()) {
-      const Node& node = nodes_[at(next_.back())];
-      next_.pop_back();
-      for (const int f : node.forces) {
-        if (forces_[at(f)].found) continue;
-        settle(forces_[at(f)], node.noise);
-        break;
-      }
-    }
-  }
-
-  std::vector<Node> nodes_;
-  std::vector<Force> forces_;
-  std::vector<NodeId> next_;
-};
-
 }  // namespace
 
 /// The parts of the network that known nodes keep from each other: the noise of one does not reach the others.
@@ -292,52 +218,74 @@ void Tolerances::find_difference_rounding(const Dae::View& view) {
 /// A force that is an unknown balances others: it cannot be known better than they are. The same of the deflection of what is
 /// held still, which may take any force. Where no balance tells the force of a dashpot it follows from a velocity, and has the
 /// rounding of that.
-void Tolerances::loosen_balanced_forces() {
+void Tolerances::find_balances() {
+  followers_.clear();
   if (!any_balanced_) return;
   const Structure& structure = dae_->structure();
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  BalancedForces forces(structure);
-  struct Follower { int unknown; double per_unit, most; };
-  std::vector<Follower> followers;
-  std::vector<double> of_velocity;  // of those that are forces of dashpots
+  std::vector<Branch> open;
   for (std::size_t r = 0; r < structure.rates.size(); ++r) {
-    const int unknown = dae_->force_unknown(static_cast<int>(r));
-    if (unknown < 0) {
-      forces.add_told(structure.rates[r], dashpot_rounding_[r]);
-    } else {
-      forces.add(structure.rates[r]);
-      followers.push_back({unknown, 1, infinite});
-      of_velocity.push_back(dashpot_rounding_[r]);
-    }
+    if (dae_->force_unknown(static_cast<int>(r)) < 0) continue;
+    followers_.push_back({Sort::force, r, false});
+    open.push_back(structure.rates[r]);
   }
-  const std::vector<double>& slope = dae_->slopes();
-  std::vector<double> way(structure.kind.size(), 0);  // of each node: the longest of the deflections there [m]
+  const std::size_t dashpots = open.size();
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const double seen = seen_[static_cast<std::size_t>(Sort::deflection)][j];
-    for (const NodeId node : {structure.deflections[j].a, structure.deflections[j].b}) way[at(node)] = std::max(way[at(node)], seen);
-  }
-  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
-    if (unknown < 0) continue;
-    const double stiffness = std::abs(slope[j]);
+    if (dae_->deflection_unknown(static_cast<int>(j)) < 0) continue;
     std::size_t i = 0;
     const bool held = network_.batch_of(static_cast<int>(j), i).holds(i);
-    if (balanced_[j] < 0 && !held) {
-      forces.add_told(structure.deflections[j], stiffness * tolerance_[at(unknown)]);
-    } else {
-      forces.add(structure.deflections[j]);
-      // Where friction has hardly any slope it is its deflection that places its end.
-      const double most = held ? infinite : local() * way[at(balanced_[j])];
-      followers.push_back({unknown, stiffness > 0 ? 1 / stiffness : 0, most});
+    if (balanced_[j] < 0 && !held) continue;
+    followers_.push_back({Sort::deflection, j, held});
+    open.push_back(structure.deflections[j]);
+  }
+  balanced_forces_.attach(structure, std::move(open), dashpots);
+}
+
+void Tolerances::loosen_balanced_forces(const std::vector<double>& slope) {
+  if (followers_.empty()) return;
+  const Structure& structure = dae_->structure();
+  balanced_forces_.begin();
+  for (std::size_t r = 0; r < structure.rates.size(); ++r) {
+    if (dae_->force_unknown(static_cast<int>(r)) < 0) balanced_forces_.add_told(structure.rates[r], dashpot_rounding_[r]);
+  }
+  const std::vector<double>& seen = seen_[static_cast<std::size_t>(Sort::deflection)];
+  longest_at_.assign(structure.kind.size(), 0);
+  std::size_t next = 0;  // of the followers, which are in the order of their branches
+  while (next < followers_.size() && followers_[next].sort == Sort::force) ++next;
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    const Branch& b = structure.deflections[j];
+    for (const NodeId node : {b.a, b.b}) longest_at_[at(node)] = std::max(longest_at_[at(node)], seen[j]);
+    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    if (next < followers_.size() && followers_[next].index == j) {
+      ++next;
+    } else if (unknown >= 0) {
+      balanced_forces_.add_told(b, std::abs(slope[j]) * tolerance_[at(unknown)]);
     }
   }
-  forces.find();
-  for (std::size_t k = 0; k < of_velocity.size(); ++k) {
-    if (!forces.found(k)) forces.tell(k, of_velocity[k]);
+  balanced_forces_.find([&](std::size_t k) { return dashpot_rounding_[followers_[k].index]; });
+  for (std::size_t k = 0; k < followers_.size(); ++k) {
+    const Follower& f = followers_[k];
+    const double noise = balanced_forces_.noise(k);
+    if (f.sort == Sort::force) {
+      double& tolerance = tolerance_[at(dae_->force_unknown(static_cast<int>(f.index)))];
+      tolerance = std::max(tolerance, noise);
+    } else if (slope[f.index] != 0) {
+      double& tolerance = tolerance_[at(dae_->deflection_unknown(static_cast<int>(f.index)))];
+      const double all = noise / std::abs(slope[f.index]);
+      // Where friction has hardly any slope it is its deflection that places its end.
+      tolerance = std::max(tolerance, f.held ? all : std::min(all, local() * longest_at_[at(balanced_[f.index])]));
+    }
   }
-  for (std::size_t k = 0; k < followers.size(); ++k) {
-    double& tolerance = tolerance_[at(followers[k].unknown)];
-    if (forces.found(k)) tolerance = std::max(tolerance, std::min(followers[k].most, followers[k].per_unit * forces.noise(k)));
+}
+
+/// Of the deflections of each part, of which the motion comes of what hangs there.
+void Tolerances::find_longest() {
+  const Structure& structure = dae_->structure();
+  const std::vector<double>& seen = seen_[static_cast<std::size_t>(Sort::deflection)];
+  longest_.assign(part_.size(), 0);
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    if (dae_->deflection_unknown(static_cast<int>(j)) < 0) continue;
+    double& longest = longest_[at(part_of(structure.deflections[j]))];
+    longest = std::max(longest, seen[j]);
   }
 }
 

@@ -14,9 +14,6 @@ namespace rheonet {
 
 namespace {
 
-// A quantity this much smaller than the largest of its kind is still resolved as it is asked for: a nanometre beside metres
-// is no noise.
-constexpr double floor_of_kind = 1e-8;
 // What moves along with others is resolved as it moves beside them, down to this share of how they move together and to so
 // many roundings of that: nearer to rounding a step is rejected for nothing.
 constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
@@ -25,8 +22,6 @@ constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains =
 constexpr double least_distance = 1e-7, distance_grains = 64;
 // A position is allowed no more than so many times its own share for the sake of its velocity.
 constexpr double most_of_velocity = 10;
-// The largest share of the tolerance that a reversal's velocity may hide in.
-constexpr double noise_share = 0.1;
 // Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
 // prediction is made of are each rounded by one. (Fewer than in time_grain.hpp, within which two times are one: what
 // changes faster is to be seen.)
@@ -35,10 +30,6 @@ constexpr double time_grains = 8;
 constexpr double value_grains = 4;
 // Roundings of the balance that a deflection follows from that a step may be off by.
 constexpr double balance_grains = 4;
-// What a slider that sticks may have to bear above its bound for errors of steps, in shares of that.
-constexpr double slip_share = 10;
-// Rounding of a velocity that is a given function of time.
-constexpr double given_noise = 1e-13;
 
 }  // namespace
 
@@ -143,12 +134,6 @@ void Tolerances::find_gaps() {
 }
 
 void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
-  longest_.resize(part_.size(), 0);
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    if (quantity_[i].sort != Sort::deflection) continue;
-    double& longest = longest_[at(part_of(dae_->structure().deflections[quantity_[i].index]))];
-    longest = std::max(longest, std::abs(y[i]));
-  }
   for (std::size_t i = 0; i < y.size(); ++i) seen(quantity_[i]) = std::max(seen(quantity_[i]), std::abs(y[i]));
   const Structure& structure = dae_->structure();
   const auto meet = [&](const Branch& b, double w) {
@@ -209,20 +194,15 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   see(y, view);
   find_rounding(view);
   find_difference_rounding(view);
-  if (!balance_rounding_.none()) balance_rounding_.find(view, dae_->slopes());
   find_stopping(view);
+  find_balances();
   step_ = 0;
-  update(t, yp);
+  update(t, yp, view);
 }
 
 void Tolerances::forget() {
   ahead_ = 0;
   for (std::vector<double>& sort : foreseen_) std::fill(sort.begin(), sort.end(), 0.0);
-}
-
-double Tolerances::force_noise(int rate) const {
-  const double noise = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
-  return std::max(noise, std::numeric_limits<double>::min());
 }
 
 double Tolerances::local() const { return kinks_.dense() ? dense_ : relative_; }
@@ -235,10 +215,9 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   reached_ = t;
   find_dashpot_rounding(view);
   find_rounding_now(view);
-  if (!balance_rounding_.none()) balance_rounding_.find(view, dae_->slopes());
   kinks_.follow(*dae_, view);
   find_stopping(view);
-  update(t, yp);
+  update(t, yp, view);
 }
 
 /// Scales of the kinds of which nothing is to be seen yet, even to second order in time: what the drive makes of them in
@@ -263,8 +242,7 @@ Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest
 }
 
 /// Of each sort the largest that has been seen or is foreseen; of forces those of all elements, and what is applied.
-Tolerances::Scales Tolerances::find_largest() {
-  const std::vector<double>& slope = dae_->slopes();
+Tolerances::Scales Tolerances::find_largest(const std::vector<double>& slope) {
   Scales largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
   double force = applied_force_;
@@ -280,7 +258,7 @@ Tolerances::Scales Tolerances::find_largest() {
 }
 
 /// 0 where nothing has been seen of it.
-double Tolerances::scale_of(const Quantity& q, const Scales& largest, const LeastShares& least) {
+double Tolerances::scale_of(const Quantity& q, const Scales& largest, const LeastShares& least, const std::vector<double>& slope) {
   double scale = seen(q);
   const auto resolve = [&](double beside, double share) {
     if (beside > 0) scale = std::min(scale, std::max(share * scale, beside));
@@ -295,7 +273,7 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
   if (q.sort != Sort::deflection) return scale;
   // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
-  const double stiffness = std::abs(dae_->slopes()[q.index]);
+  const double stiffness = std::abs(slope[q.index]);
   const double own = std::max(force_seen_[q.index], stiffness * foreseen_of(q));
   const double by_force = std::max(own, floor_of_kind * largest[static_cast<std::size_t>(Sort::force)]);
   return by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale;
@@ -323,10 +301,13 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   if (q.sort == Sort::deflection || q.sort == Sort::position) tolerance = std::max(tolerance, relative_ * largest_velocity * ahead_);
 }
 
-void Tolerances::update(double t, const std::vector<double>& yp) {
+void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View& view) {
+  const std::vector<double>& slope = dae_->slopes();
+  if (!balance_rounding_.none()) balance_rounding_.find(view, slope);
+  find_longest();
   // Time itself is known to half a unit in the last place; what changes with it meanwhile cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
-  const Scales largest = find_largest();
+  const Scales largest = find_largest(slope);
   largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
   const auto least_share = [&](double least, double grains) {
     return std::max(least, grains * std::numeric_limits<double>::epsilon() / local());
@@ -336,7 +317,7 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
                           .way = least_share(least_distance, distance_grains)};
   std::optional<Scales> to_come;  // mostly not asked for
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
-    double scale = scale_of(quantity_[i], largest, least);
+    double scale = scale_of(quantity_[i], largest, least, slope);
     if (scale == 0) {
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
@@ -349,8 +330,8 @@ void Tolerances::update(double t, const std::vector<double>& yp) {
   };
   unresolved_ = {.pseudoplastic = unresolved(plain_rounding_), .dilatant = unresolved(rounding_at_rest_)};
   loosen_positions();
-  loosen_balanced_forces();
-  find_noise();
+  loosen_balanced_forces(slope);
+  find_noise(slope);
 }
 
 /// A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.
@@ -361,49 +342,6 @@ void Tolerances::loosen_positions() {
     const int of = dae_->velocity_unknown(static_cast<NodeId>(q.index));
     const double most = most_of_velocity * local() * seen(q);
     if (of >= 0) tolerance_[i] = std::max(tolerance_[i], std::min(most, step_ * tolerance_[at(of)]));
-  }
-}
-
-/// A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
-void Tolerances::find_noise() {
-  const Structure& structure = dae_->structure();
-  const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
-    const double unresolved =
-        given ? given_noise * flow
-              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_),
-                          rounding_at_rest_[at(part_of(b))], of_difference});
-    // More than nothing: an event function that begins at 0 would never be seen to fall through it.
-    return std::max(unresolved, std::numeric_limits<double>::min());
-  };
-  for (std::size_t j = 0; j < noise_.size(); ++j) {
-    noise_[j] = noise(given_[j] != 0, flow_seen_[j], structure.deflections[j], difference_rounding_[j]);
-  }
-  for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
-    slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
-  }
-  find_slip_noise();
-}
-
-/// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the
-/// first step, which is of that order, would let it slip.
-void Tolerances::find_slip_noise() {
-  if (slip_noise_.empty()) return;
-  const Structure& structure = dae_->structure();
-  const std::vector<double>& slope = dae_->slopes();
-  held_noise_.assign(structure.kind.size(), 0);
-  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
-    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
-    if (unknown < 0 || structure.deflections[j].a == structure.deflections[j].b) continue;
-    const double noise = std::abs(slope[j]) * tolerance_[at(unknown)];
-    for (const NodeId node : {network_.deflections[j].a, network_.deflections[j].b}) held_noise_[at(held_[at(node)])] += noise;
-  }
-  // What moves as it is told to takes any force.
-  const auto noise_at = [&](NodeId node) { return structure.kind[at(node)] == Kind::known ? 0 : held_noise_[at(held_[at(node)])]; };
-  for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
-    const Branch& b = network_.sliders[k].branch;
-    const double bound = network_.sliders[k].law.breakaway;
-    const double noise = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
-    slip_noise_[k] = std::isfinite(bound) ? std::min(noise, slip_share * local() * bound) : 0;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/dae/dae.hpp"
 #include "core/solve/balance_rounding.hpp"
+#include "core/solve/balanced_forces.hpp"
 #include "core/solve/kinks.hpp"
 #include "core/solve/stop_chains.hpp"
 
@@ -60,6 +61,9 @@ class Tolerances {
  private:
   enum class Sort : char { velocity, deflection, force, position, block };
   static constexpr std::size_t sorts = 5;
+  /// A quantity this much smaller than the largest of its kind is still resolved as it is asked for: a nanometre beside metres
+  /// is no noise.
+  static constexpr double floor_of_kind = 1e-8;
   /// What an unknown stands for: the velocity or position of a node, the deflection or force of a branch, a block's state.
   struct Quantity { Sort sort; std::size_t index; };
   double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
@@ -78,10 +82,11 @@ class Tolerances {
   /// The least shares of their own size to which velocities and positions are resolved beside others, and of the way of two
   /// nodes the distance between them.
   struct LeastShares { double velocity, position, way; };
-  Scales find_largest();
-  double scale_of(const Quantity& q, const Scales& largest, const LeastShares& least);
+  // `slope`: of all deflection branches, df/dp [N/m].
+  Scales find_largest(const std::vector<double>& slope);
+  double scale_of(const Quantity& q, const Scales& largest, const LeastShares& least, const std::vector<double>& slope);
   void bear_noise(std::size_t i, double t, double jitter, double largest_velocity);
-  void update(double t, const std::vector<double>& yp);
+  void update(double t, const std::vector<double>& yp, const Dae::View& view);
   void find_parts();
   void find_jitter();
   struct Loads;
@@ -89,9 +94,11 @@ class Tolerances {
   void find_rounding(const Dae::View& view);
   int part_of(const Branch& b) const;
   void loosen_positions();
-  void loosen_balanced_forces();
-  void find_noise();
-  void find_slip_noise();
+  void find_longest();
+  void find_balances();
+  void loosen_balanced_forces(const std::vector<double>& slope);
+  void find_noise(const std::vector<double>& slope);
+  void find_slip_noise(const std::vector<double>& slope);
   void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
   void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
@@ -145,6 +152,11 @@ class Tolerances {
   std::vector<NodeId> balanced_;          ///< of each deflection branch: the node whose balance tells its deflection, -1
   bool any_balanced_ = false;             ///< some do, or some dashpot is solved for its force
   bool any_solved_ = false;               ///< some dashpot is solved for its force
+  /// The branch of a force or a deflection that follows from a balance; one that is held still may take any.
+  struct Follower { Sort sort; std::size_t index; bool held; };
+  std::vector<Follower> followers_;       ///< dashpots first, then deflections
+  BalancedForces balanced_forces_;        ///< of the followers
+  std::vector<double> longest_at_;        ///< of each node: the longest of the deflections there so far [m]
   std::vector<StopChain> stop_chains_;    ///< in the present modes
   std::vector<double> stopping_;          ///< of each node: what a velocity may be wrong by for the force that stops it [m/s]
   std::vector<double> carried_seen_;                  ///< of each rate branch: the fastest that both its ends have been [m/s]

@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/network/index.hpp"
+#include "core/solve/tolerances.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// The largest share of the tolerance that a reversal's velocity may hide in.
+constexpr double noise_share = 0.1;
+// What a slider that sticks may have to bear above its bound for errors of steps, in shares of that.
+constexpr double slip_share = 10;
+// Rounding of a velocity that is a given function of time.
+constexpr double given_noise = 1e-13;
+
+}  // namespace
+
+double Tolerances::force_noise(int rate) const {
+  const double noise = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
+  return std::max(noise, std::numeric_limits<double>::min());
+}
+
+/// A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
+void Tolerances::find_noise(const std::vector<double>& slope) {
+  const Structure& structure = dae_->structure();
+  const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
+    const double unresolved =
+        given ? given_noise * flow
+              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_),
+                          rounding_at_rest_[at(part_of(b))], of_difference});
+    // More than nothing: an event function that begins at 0 would never be seen to fall through it.
+    return std::max(unresolved, std::numeric_limits<double>::min());
+  };
+  for (std::size_t j = 0; j < noise_.size(); ++j) {
+    noise_[j] = noise(given_[j] != 0, flow_seen_[j], structure.deflections[j], difference_rounding_[j]);
+  }
+  for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
+    slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
+  }
+  find_slip_noise(slope);
+}
+
+/// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the
+/// first step, which is of that order, would let it slip.
+void Tolerances::find_slip_noise(const std::vector<double>& slope) {
+  if (slip_noise_.empty()) return;
+  const Structure& structure = dae_->structure();
+  held_noise_.assign(structure.kind.size(), 0);
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    if (unknown < 0 || structure.deflections[j].a == structure.deflections[j].b) continue;
+    const double noise = std::abs(slope[j]) * tolerance_[at(unknown)];
+    for (const NodeId node : {network_.deflections[j].a, network_.deflections[j].b}) held_noise_[at(held_[at(node)])] += noise;
+  }
+  // What moves as it is told to takes any force.
+  const auto noise_at = [&](NodeId node) { return structure.kind[at(node)] == Kind::known ? 0 : held_noise_[at(held_[at(node)])]; };
+  for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const double bound = network_.sliders[k].law.breakaway;
+    const double noise = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
+    slip_noise_[k] = std::isfinite(bound) ? std::min(noise, slip_share * local() * bound) : 0;
+  }
+}
+
+}  // namespace rheonet
