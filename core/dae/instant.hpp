@@ -7,6 +7,7 @@
 #include "core/dae/convex.hpp"
 #include "core/dae/drive.hpp"
 #include "core/dae/state.hpp"
+#include "core/network/sets.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
@@ -103,6 +104,8 @@ class Instant {
   /// A branch that cannot stand has turned.
   bool reversed(const Fired& fired, int branch) const;
   void take_directions(const Onset& onset, const State& state, Change& change);
+  bool same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const;
+  std::vector<NodeId> given_in(Sets& sets) const;
   void take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider, int side) const;

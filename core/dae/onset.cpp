@@ -256,21 +256,27 @@ void Instant::take_directions(const Onset& onset, const State& state, Change& ch
     const Branch& b = network_.sliders[k].branch;
     if (problem.direction(onset.slider[k]) == 0) stuck.join(b.a, b.b);
   }
+  const std::vector<NodeId> given = given_in(stuck);
+  // By sliders that stick, and by what moves as it is told to.
+  const auto kept_together = [&](const Branch& b) {
+    const NodeId a = stuck.find(b.a), c = stuck.find(b.b), of_a = given[at(a)], of_b = given[at(c)];
+    return a == c || (of_a >= 0 && of_b >= 0 && same_velocity(problem, of_a, of_b));
+  };
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const int j = laws.first + static_cast<int>(i);
       if (index[at(j)] < 0 || laws.batch->events(i) == 0 || contains(fired.starts, j) || reversed(fired, j)) continue;
       const Branch& b = network_.deflections[at(j)];
-      const double va = problem.value(slot(b.a)), vb = problem.value(slot(b.b)), w = problem.difference(slot(b.a), slot(b.b));
+      const double w = problem.difference(slot(b.a), slot(b.b));
       // Where a law could stand the balance has decided, and the least velocity counts: beside a pseudoplastic dashpot it
       // comes with a force.
       const auto [low, high] = problem.bounds(index[at(j)]);
       const bool at_rest = low < high && may_stand(j)
-                               ? problem.joined(slot(b.a), slot(b.b))
-                               : std::abs(w) <= velocity_grain * (std::abs(va) + std::abs(vb));
+                               ? problem.joined(slot(b.a), slot(b.b)) || kept_together(b)
+                               : same_velocity(problem, b.a, b.b);
       const int direction = at_rest ? 0 : problem.direction(index[at(j)]);
       if (direction == 0) {
-        if (may_stand(j) && stuck.find(b.a) != stuck.find(b.b) &&
+        if (may_stand(j) && !kept_together(b) &&
             relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
           laws.batch->set_direction(i, state.p[at(j)], 0, laws.batch->direction(i));
         } else if (may_stand(j) && low < high) {
@@ -285,20 +291,18 @@ void Instant::take_directions(const Onset& onset, const State& state, Change& ch
   }
 }
 
-/// What was about to start beside a slider that sticks rests after all.
-void Instant::rest_beside_sliders(const Fired& fired, const State& state, const Modes& modes) const {
-  if (fired.starts.empty()) return;
-  Sets together(structure_.kind.size());
-  for (std::size_t k = 0; k < modes.slider.size(); ++k) {
-    const Branch& b = network_.sliders[k].branch;
-    if (modes.slider[k] == Modes::stuck) together.join(b.a, b.b);
+bool Instant::same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const {
+  const double speeds = std::abs(problem.value(slot(a))) + std::abs(problem.value(slot(b)));
+  return std::abs(problem.difference(slot(a), slot(b))) <= velocity_grain * speeds;
+}
+
+/// Of each node that speaks for a set one of the set that moves as it is told to; -1 where there is none.
+std::vector<NodeId> Instant::given_in(Sets& sets) const {
+  std::vector<NodeId> result(structure_.kind.size(), -1);
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    if (structure_.kind[n] == Kind::known) result[at(sets.find(static_cast<NodeId>(n)))] = static_cast<NodeId>(n);
   }
-  for (const int j : fired.starts) {
-    const Branch& b = network_.deflections[at(j)];
-    if (together.find(b.a) != together.find(b.b)) continue;
-    std::size_t i = 0;
-    network_.batch_of(j, i).set_direction(i, state.p[at(j)], 0, 0);
-  }
+  return result;
 }
 
 /// At its bound friction has no slope to begin with, and is still about to leave it in the direction that it had. It could
@@ -325,69 +329,6 @@ bool Instant::may_stand(int branch) const {
   if (!massless(b.a) && !massless(b.b)) return false;
   std::size_t i = 0;
   return network_.batch_of(branch, i).can_hold(i);
-}
-
-// Where a slider and friction that relaxes keep the same ends together, the slider is the sharper of the two: the friction
-// rests (s = 0) while the slider has force left. At its bound the slider can take no more, and the friction stands with a
-// mixture of rest and the slider's direction, until it would as well rest.
-std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of,
-                                   const std::vector<int>& slider_of, const std::vector<int>& side,
-                                   const std::vector<double>& at_rest, const Fired& fired, Modes& modes,
-                                   Change& change) const {
-  std::vector<int> slipping, candidates, stopped;
-  Sets firm(structure_.kind.size());
-  for (std::size_t k = 0; k < slider_of.size(); ++k) {
-    if (problem.direction(slider_of[k]) != 0) continue;
-    const Branch& b = network_.sliders[k].branch;
-    if (side[k] == 0) {
-      firm.join(b.a, b.b);
-    } else {
-      (came_to_rest_[k] != 0 ? stopped : candidates).push_back(static_cast<int>(k));
-    }
-  }
-  // What has just come to rest has its full force still, and slips on if friction beside it would rest.
-  for (const int k : stopped) {
-    const Branch& b = network_.sliders[at(k)].branch;
-    const auto ends = [&](const Branch& of) { return std::minmax(firm.find(of.a), firm.find(of.b)); };
-    const bool beside = std::any_of(change.standing.begin(), change.standing.end(), [&](const Standing& one) {
-      return ends(network_.deflections[at(one.branch)]) == ends(b);
-    });
-    if (beside) {
-      candidates.push_back(k);
-    } else {
-      firm.join(b.a, b.b);
-    }
-  }
-  for (int k : candidates) {
-    const NodeId a = firm.find(network_.sliders[at(k)].branch.a), b = firm.find(network_.sliders[at(k)].branch.b);
-    if (a == b) continue;
-    double beyond_rest = 0;
-    bool eased = false;
-    for (int other : candidates) {
-      const NodeId from = firm.find(network_.sliders[at(other)].branch.a), to = firm.find(network_.sliders[at(other)].branch.b);
-      if (std::minmax(from, to) != std::minmax(a, b)) continue;
-      const int sign = from == a ? 1 : -1;
-      beyond_rest += sign * problem.force(slider_of[at(other)]);
-      eased = eased || sign * side[at(other)] != side[at(k)];  // that one has force left
-    }
-    std::vector<std::pair<Standing*, int>> beside;  // and the side of the slider's bound
-    for (Standing& one : change.standing) {
-      const int j = one.branch;
-      const NodeId from = firm.find(network_.deflections[at(j)].a), to = firm.find(network_.deflections[at(j)].b);
-      if (std::minmax(from, to) != std::minmax(a, b)) continue;
-      const int sign = from == a ? 1 : -1;
-      beyond_rest += sign * (problem.force(branch_of[at(j)]) - at_rest[at(j)]);
-      beside.push_back({&one, sign * side[at(k)]});
-      eased = eased || contains(fired.rests, j);
-    }
-    if (beside.empty() || eased || side[at(k)] * beyond_rest <= 0) continue;
-    modes.slider[at(k)] = static_cast<signed char>(side[at(k)]);
-    slipping.push_back(k);
-    for (const auto& [one, side_of_bound] : beside) {
-      if (one->lean == 0) one->lean = side_of_bound;
-    }
-  }
-  return slipping;
 }
 
 }  // namespace rheonet
