@@ -1,7 +1,7 @@
 // What the tests of the playground do on it.
 import assert from 'node:assert/strict';
 import { after, before } from 'node:test';
-import { bingham, browser, done, folderWith, remove, serve, watched } from './support.mjs';
+import { bingham, browser, done, folderWith, pointAt, remove, serve, watched } from './support.mjs';
 
 // A block on a belt that is pulled through a spring: it sticks, and slips.
 export const stickSlip = `# A block that is pulled through a spring.
@@ -48,23 +48,19 @@ export function setUp(files = { 'bingham.toml': bingham }) {
   return desk;
 }
 
-// Does something, and waits until the curves that follow from it are drawn.
+// Does something, and waits until all that follows from it is drawn: curves have come since, and no newer ones are on their way.
 export async function redrawn(page, act) {
   const text = page.locator('.status');
   await text.evaluate((status) => (status.dataset.latency = ''));
   await act();
-  await page.waitForFunction(() => document.querySelector('.status').dataset.latency);
+  await page.waitForFunction(() => document.querySelector('.status').dataset.latency && document.querySelector('.plots').ariaBusy === 'false');
 }
 
 // What the legend says of a record at a part of the time axis.
 export async function valueAt(page, part, record) {
   const chart = page.locator('.plots .chart', { has: page.locator('.u-series', { hasText: record }) }).first();
   const over = chart.locator('.u-over');
-  await over.scrollIntoViewIfNeeded();
-  const box = await over.boundingBox();
-  await page.mouse.move(box.x + part * box.width, box.y + box.height / 3);
-  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  await pointAt(page, over, part);
   return Number.parseFloat(await chart.locator('.u-series', { hasText: record }).first().locator('.u-value').textContent());
 }
 

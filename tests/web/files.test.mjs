@@ -93,8 +93,8 @@ test('what somebody else has written meanwhile is not lost', async () => {
   assert.equal(onDisk('bingham.toml'), withStiffness(90));
   // It is asked again if it changes while the question stands.
   writeFileSync(join(desk.folder, 'bingham.toml'), withStiffness(91));
-  await dialog(page).locator('.overwrite').click();
-  await page.waitForTimeout(300);
+  const [answer] = await Promise.all([page.waitForResponse('**/api/save'), dialog(page).locator('.overwrite').click()]);
+  assert.equal(answer.status(), 409);
   assert.equal(onDisk('bingham.toml'), withStiffness(91));
   await dialog(page).locator('.overwrite').click();
   await saidSaved(page, 'bingham.toml');

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { accessible, bingham, browser, folderWith, remove, rheonet, watched } from './support.mjs';
+import { accessible, bingham, browser, folderWith, pointAt, remove, rheonet, watched } from './support.mjs';
 
 let folder, chromium;
 const soft = bingham.replace('title = "Bingham element"', 'title = "Soft </script><b>one</b> & \\"quoted\\""').replace('"100 N*m/rad"', '"20 N*m/rad"');
@@ -28,10 +28,7 @@ async function open(file, options = {}) {
 
 // What the legend says of a record where the pointer is: at a part of the width of a chart.
 async function valueAt(page, chart, part, record) {
-  const over = page.locator('.panel .u-over').nth(chart);
-  await over.scrollIntoViewIfNeeded();
-  const box = await over.boundingBox();
-  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+  await pointAt(page, page.locator('.panel .u-over').nth(chart), part);
   const row = page.locator('.u-series', { hasText: record }).first();
   return row.locator('.u-value').textContent();
 }

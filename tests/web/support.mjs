@@ -65,7 +65,16 @@ export async function watched(context, origin) {
 }
 
 // The playground has drawn what it was last given.
-export const done = (page) => page.waitForFunction(() => /drawn \d+ ms/.test(document.querySelector('.status').textContent));
+export const done = (page) => page.waitForFunction(() =>
+  /drawn \d+ ms/.test(document.querySelector('.status').textContent) && document.querySelector('.plots').ariaBusy === 'false');
+
+// Points at a part of the width of a chart, and waits until its legend says what is there.
+export async function pointAt(page, over, part) {
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  for (const height of [1 / 3, 1 / 2]) await page.mouse.move(box.x + part * box.width, box.y + height * box.height);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}
 
 // Accessibility: no violation that is serious or critical.
 export async function accessible(page, what) {

@@ -99,11 +99,12 @@ class Playground {
   // `version` is that of the file of the folder that has this text, or has the text `opened`, from which this one was made.
   load(k, { text, file, version = '', opened = text }) {
     const variant = this.variants[k];
-    Object.assign(variant, { text, file, version, opened, fresh: true });
+    Object.assign(variant, { text, file, version, opened, answered: null, fresh: true });
     if (k === this.active) {
       this.editor.load(text);
       this.clear();
     }
+    this.showBusy();
     variant.runner.run(text, file);
   }
 
@@ -127,6 +128,7 @@ class Playground {
   edited(text, typed) {
     const variant = this.current;
     variant.text = text;
+    this.showBusy();
     this.files.changed();
     clearTimeout(this.typing);
     if (typed) this.typing = setTimeout(() => variant.runner.run(text, variant.file), typing);
@@ -135,6 +137,8 @@ class Playground {
 
   arrived(variant, data, { text, complete, asked }) {
     const isCurrent = variant === this.current;
+    if (complete) variant.answered = text;
+    this.showBusy();
     if (complete && isCurrent) this.showMistakes(data, text === variant.text);
     if (!data.scene) {
       variant.stale = true;
@@ -216,6 +220,11 @@ class Playground {
     this.plots.show(this.variants.map(({ label, data }) => ({ label: several ? label : '', data })));
   }
 
+  // Until all that is seen has come of the texts as they are.
+  showBusy() {
+    this.parts.plots.setAttribute('aria-busy', String(this.variants.some(({ text, answered }) => text !== answered)));
+  }
+
   showStale() {
     this.parts.plots.classList.toggle('stale', this.variants.some(({ stale }) => stale));
     this.parts.drawing.classList.toggle('stale', this.current.stale);
@@ -263,6 +272,7 @@ class Playground {
     }
     this.active = 0;
     this.showChoice();
+    this.showBusy();
   }
 
   edit(k) {

@@ -11,7 +11,7 @@ export class SaveDialog {
     this.over = element('button', { type: 'button', class: 'overwrite', hidden: true, onclick: () => this.put(this.there) }, 'Overwrite it');
     const form = element('form', {}, this.name, this.why,
       element('div', { class: 'dialog-foot' }, element('button', { type: 'button', onclick: () => this.dialog.close() }, 'Cancel'),
-        this.over, element('button', { type: 'submit' }, 'Save')));
+        this.over, (this.done = element('button', { type: 'submit' }, 'Save'))));
     this.dialog = element('dialog', { class: 'save', 'aria-labelledby': 'save-title' },
       element('div', { class: 'dialog-head' }, element('h2', { id: 'save-title' }, 'Save in the folder')), form);
     form.addEventListener('submit', (event) => {
@@ -49,6 +49,7 @@ export class SaveDialog {
   async put(version) {
     const { file } = this;
     const { text } = this.netlist;
+    this.over.disabled = this.done.disabled = true; // once is enough
     try {
       const written = await save(file, text, version);
       this.dialog.close();
@@ -56,6 +57,8 @@ export class SaveDialog {
     } catch (error) {
       this.tell(error.message, error.there);
       this.show();
+    } finally {
+      this.over.disabled = this.done.disabled = false;
     }
   }
 

@@ -16,7 +16,8 @@ class Slider {
     this.number = element('input', { type: 'text', inputmode: 'decimal', 'aria-label': `${label}, value`, size: '6' });
     this.range.addEventListener('input', () => this.slide(this.valueAt(Number(this.range.value))));
     this.range.addEventListener('pointerdown', () => (panel.held = this));
-    this.range.addEventListener('change', () => (panel.held = null));
+    // What is not moved while it is held does not change.
+    for (const end of ['change', 'pointerup', 'pointercancel', 'blur']) this.range.addEventListener(end, () => (panel.held = null));
     this.why = element('output', { class: 'why', hidden: true });
     this.number.addEventListener('change', () => this.take(this.number.value.trim()));
     this.number.addEventListener('input', () => this.accept());
