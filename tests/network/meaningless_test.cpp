@@ -28,28 +28,32 @@ using Notes = std::vector<std::string>;
 }  // namespace
 
 TEST_CASE("what a limit makes meaningless, and the netlist gives, is told; what is not given is not") {
-  CHECK_EQ(told(element("type = \"spring\", stiffness = \"inf\", f0 = 3")),
-           Notes{"`e.f0` means nothing to a rigid link (stiffness = inf), and is left out"});
-  CHECK_EQ(told(element("type = \"spring\", stiffness = 1e9, f0 = 3")), Notes{});
-  CHECK_EQ(told(element("type = \"spring\", stiffness = \"inf\"")), Notes{});
-  CHECK_EQ(told(element("type = \"spring\", stiffness = \"inf\", rest = 0, f0 = 3")),
-           Notes{"`e.rest`, `e.f0` mean nothing to a rigid link (stiffness = inf), and are left out"});
-  CHECK_EQ(told(element("type = \"dashpot\", damping = \"inf\", flow_index = 0.5")),
-           Notes{"`e.flow_index` means nothing to a rigid link (damping = inf), and is left out"});
-  CHECK_EQ(told(element("type = \"slider\", coulomb = 3, breakaway = \"inf\"")),
-           Notes{"`e.coulomb` means nothing to a rigid link (breakaway = inf), and is left out"});
-  CHECK_EQ(told(element("type = \"slider\", coulomb = \"inf\"")), Notes{});
-  CHECK_EQ(told(element("type = \"sfm\", stiffness = \"inf\", coulomb = 2, exponent = 1, f0 = 0.4")),
-           Notes{"`e.exponent`, `e.f0` mean nothing to a `slider` (stiffness = inf), and are left out"});
-  // A spring keeps the start force; without a bound there is no shape.
-  CHECK_EQ(told(element("type = \"sfm\", stiffness = 2, coulomb = \"inf\", exponent = 2, f0 = 0.4")),
-           Notes{"`e.exponent` means nothing to a `spring` (coulomb = inf), and is left out"});
-  CHECK_EQ(told(element("type = \"vfm\", stiffness = \"inf\", damping = 2, f0 = 0.4")),
-           Notes{"`e.f0` means nothing to a `dashpot` (stiffness = inf), and is left out"});
-  CHECK_EQ(told(element("type = \"cfm\", stiffness = 2, coulomb = 3, damping = \"inf\", exponent = 2, f0 = 0.4")), Notes{});
-  CHECK_EQ(told(element("type = \"cfm\", stiffness = \"inf\", coulomb = 3, damping = \"inf\", exponent = 2")),
-           Notes{"`e.exponent` means nothing to a `slider` (damping = inf), and is left out"});
-  CHECK_EQ(told(element("type = \"davidenkov\", stiffness = 2, coulomb = 3, exponent = \"inf\", f0 = 1")), Notes{});
+  const struct {
+    const char *values, *given, *limit;  ///< nothing is told where nothing is `given`
+  } cases[] = {
+      {R"(type = "spring", stiffness = "inf", f0 = 3)", "`e.f0`", "rigid link (stiffness = inf)"},
+      {R"(type = "spring", stiffness = 1e9, f0 = 3)", "", ""},
+      {R"(type = "spring", stiffness = "inf")", "", ""},
+      {R"(type = "spring", stiffness = "inf", rest = 0, f0 = 3)", "`e.rest`, `e.f0`", "rigid link (stiffness = inf)"},
+      {R"(type = "dashpot", damping = "inf", flow_index = 0.5)", "`e.flow_index`", "rigid link (damping = inf)"},
+      {R"(type = "slider", coulomb = 3, breakaway = "inf")", "`e.coulomb`", "rigid link (breakaway = inf)"},
+      {R"(type = "slider", coulomb = "inf")", "", ""},
+      {R"(type = "sfm", stiffness = "inf", coulomb = 2, exponent = 1, f0 = 0.4)", "`e.exponent`, `e.f0`", "`slider` (stiffness = inf)"},
+      // A spring keeps the start force; without a bound there is no shape.
+      {R"(type = "sfm", stiffness = 2, coulomb = "inf", exponent = 2, f0 = 0.4)", "`e.exponent`", "`spring` (coulomb = inf)"},
+      {R"(type = "vfm", stiffness = "inf", damping = 2, f0 = 0.4)", "`e.f0`", "`dashpot` (stiffness = inf)"},
+      {R"(type = "cfm", stiffness = 2, coulomb = 3, damping = "inf", exponent = 2, f0 = 0.4)", "", ""},
+      {R"(type = "cfm", stiffness = "inf", coulomb = 3, damping = "inf", exponent = 2)", "`e.exponent`", "`slider` (damping = inf)"},
+      {R"(type = "davidenkov", stiffness = 2, coulomb = 3, exponent = "inf", f0 = 1)", "", ""},
+  };
+  for (const auto& [values, given, limit] : cases) {
+    CAPTURE(values);
+    const std::string several = given, to = std::string(" to a ") + limit + ", and ";
+    Notes expected;
+    if (several.find(',') != std::string::npos) expected = {several + " mean nothing" + to + "are left out"};
+    else if (!several.empty()) expected = {several + " means nothing" + to + "is left out"};
+    CHECK_EQ(told(element(values)), expected);
+  }
 }
 
 TEST_CASE("many that are left out for one reason are told at once, also where an effect is left out") {

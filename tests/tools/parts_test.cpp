@@ -4,20 +4,13 @@
 #include <sstream>
 
 #include "tests/support/program.hpp"
+#include "tests/tools/scenes.hpp"
 
 using namespace rheonet::test;
 
 namespace {
 
-const std::string two_blocks = R"([elements]
-belt = { type = "motion", at = "belt", velocity = { square = "0.3 m/s", frequency = "0.8 Hz" } }
-k1 = { type = "spring", between = ["belt", "one"], stiffness = 40 }
-m1 = { type = "mass", at = "one", mass = 1 }
-s1 = { type = "slider", between = ["one", "ground"], coulomb = 2 }
-k2 = { type = "spring", between = ["belt", "two"], stiffness = 60 }
-m2 = { type = "mass", at = "two", mass = 0.5 }
-s2 = { type = "slider", between = ["two", "ground"], coulomb = 1 }
-[simulate]
+const std::string scene = two_blocks + R"([simulate]
 stop = 3
 output = { points = 11 }
 record = ["one.position", "two.position", "belt.force"]
@@ -34,7 +27,7 @@ std::multiset<std::string> events(const std::string& csv) {
 }  // namespace
 
 TEST_CASE("the events of parts are listed together, in the order of time, those of a shared motion once") {
-  const Folder folder(two_blocks);
+  const Folder folder(scene);
   const Finished apart = folder.shell("rheonet run scene.toml -o apart.csv --events apart-events.csv", 0);
   const Finished whole = folder.shell("rheonet run scene.toml -o whole.csv --events whole-events.csv --keep parts", 0);
   CHECK(contains(apart.err, "independent parts                  2"));
@@ -51,7 +44,7 @@ TEST_CASE("the events of parts are listed together, in the order of time, those 
 }
 
 TEST_CASE("a run in parts that cannot go on keeps the rows up to there") {
-  const Folder folder(two_blocks + "[elements.push]\ntype = \"force\"\nat = \"three\"\nforce = { ramp = \"1 N/s\" }\n"
+  const Folder folder(scene + "[elements.push]\ntype = \"force\"\nat = \"three\"\nforce = { ramp = \"1 N/s\" }\n"
                                    "[elements.s3]\ntype = \"slider\"\nbetween = [\"three\", \"ground\"]\ncoulomb = \"1.5 N\"\n");
   const Finished result = folder.shell("rheonet run scene.toml -o rows.csv --events events.csv", 1);
   CHECK(contains(result.err, "at t = 1.5 s nothing resists the force at node `three`"));

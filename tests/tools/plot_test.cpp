@@ -6,6 +6,7 @@
 #include "tests/support/figure.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/xml.hpp"
+#include "tests/tools/scenes.hpp"
 
 using namespace rheonet::test;
 
@@ -89,19 +90,12 @@ TEST_CASE("jumps are upright and corners sharp, wherever the rows are, in a plot
 }
 
 TEST_CASE("jumps are upright in the figure of a run in parts and of one that is certified, whose rows stay what they are") {
-  const Folder folder(R"([elements]
-d1 = { type = "motion", at = "a", velocity = { step = 1, time = 0.503 } }
+  const Folder folder(two_blocks + R"(push = { type = "motion", at = "a", velocity = { step = 1, time = 0.503 } }
 c1 = { type = "dashpot", between = ["a", "ground"], damping = 1 }
-d2 = { type = "force", at = "b", force = { step = 2, time = 0.307 } }
-m2 = { type = "mass", at = "b", mass = 1 }
-c2 = { type = "dashpot", between = ["b", "ground"], damping = 1 }
-d3 = { type = "force", at = "c", force = { sine = 2, frequency = 3 } }
-m3 = { type = "mass", at = "c", mass = 2 }
-k3 = { type = "spring", between = ["c", "ground"], stiffness = 1 }
 [simulate]
 stop = 1
 output = { points = 5 }
-record = ["c1.force", "b.position", "c.position"]
+record = ["c1.force", "one.position", "two.position"]
 )");
   for (const std::string option : {"", " --certify"}) {
     CAPTURE(option);

@@ -97,6 +97,14 @@ std::map<std::string, double> errors_in(const std::string& csv) {
   return error;
 }
 
+/// Each of these words is refused, and it says why.
+void check_refused(const Folder& folder, const std::vector<std::pair<std::string, std::string>>& refused) {
+  for (const auto& [words, why] : refused) {
+    CAPTURE(words);
+    CHECK(contains(folder.shell("timeout 20 rheonet precision scene.toml " + words, 2).err, why));
+  }
+}
+
 // A spring that is moved to and fro beside a spring and a slider: x = a sin(w t).
 const std::string bundle = R"([elements]
 drive = { type = "motion", at = "p", position = { sine = "0.31 m", frequency = "1.7 Hz" } }
@@ -151,15 +159,14 @@ TEST_CASE("precision --variant: another scene, other values, and what they get w
 TEST_CASE("precision --variant refuses what cannot be priced beside the scene") {
   const Folder folder(bundle);
   folder.write("oscillator.toml", oscillator);
-  const auto run = [&folder](const std::string& words) { return folder.shell("timeout 20 rheonet precision scene.toml " + words, 2).err; };
-  CHECK(contains(run("--variant no.toml"), "in the variant `no.toml`"));
-  CHECK(contains(run("--variant something"), "`something` is neither a scene nor a value"));
-  CHECK(contains(run("--variant parameters.Q=3"), "in the variant `parameters.Q=3`"));
-  CHECK(contains(run("--variant oscillator.toml"), "it has to have all that the scene records, or what `--pair` names"));
-  CHECK(contains(run("--variant oscillator.toml --pair a.position=k1.force --pair k.force=k1.force"), "are different quantities"));
-  CHECK(contains(run("--variant scene.toml --pair b.position=a.position"), "the scene does not record `b.position`"));
-  CHECK(contains(run("--variant scene.toml --pair k.force"), "`--pair k.force` names 1 records, not two"));
-  CHECK(contains(run("--variant simulate.start=0.1"), "the runs start at different times"));
+  check_refused(folder, {{"--variant no.toml", "in the variant `no.toml`"},
+                         {"--variant something", "`something` is neither a scene nor a value"},
+                         {"--variant parameters.Q=3", "in the variant `parameters.Q=3`"},
+                         {"--variant oscillator.toml", "it has to have all that the scene records, or what `--pair` names"},
+                         {"--variant oscillator.toml --pair a.position=k1.force --pair k.force=k1.force", "are different quantities"},
+                         {"--variant scene.toml --pair b.position=a.position", "the scene does not record `b.position`"},
+                         {"--variant scene.toml --pair k.force", "`--pair k.force` names 1 records, not two"},
+                         {"--variant simulate.start=0.1", "the runs start at different times"}});
 }
 
 TEST_CASE("precision says when a closed form and the scene do not fit") {
@@ -174,13 +181,12 @@ TEST_CASE("precision says when a closed form and the scene do not fit") {
 
 TEST_CASE("precision refuses what it cannot do before it simulates") {
   const Folder folder(endless);
-  const auto run = [&folder](const std::string& words) { return folder.shell("timeout 20 rheonet precision scene.toml " + words, 2).err; };
-  CHECK(contains(run("--accuracies 1e-3,1e-13"), "`--accuracies` takes numbers from 1e-12 to 0.1, not `1e-13`"));
-  CHECK(contains(run("--accuracies some"), "`--accuracies` takes a number such as 1e-6, not `some`"));
-  CHECK(contains(run("--runs 0"), "`--runs` takes a whole number from 1 to 1000, not `0`"));
-  CHECK(contains(run("--runs 2.5"), "`--runs` takes a whole number"));
-  CHECK(contains(run("--plot prices.pdf"), "neither an .svg nor a .png"));
-  CHECK(contains(run("-o scene.toml"), "would overwrite the scene itself"));
+  check_refused(folder, {{"--accuracies 1e-3,1e-13", "`--accuracies` takes numbers from 1e-12 to 0.1, not `1e-13`"},
+                         {"--accuracies some", "`--accuracies` takes a number such as 1e-6, not `some`"},
+                         {"--runs 0", "`--runs` takes a whole number from 1 to 1000, not `0`"},
+                         {"--runs 2.5", "`--runs` takes a whole number"},
+                         {"--plot prices.pdf", "neither an .svg nor a .png"},
+                         {"-o scene.toml", "would overwrite the scene itself"}});
   CHECK(contains(folder.shell("rheonet run scene.toml --order 6", 2).err, "`--order` takes a whole number from 1 to 5, not `6`"));
   CHECK(contains(folder.shell("rheonet precision --help", 0).out, "Exit status"));
 }

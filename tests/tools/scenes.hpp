@@ -44,6 +44,17 @@ inline const std::string overcome = pulled_slider + R"(s2 = { type = "slider", b
 push = { type = "force", at = "end", force = { step = "2 N", time = "0.3 s" } }
 )" + short_run;
 
+/// Two blocks that a belt pulls to and fro: parts that share nothing but its motion.
+inline const std::string two_blocks = R"([elements]
+belt = { type = "motion", at = "belt", velocity = { square = "0.3 m/s", frequency = "0.8 Hz" } }
+k1 = { type = "spring", between = ["belt", "one"], stiffness = 40 }
+m1 = { type = "mass", at = "one", mass = 1 }
+s1 = { type = "slider", between = ["one", "ground"], coulomb = 2 }
+k2 = { type = "spring", between = ["belt", "two"], stiffness = 60 }
+m2 = { type = "mass", at = "two", mass = 0.5 }
+s2 = { type = "slider", between = ["two", "ground"], coulomb = 1 }
+)";
+
 /// Two prescriptions for one node: it can be read, not simulated.
 inline const char* const contradictory = R"([elements]
 left = { type = "motion", at = "bar", velocity = "1 m/s" }

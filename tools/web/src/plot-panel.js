@@ -1,7 +1,8 @@
 // The plots of one or several runs: over time, or one quantity against another, with a choice of what is shown.
-import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, freshId } from './dom.js';
+import { LoopChart } from './loop-chart.js';
 import { inWords } from './sections.js';
+import { TimeChart, TimeGroup } from './time-chart.js';
 
 const kinds = [
   { id: 'own', label: 'As the scene says' },

@@ -1,8 +1,9 @@
 // The parts that a page is made of, each from the data of a scene.
 import katex from 'katex';
 import 'katex/dist/katex.min.css';
-import { LoopChart, TimeChart, TimeGroup } from './charts.js';
 import { element, table } from './dom.js';
+import { LoopChart } from './loop-chart.js';
+import { TimeChart, TimeGroup } from './time-chart.js';
 import { grouped, number, spaced, withUnit } from './units.js';
 
 // A text with what stands between backticks set as code.

@@ -1,0 +1,166 @@
+// Curves of one quantity against another.
+import uPlot from 'uplot';
+import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
+import { element } from './dom.js';
+import { largestOf, number, shownIn } from './units.js';
+
+// Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
+function decades(plot, axis, min, max) {
+  const low = Math.floor(Math.log10(min));
+  const high = Math.ceil(Math.log10(max));
+  const every = Math.ceil((high - low) / 8);
+  const factors = Math.log10(max / min) < 2 ? [1, 2, 5] : [1];
+  const splits = [];
+  for (let power = low; power <= high; power += every) for (const factor of factors) splits.push(Number(`${factor}e${power}`));
+  return splits.filter((value) => value >= min && value <= max);
+}
+
+export class LoopChart extends Chart {
+  // curves: [{ name, time, x, y }]; what is along the axes: { quantity, unit, as }, or { log: true } of both.
+  constructor(host, { x, y, curves, height = 380, marks = false }) {
+    super(host, height);
+    this.marks = marks;
+    host.classList.add('chart', 'loop');
+    host.tabIndex = 0;
+    host.setAttribute('role', 'group');
+    host.setAttribute('aria-label', `${y.quantity} against ${x.quantity}: ${curves.map((curve) => curve.name).join(', ')}`);
+    const log = Boolean(x.log);
+    this.sides = [x, y];
+    this.curves = curves;
+    this.findUnits();
+    const range = (_, min, max) => (log ? [min / 2, max * 2] : shownOf(min, max, 0.08));
+    const scale = { time: false, range, distr: log ? 3 : 1 };
+    const logValues = log ? { splits: decades, filter: (_, splits) => splits, values: (_, splits) => splits.map((v) => number(v, 2)) } : {};
+    this.plot = new uPlot(
+      {
+        mode: 2,
+        width: Math.max(this.width(), 240),
+        height,
+        series: [
+          null,
+          ...curves.map((curve, k) => ({
+            label: curve.name,
+            stroke: () => colour(curve.style ?? k),
+            facets: [
+              { scale: 'x', auto: true, sorted: 0 },
+              { scale: 'y', auto: true },
+            ],
+            paths: (plot, s) => this.path(plot, s),
+          })),
+        ],
+        scales: { x: scale, y: { ...scale } },
+        axes: [axis(labelOf(x.quantity, this.units[0]), { space: apart, ...logValues }), axis(labelOf(y.quantity, this.units[1]), { size: sideways, ...logValues })],
+        cursor: { drag: { x: true, y: true, uni: 20 }, points: { show: false } },
+        legend: { show: false },
+      },
+      this.data(),
+      host,
+    );
+    this.dots = curves.map((_, k) => {
+      const dot = element('div', { class: 'dot', hidden: true });
+      dot.style.background = colour(curves[k].style ?? k);
+      this.plot.over.append(dot);
+      return dot;
+    });
+    this.legend = element(
+      'div',
+      { class: 'loop-legend' },
+      curves.map((curve, k) => {
+        const swatch = element('span', { class: 'swatch' });
+        swatch.style.background = `var(--curve-${((curve.style ?? k) % 7) + 1})`;
+        return element('span', { class: 'key' }, swatch, curve.name);
+      }),
+      (this.readout = element('output', { class: 'readout' })),
+    );
+    host.append(this.legend);
+    this.plot.over.addEventListener('mousemove', () => this.hover());
+    this.plot.over.addEventListener('mouseleave', () => this.hide());
+  }
+
+  findUnits() {
+    this.units = this.sides.map((side, k) => {
+      const values = this.curves.map((curve) => (k === 0 ? curve.x : curve.y));
+      return side.log ? { name: side.unit, factor: 1 } : side.as ?? shownIn(side.unit, largestOf(values));
+    });
+  }
+
+  data() {
+    const scaled = (values, k) => (this.units[k].factor === 1 ? values : values.map((value) => value / this.units[k].factor));
+    return [null, ...this.curves.map((curve) => [scaled(curve.x, 0), scaled(curve.y, 1)])];
+  }
+
+  path(plot, s) {
+    const [xs, ys] = plot.data[s];
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    ctx.strokeStyle = ctx.fillStyle = colour(this.curves[s - 1].style ?? s - 1);
+    ctx.lineWidth = 1.6 * devicePixelRatio;
+    ctx.lineJoin = 'round';
+    ctx.beginPath();
+    for (let i = 0; i < xs.length; ++i) ctx.lineTo(plot.valToPos(xs[i], 'x', true), plot.valToPos(ys[i], 'y', true));
+    ctx.stroke();
+    if (this.marks)
+      for (let i = 0; i < xs.length; ++i) {
+        ctx.beginPath();
+        ctx.arc(plot.valToPos(xs[i], 'x', true), plot.valToPos(ys[i], 'y', true), 3.5 * devicePixelRatio, 0, 2 * Math.PI);
+        ctx.fill();
+      }
+    ctx.restore();
+    return null;
+  }
+
+  show(k, i) {
+    const [xs, ys] = this.plot.data[k + 1];
+    if (i >= xs.length) return;
+    const dot = this.dots[k];
+    dot.hidden = false;
+    dot.style.transform = `translate(${this.plot.valToPos(xs[i], 'x')}px, ${this.plot.valToPos(ys[i], 'y')}px)`;
+  }
+
+  hide() {
+    this.dots.forEach((dot) => (dot.hidden = true));
+    this.readout.textContent = '';
+  }
+
+  hover() {
+    const { left, top } = this.plot.cursor;
+    let best = { distance: Infinity };
+    this.plot.data.slice(1).forEach(([xs, ys], k) => {
+      for (let i = 0; i < xs.length; ++i) {
+        const distance = Math.hypot(this.plot.valToPos(xs[i], 'x') - left, this.plot.valToPos(ys[i], 'y') - top);
+        if (distance < best.distance) best = { distance, k, i };
+      }
+    });
+    this.hide();
+    if (best.distance > 40) return;
+    const { k, i } = best;
+    this.show(k, i);
+    const [xs, ys] = this.plot.data[k + 1];
+    const curve = this.curves[k];
+    const time = curve.time ? ` at ${number(curve.time[i], 5)} s` : '';
+    this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
+  }
+
+  // Where the curves are at a time.
+  mark(_, indices) {
+    indices.forEach((i, k) => this.dots[k] && this.show(k, i));
+  }
+
+  update(curves) {
+    this.curves = curves;
+    this.findUnits();
+    this.sides.forEach((side, k) => (this.plot.axes[k].label = labelOf(side.quantity, this.units[k])));
+    this.plot.setData(this.data());
+  }
+
+  zoom(min, max) {
+    this.plot.setScale('x', { min, max });
+  }
+
+  reset() {
+    this.plot.setData(this.data(), true);
+  }
+}

@@ -1,0 +1,162 @@
+// Curves over time, in panels that share its axis.
+import uPlot from 'uplot';
+import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
+import { breakable, styled } from './dom.js';
+import { largestOf, shownIn } from './units.js';
+
+const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]];
+const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
+
+// Curves of several runs over the times of all. At a jump a run has two rows of one time.
+function joined(runs) {
+  const places = runs.map(() => 0);
+  const result = [[], ...runs.map(() => [])];
+  for (;;) {
+    const time = Math.min(...runs.map(([times], k) => times[places[k]] ?? Infinity));
+    if (time === Infinity) return result;
+    result[0].push(time);
+    runs.forEach(([times, values], k) => result[k + 1].push(times[places[k]] === time ? values[places[k]++] : null));
+  }
+}
+
+// Panels that share their time axis.
+export class TimeGroup {
+  constructor() {
+    this.members = new Set();
+    this.sync = uPlot.sync(`time-${TimeGroup.count++}`);
+  }
+  zoom(min, max) {
+    this.members.forEach((chart) => chart.plot?.setScale('x', { min, max }));
+  }
+  // The room beside the panels is that of the one that needs the most: so their times are one below the other.
+  room(chart, needed) {
+    chart.needed = needed;
+    const room = Math.max(...[...this.members].map((member) => member.needed ?? 0));
+    if (room !== this.given) queueMicrotask(() => this.members.forEach((member) => member !== chart && member.plot?.redraw(false, true)));
+    this.given = room;
+    return room;
+  }
+}
+TimeGroup.count = 0;
+
+export class TimeChart extends Chart {
+  // curves: [{ name, time, values }], all of one unit.
+  constructor(host, group, { quantity, unit, as, curves, events = [], height = 230, labelled = true, first = 0 }) {
+    super(host, height);
+    this.group = group;
+    group.members.add(this);
+    this.events = events;
+    host.classList.add('chart');
+    host.tabIndex = 0;
+    host.setAttribute('role', 'group');
+    const names = curves.map((curve) => curve.name).join(', ');
+    host.setAttribute('aria-label', `${quantity} over time: ${names}. Keys: plus and minus zoom, arrows move, 0 shows all.`);
+    this.quantity = quantity;
+    this.unit = unit;
+    this.as = as; // the unit that somebody wants
+    this.shown = as ?? shownIn(unit, largestOf(curves.map((curve) => curve.values)));
+    this.curves = curves;
+    const dashOf = (curve, k) => (curve.dash ?? Math.floor(k / 7)) % dashes.length;
+    const series = curves.map((curve, k) => ({
+      label: curve.name,
+      stroke: () => colour(first + (curve.style ?? k)),
+      width: 1.6,
+      dash: dashes[dashOf(curve, k)],
+      spanGaps: true,
+      pxAlign: 0,
+      points: { show: false },
+      value: (plot, value) => (value === null || value === undefined ? '–' : `${read(plot, 'y', value, 5)} ${this.shown.name}`),
+    }));
+    this.plot = new uPlot(
+      {
+        width: Math.max(this.width(), 240),
+        height,
+        series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6)} s`) }, ...series],
+        scales: { x: { time: false }, y: { range: (_, min, max) => shownOf(min, max, 0.1) } },
+        axes: [axis(labelled ? 'time [s]' : undefined, { space: apart, size: labelled ? 36 : 28 }),
+          axis(labelOf(quantity, this.shown), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
+        cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
+        legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
+        hooks: {
+          drawClear: [(plot) => this.drawEvents(plot)],
+          setScale: [(plot, key) => key === 'x' && this.follow(plot)],
+        },
+      },
+      this.data(),
+      host,
+    );
+    host.querySelectorAll('.u-label').forEach((label) => label.replaceChildren(...breakable(label.textContent)));
+  }
+
+  data() {
+    const scaled = (values) => (this.shown.factor === 1 ? values : values.map((value) => value / this.shown.factor));
+    const times = new Set(this.curves.map((curve) => curve.time));
+    const data = times.size <= 1
+      ? [this.curves[0]?.time ?? [], ...this.curves.map((curve) => scaled(curve.values))]
+      : joined(this.curves.map((curve) => [curve.time, scaled(curve.values)]));
+    // The times of a run that goes on grow in place.
+    this.span = data[0].length ? [data[0][0], data[0].at(-1)] : null;
+    return data;
+  }
+
+  // New values in place of the old ones; the zoom stays.
+  update(curves, events = []) {
+    const whole = this.full();
+    this.curves = curves;
+    this.events = events;
+    this.shown = this.as ?? shownIn(this.unit, largestOf(curves.map((curve) => curve.values)));
+    this.plot.axes[1].label = labelOf(this.quantity, this.shown);
+    this.plot.setData(this.data(), whole);
+    if (!whole) this.plot.redraw();
+  }
+
+  // All of the time is shown that there was when it was last drawn.
+  full() {
+    const { min, max } = this.plot.scales.x;
+    return !(this.span && (min > this.span[0] || max < this.span[1]));
+  }
+
+  follow(plot) {
+    if (this.group.busy) return;
+    this.group.busy = true;
+    const { min, max } = plot.scales.x;
+    this.group.members.forEach((other) => other !== this && other.plot?.setScale('x', { min, max }));
+    this.group.busy = false;
+  }
+
+  zoom(min, max) {
+    this.group.zoom(min, max);
+  }
+
+  reset() {
+    const x = this.plot.data[0];
+    if (x.length) this.zoom(x[0], x[x.length - 1]);
+  }
+
+  drawEvents(plot) {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.strokeStyle = styled('--event');
+    ctx.lineWidth = devicePixelRatio;
+    ctx.beginPath();
+    let drawn = 0;
+    for (const time of this.events) {
+      const x = plot.valToPos(time, 'x', true);
+      if (x < bbox.left || x > bbox.left + bbox.width || ++drawn > 300) continue;
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+    }
+    if (drawn <= 300) ctx.stroke();
+    ctx.restore();
+  }
+
+  mark(time) {
+    const left = this.plot.valToPos(time, 'x');
+    this.plot.setCursor({ left, top: -10 }, false);
+  }
+
+  destroy() {
+    this.group.members.delete(this);
+    super.destroy();
+  }
+}
