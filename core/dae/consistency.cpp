@@ -166,6 +166,9 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
   Sizes there = largest(y);
   const Sizes soon = largest(yp);
   for (std::size_t k = 0; k < kinds; ++k) there[k] = std::max(there[k], within * soon[k]);
+  // What is about to be stretched makes velocities where there are none as yet, which are about as fast.
+  constexpr std::size_t velocity = 0, deflection = 1, position = 3;
+  if (there[velocity] == 0) there[velocity] = std::max(soon[deflection], soon[position]);
   double rate = 0;
   for (int k = 0; k < steps; ++k) {
     double step = std::numeric_limits<double>::infinity();

@@ -15,6 +15,9 @@ namespace {
 // A linear dashpot this much stiffer than another one at a massless end has a force of its own among the unknowns: what it
 // costs is one unknown, what it saves is as many digits.
 constexpr double stiff_in_series = 1e3;
+// The same of one between masses that it brings to one velocity so many times faster than the run is long: of that velocity
+// the difference is lost in rounding, which the force would be as many times as much.
+constexpr double stiff_for_mass = 1e6;
 
 }  // namespace
 
@@ -55,6 +58,8 @@ void Dae::number_unknowns() {
     }
   }
   const std::vector<char> told_by_others = told_by_dilatant_laws(told);
+  const auto mass_of = [&](NodeId node) { return known(node) ? std::numeric_limits<double>::infinity() : structure_->mass[at(node)]; };
+  const double length = network.scene->stop - network.scene->start;
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
@@ -68,7 +73,11 @@ void Dae::number_unknowns() {
       // ends would have lost its digits.
       const bool needed = std::isfinite(impulse) || (told.find(b.a) != told.find(b.b) && !told_by_others[at(laws.first) + i]);
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
-      const bool by_force = linear ? stiff(b.a) || stiff(b.b) : needed && (massless(b.a) || massless(b.b));
+      // Beside what never moves nothing is lost.
+      const bool moving = b.a != ground && b.b != ground;
+      const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
+      const bool stiff_between = moving && least_mass > 0 && impulse * length > stiff_for_mass * least_mass;
+      const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between : needed && (massless(b.a) || massless(b.b));
       by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }
