@@ -27,10 +27,19 @@ std::size_t closing_quote(std::string_view line, std::size_t at) {
   return at < line.size() && line[at] == '"' ? line.find('"', at + 1) : line.npos;
 }
 
+bool has_unquoted(std::string_view line, char wanted) {
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == wanted && !quoted) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<CsvField> csv_fields(std::string_view line) {
-  const char separator = line.find(',') != line.npos ? ',' : line.find(';') != line.npos ? ';' : ' ';
+  const char separator = has_unquoted(line, ';') ? ';' : has_unquoted(line, ',') ? ',' : ' ';
   std::vector<CsvField> fields;
   std::size_t at = 0, counted = 0, column = 1;
   while (at <= line.size()) {
@@ -42,7 +51,7 @@ std::vector<CsvField> csv_fields(std::string_view line) {
     const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);
     column += count_characters(line.substr(counted, begin - counted));
     counted = begin;
-    if (separator != ' ' || !text.empty()) fields.push_back({without_quotes(text), static_cast<int>(column)});
+    if (separator != ' ' || !text.empty()) fields.push_back({without_quotes(text), static_cast<int>(column), separator == ';'});
     at = end + 1;
   }
   return fields;
@@ -59,6 +68,16 @@ std::optional<double> csv_number(std::string_view text) {
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (failed != std::errc{} || end != text.data() + text.size()) return {};
   return value;
+}
+
+std::optional<double> csv_number(const CsvField& field) { return csv_number(csv_text(field)); }
+
+std::string csv_text(const CsvField& field) {
+  const std::string text(field.text);
+  if (!field.decimal_comma || std::count(text.begin(), text.end(), ',') != 1) return text;
+  std::string number = text;
+  std::replace(number.begin(), number.end(), ',', '.');
+  return csv_number(number) ? number : text;
 }
 
 CsvHeading csv_heading(std::string_view field) {

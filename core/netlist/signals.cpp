@@ -202,6 +202,20 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
   return false;
 }
 
+/// Who gives the name of a block means its output. One that is near that of a parameter, or is a unit, is told so elsewhere.
+bool SignalPlan::is_unknown_name(const Environment& environment, Context& context) const {
+  if (shape_ != Shape::constant || main_.identifiers().size() != 1) return false;
+  const std::string& name = main_.identifiers().front();
+  if (main_.source().text != name || environment.find(name) || std::holds_alternative<Unit>(parse_unit(name))) return false;
+  std::vector<std::string> known{"pi"};
+  for (const Environment* some = &environment; some; some = some->outer)
+    for (const auto& [parameter, value] : some->names) known.push_back(parameter);
+  if (!nearest(name, known).empty()) return false;
+  context.mistakes.error(main_.source().spot, main_.name() + ": there is no parameter `" + name + "`",
+                         "the output of a block is given so: { block = \"" + name + "\" }");
+  return true;
+}
+
 const TableFile* SignalPlan::table_file(Context& context) const {
   if (!file_) {
     auto table = read_table_file(*file_name_, context);
@@ -286,7 +300,7 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
     if (!start || !level) return {};
     return make_table(environment, context, *start, *level);
   }
-  if (is_of_time(environment, context)) return {};
+  if (is_of_time(environment, context) || is_unknown_name(environment, context)) return {};
   const auto main = scaled(main_, environment, context);
   if (!main || !start || !level || !angle || !f || !f_end || !length || !high) return {};
   switch (shape_) {

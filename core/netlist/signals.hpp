@@ -50,6 +50,8 @@ class SignalPlan {
                        std::string hint) const;
   /// Whether the main value is an expression of the time, which is a mistake.
   bool is_of_time(const Environment& environment, Context& context) const;
+  /// Whether it is a name alone, and that of no parameter: it may be meant for a block, which is a mistake.
+  bool is_unknown_name(const Environment& environment, Context& context) const;
   const TableFile* table_file(Context& context) const;
   std::optional<Number> times_amplitude(Number number, const Environment& environment, Context& context) const;
   std::optional<double> value_of(Key key, const Environment& environment, Context& context, double otherwise) const;

@@ -49,8 +49,8 @@ class TableReader {
       refuse(1, "a table of a signal has two columns, time and value; this row has " + std::to_string(fields.size()));
       return;
     }
-    const auto time = csv_number(fields[0].text);
-    const auto value = csv_number(fields[1].text);
+    const auto time = csv_number(fields[0]);
+    const auto value = csv_number(fields[1]);
     if (may_be_header && !time && !value) {
       header(fields);
       return;

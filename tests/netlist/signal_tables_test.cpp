@@ -90,12 +90,13 @@ TEST_CASE("signals: tables, inline and from a file") {
   const Folder folder;
   folder.write("data/comma.csv", "\xEF\xBB\xBFtime [s],value\r\n0,0\r\n0.5,+1e-3\r\n0.5 , -2\r\n");
   folder.write("semicolon.csv", "# measured\n\n0;1\n2;3");
+  folder.write("decimal-comma.csv", "Zeit [s];Weg\n0,0;1,0\n2;3,0e0\n");
   folder.write("blank.txt", "0 1\n 2\t3 \n");
   const auto comma =
       shape_of<Signal::Table>("{ table = \"data/comma.csv\", amplitude = \"1 mm/s\" }", "translation", folder.path());
   CHECK(comma.times == std::vector<double>{0, 0.5, 0.5});
   CHECK(comma.values == std::vector<double>{0, 1e-6, -0.002});
-  for (const char* name : {"semicolon.csv", "blank.txt"}) {
+  for (const char* name : {"semicolon.csv", "decimal-comma.csv", "blank.txt"}) {
     const auto table =
         shape_of<Signal::Table>("{ table = \"" + std::string(name) + "\" }", "translation", folder.path());
     CHECK(table.times == std::vector<double>{0, 2});

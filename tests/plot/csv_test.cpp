@@ -48,6 +48,25 @@ TEST_CASE("columns have the units of their headings, and values are taken to SI"
   CHECK(std::isnan(traces[1].points()[1].y));
 }
 
+TEST_CASE("where semicolons split, a comma is that of a number, and one in quotes is none that splits") {
+  const Folder folder;
+  const std::string path = folder.write("r.csv", "time [s];\"max(k1.force, from 1 s)\";gap, worn\n0;1,5;2\n-1,25e1;\"2,5\";3.5\n").string();
+  const CsvFile file(path, Domain::translation);
+  REQUIRE(file.columns().size() == 3);
+  CHECK(file.columns()[1].measure.unit == "N");
+  CHECK(file.columns()[2].name == "gap, worn");
+  const std::vector<Trace> traces = file.read({{0, 1}, {0, 2}});
+  CHECK(traces[0].points()[0].y == 1.5);
+  CHECK(traces[0].points()[1].x == -12.5);
+  CHECK(traces[0].points()[1].y == 2.5);
+  CHECK(traces[1].points()[1].y == 3.5);
+  CHECK(mistake("a;b\n0;1,500,000\n") == "r.csv:2:3: expected a number, found `1,500,000`");
+  CHECK(mistake("a;b\n0;1.500,2\n") == "r.csv:2:3: expected a number, found `1.500,2`");
+  // Where commas split there is no telling thousands from tenths.
+  CHECK(mistake("a,b\n0,\"1,500\"\n") == "r.csv:2:3: expected a number, found `1,500`");
+  CHECK(mistake("a,\"b; c\"\n0,1\n") == "");
+}
+
 TEST_CASE("rows of a run are in SI, with the units of their domain if it is told") {
   const Folder folder;
   const std::string path = folder.write("r.csv", "time,k1.force,block.position\n0,1,2\n").string();

@@ -221,6 +221,33 @@ TEST_CASE("a figure does not overwrite what it is drawn from") {
   CHECK(folder.read("scene.svg") == scene);
 }
 
+TEST_CASE("a file that cannot be written is told before a run for it") {
+  const Folder folder(endless);
+  folder.write("folder.svg/file", "");
+  for (const std::string task : {"plot scene.toml -o ", "run -q scene.toml -o rows.csv --plot ", "precision scene.toml --plot "})
+    for (const std::string ending : {".svg", ".png"}) {
+      CAPTURE(task);
+      CHECK(folder.shell("timeout 20 rheonet " + task + "no/a" + ending, 2).err ==
+            "error: cannot write to `no/a" + ending + "`: No such file or directory\n");
+      CHECK(contains(folder.shell("timeout 20 rheonet " + task + "folder.svg", 2).err, "error: cannot write to `folder.svg`: Is a directory\n"));
+    }
+  CHECK_FALSE(folder.has("rows.csv"));
+}
+
+TEST_CASE("run --plot draws what there is of a run that fails, or says that there is nothing") {
+  const Folder folder(overcome);
+  const std::string said = folder.shell("rheonet run -q scene.toml -o rows.csv --plot a.svg", 1).err;
+  CHECK(contains(said, "the 4 rows up to there are in `rows.csv`\n  the figure `a.svg` shows the run up to there\n"));
+  const std::string svg = folder.read("a.svg");
+  CHECK(what_is_wrong_with_xml(svg) == "");
+  CHECK(contains(svg, ">k1.force<"));
+  CHECK(contains(svg, ">0.3<"));
+  CHECK_FALSE(contains(svg, ">0.4<"));
+  folder.write("scene.toml", contradictory);
+  CHECK(contains(folder.shell("rheonet run -q scene.toml -o rows.csv --plot b.svg", 1).err, "no figure is drawn: the run does not get beyond its start\n"));
+  CHECK_FALSE(folder.has("b.svg"));
+}
+
 TEST_CASE("a .png is made by rsvg-convert; without it plot says so") {
   const Folder folder(scene);
   folder.shell("rheonet plot scene.toml -o a.png", 0);
@@ -230,8 +257,6 @@ TEST_CASE("a .png is made by rsvg-convert; without it plot says so") {
         "error: `b.png`: a .png is made by rsvg-convert, which is not installed (Debian: apt-get install "
         "librsvg2-bin); an .svg "
         "needs nothing\n");
-  CHECK(contains(folder.shell("rheonet plot scene.toml -o no/b.png", 1).err,
-                 "error: `no/b.png`: rsvg-convert could not make the .png: "));
 }
 
 TEST_CASE("plot says what is wrong with what it is asked for") {
@@ -255,9 +280,13 @@ TEST_CASE("plot says what is wrong with what it is asked for") {
         "error: no axis shows a mass (kg), as the unit `kg` would need\n");
   CHECK(contains(said("r.csv"), "--output"));
   CHECK(contains(said("r.csv -o a.svg --domain sideways"), "sideways"));
+  CHECK(said("r.csv -o a.svg --domain rotation --x-range 1.01:3") ==
+        "error: nothing is drawn within 1.01 to 3\n  time [s] goes from 0 to 1\n");
+  CHECK(said("scene.toml -o a.svg -y k1.force --unit mN --y-range -20:-1") ==
+        "error: nothing is drawn within -20 to -1\n  force [mN] goes from 0 to 2000\n");
   CHECK_FALSE(folder.has("a.svg"));
-  CHECK(folder.shell("rheonet plot r.csv -o no/a.svg --domain rotation", 2).err ==
-        "error: cannot write to `no/a.svg`: No such file or directory\n");
+  folder.shell("rheonet plot r.csv -o a.svg --domain rotation --x-range 0.99:3", 0);
+  CHECK(folder.has("a.svg"));
   // As with `run`, a scene that cannot be simulated is status 1.
   CHECK(contains(folder.shell("rheonet plot scene.toml -o a.svg --set c1.damping=0 k1.stiffness=0", 1).err, "error: "));
 }

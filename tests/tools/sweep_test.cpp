@@ -158,6 +158,8 @@ TEST_CASE("sweep: a list, with units in its headings; and a grid for each of its
   REQUIRE(rows.size() == 5);
   CHECK(rows[1] == Row{"1", "1", "2", "1", "2", ""});
   CHECK(rows[4] == Row{"4", "2", "3", "2", "6", ""});
+  folder.write("list.csv", "parameters.B [N*s/cm];drive.velocity\n0,01;2\n0,02;\"max(2, 3)\"\n");
+  CHECK(table(folder.shell("rheonet sweep scene.toml --list list.csv --vary simulate.stop=1,2 --measure 'final(c.force)' -q", 0).out)[4][4] == "6");
 }
 
 TEST_CASE("sweep: a run that fails is a row that says why, the others are done") {

@@ -133,6 +133,20 @@ void note_dropped(Figure& figure, std::vector<std::string>& notes) {
   }
 }
 
+/// Something of the curves is within the range that is asked for; what is along the axis is `told`, "time [s]".
+void check_shown(const Axis& axis, const std::string& told, const std::vector<Panel>& panels, double Point::*along) {
+  if (!axis.range) return;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (const Panel& panel : panels)
+    for (const Curve& curve : panel.curves)
+      for (const Point& p : curve.points)
+        if (std::isfinite(p.x) && std::isfinite(p.y)) least = std::min(least, p.*along), greatest = std::max(greatest, p.*along);
+  const auto [low, high] = *axis.range;
+  if (greatest < low || least > high)
+    throw Mistake(fmt::format("nothing is drawn within {:g} to {:g}", low, high),
+                  fmt::format("{} goes from {:.4g} to {:.4g}", told, least, greatest));
+}
+
 }  // namespace
 
 Figure compose(std::vector<Measured> measured, const Look& look, std::vector<std::string>& notes) {
@@ -166,6 +180,8 @@ Figure compose(std::vector<Measured> measured, const Look& look, std::vector<std
     figure.panels.push_back(std::move(panel));
   }
   note_dropped(figure, notes);
+  check_shown(figure.x, with_unit(quantities(curves, along_x), x.name), figure.panels, &Point::x);
+  if (look.y_range) check_shown(figure.panels[0].y, figure.panels[0].y.label, figure.panels, &Point::y);
   return figure;
 }
 

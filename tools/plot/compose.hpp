@@ -30,7 +30,7 @@ struct Look {
 
 /// Puts curves on axes: those of one quantity share a panel, in the order in which the quantities first come. Notes say
 /// what had to be left out. Throws Mistake: different quantities along x, a unit that no axis has the dimension of, a
-/// curve with nothing to show, a range or label for y where there are several panels.
+/// curve with nothing to show, a range with nothing of the curves in it, a range or label for y where there are several panels.
 Figure compose(std::vector<Measured> curves, const Look& look, std::vector<std::string>& notes);
 
 }  // namespace rheonet::plot

@@ -83,7 +83,7 @@ CsvFile::CsvFile(const std::string& path, std::optional<Domain> domain) : path_(
   if (!next(in, line, header_line_)) throw Mistake(fmt::format("`{}` is empty", path));
   for (const CsvField& field : csv_fields(line)) {
     const std::string place = fmt::format("{}:{}:{}", path, header_line_, field.column);
-    if (csv_number(field.text))
+    if (csv_number(field))
       throw Mistake(fmt::format("{}: expected the name of a column, found the number `{}`", place, field.text),
                     "the first row of a CSV file names its columns");
     const CsvHeading heading = csv_heading(field.text);
@@ -114,7 +114,7 @@ std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs) const {
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (!wanted[k]) continue;
       const bool none = fields[k].text.empty();
-      const std::optional<double> value = none ? std::numeric_limits<double>::quiet_NaN() : csv_number(fields[k].text);
+      const std::optional<double> value = none ? std::numeric_limits<double>::quiet_NaN() : csv_number(fields[k]);
       if (!value)
         throw Mistake(fmt::format("{}:{}:{}: expected a number, found `{}`", path_, number, fields[k].column,
                                   printable(fields[k].text)));

@@ -72,7 +72,7 @@ std::variant<std::monostate, NoVariation> Design::read_list(const std::string& f
         const CsvHeading heading = csv_heading(field.text);
         paths_.emplace_back(heading.name);
         units.emplace_back(heading.unit);
-        if (heading.name.empty() || csv_number(field.text))
+        if (heading.name.empty() || csv_number(field))
           return NoVariation{fmt::format("{}:{}:{}: expected the path of a value, found `{}`", file, number, field.column,
                                          field.text),
                              "the first row names what takes the values below it: k1.stiffness [N/m],c1.damping"};
@@ -86,7 +86,7 @@ std::variant<std::monostate, NoVariation> Design::read_list(const std::string& f
     for (std::size_t k = 0; k < fields.size(); ++k) {
       if (fields[k].text.empty())
         return NoVariation{fmt::format("{}:{}:{}: `{}` has no value", file, number, fields[k].column, paths_[k]), ""};
-      row.push_back(with_unit(fields[k].text, units[k]));
+      row.push_back(with_unit(csv_text(fields[k]), units[k]));
     }
   }
   if (list_.empty()) return NoVariation{fmt::format("`{}` has no row of values", file), "k1.stiffness [N/m],c1.damping, and below it 100,5"};

@@ -8,7 +8,7 @@
 namespace rheonet::tool {
 
 ExitStatus draw_network(const Arguments& arguments) {
-  if (!is_figure_file(arguments.output, "--output")) return wrong_input;
+  if (!can_be_figure(arguments.output, "--output")) return wrong_input;
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene || is_source(arguments.output, "--output", read.sources)) return wrong_input;
   const draw::Look look{.title = arguments.title.empty() ? read.scene->title : arguments.title,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include "core/netlist/characters.hpp"
 #include "tools/plot/png.hpp"
@@ -27,10 +29,18 @@ ExitStatus write_svg(const std::string& text, const std::string& path) {
 
 }  // namespace
 
-bool is_figure_file(const std::string& path, const char* option) {
-  if (path == "-" || path.ends_with(".svg") || path.ends_with(".png")) return true;
-  say("error: `{} {}` is neither an .svg nor a .png\n", option, printable(path));
-  return false;
+bool can_be_figure(const std::string& path, const char* option) {
+  if (path == "-") return true;
+  if (!path.ends_with(".svg") && !path.ends_with(".png")) {
+    say("error: `{} {}` is neither an .svg nor a .png\n", option, printable(path));
+    return false;
+  }
+  // A pipe would be taken for ended by who reads it.
+  std::error_code error;
+  const std::filesystem::file_type type = std::filesystem::status(path, error).type();
+  const bool tried = type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular ||
+                     type == std::filesystem::file_type::directory;
+  return !tried || open_output(path) != nullptr;
 }
 
 void report(const plot::Mistake& mistake) {
@@ -107,6 +117,13 @@ ExitStatus RunFigure::write(const std::string& path) const {
     report(mistake);
     return not_simulated;
   }
+}
+
+void RunFigure::write_beginning(const std::string& path) const {
+  if (std::all_of(curves_.begin(), curves_.end(), [](const plot::Measured& curve) { return curve.trace.points().empty(); }))
+    say("  no figure is drawn: the run does not get beyond its start\n");
+  else if (write(path) == done)
+    say("  the figure {} shows the run up to there\n", path == "-" ? "on standard output" : "`" + printable(path) + "`");
 }
 
 }  // namespace rheonet::tool

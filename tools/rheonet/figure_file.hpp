@@ -10,8 +10,9 @@
 
 namespace rheonet::tool {
 
-/// Whether a file can be a figure, by its ending; says so if not. `option` is what names it: "--output".
-bool is_figure_file(const std::string& path, const char* option);
+/// Whether a file can be a figure: by its ending, and because it can be written; says so if not, before anything is simulated
+/// for it. `option` is what names it: "--output".
+bool can_be_figure(const std::string& path, const char* option);
 
 /// Says why a figure cannot be drawn.
 void report(const plot::Mistake& mistake);
@@ -35,6 +36,8 @@ class RunFigure {
   RunFigure(const Scene& scene, const PlotTable& table);
   void row(double time, const std::vector<double>& values);
   ExitStatus write(const std::string& path) const;
+  /// The same of a run that came to no end: what there is of it. Says where it is, or that there is nothing to draw.
+  void write_beginning(const std::string& path) const;
 
  private:
   plot::Look look_;

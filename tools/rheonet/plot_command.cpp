@@ -198,7 +198,7 @@ ExitStatus draw(const Arguments& arguments) {
 }  // namespace
 
 ExitStatus plot_results(const Arguments& arguments) {
-  if (!is_figure_file(arguments.output, "--output")) return wrong_input;
+  if (!can_be_figure(arguments.output, "--output")) return wrong_input;
   try {
     return draw(arguments);
   } catch (const PlotEnded& ended) {

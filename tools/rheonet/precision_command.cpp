@@ -50,7 +50,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   Scene scene = *read.scene;
   std::optional<std::vector<Manner>> asked = asked_variants(arguments, scene);
   if (!asked) return wrong_input;
-  if (!arguments.figure.empty() && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
+  if (!arguments.figure.empty() && !can_be_figure(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.overlay, "--output", read.sources) || is_source(arguments.figure, "--plot", read.sources)) return wrong_input;
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;

@@ -89,7 +89,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
   const bool drawn = !arguments.figure.empty();
-  if (drawn && !is_figure_file(arguments.figure, "--plot")) return wrong_input;
+  if (drawn && !can_be_figure(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources) ||
       is_source(arguments.figure, "--plot", read.sources))
     return wrong_input;
@@ -141,6 +141,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     // Why a file could not be written has then been said, with its name.
     if (closed || !dynamic_cast<const WriteError*>(&error)) report(error, read.sources);
     if (closed) say("{}", outputs.kept());
+    if (figure) figure->write_beginning(arguments.figure);
     return not_simulated;
   }
 }
