@@ -199,15 +199,17 @@ test('the gallery is told what a netlist says of itself, however it is written',
     'wrong.toml': 'title = "Wrong"\n[elements\n',
     'models.toml': 'title = "Models"\n[models.a]\n',
     'a\tb.toml': '[elements]\n[simulate]\n',
+    'README.md': 'Not of a-single.toml. Here is `long.toml`, in its folder ./single.toml, and `long.toml` again.\n',
   };
+  const told = (name) => files['README.md'].indexOf(name);
   const other = folderWith(files);
   const gallery = await serve(other);
   const { scenes } = await (await fetch(`${gallery.origin}/api/folder`)).json();
   assert.deepEqual(scenes, [
     { file: 'dotted.toml', title: '', about: 'First words, and more.' },
     { file: 'escaped.toml', title: 'tab\tand "quote" \u00b5', about: '' },
-    { file: 'long.toml', title: 'On a line\nof its own', about: 'Why "so"?' },
-    { file: 'single.toml', title: 'single "quotes"', about: 'A comment.' },
+    { file: 'long.toml', title: 'On a line\nof its own', about: 'Why "so"?', place: told('long.toml') },
+    { file: 'single.toml', title: 'single "quotes"', about: 'A comment.', place: told('/single.toml') + 1 },
     { file: 'wrong.toml', title: '', about: scenes.at(-1).about },
   ]);
   assert.match(scenes.at(-1).about, /^It cannot be read: 2:\d+: /);

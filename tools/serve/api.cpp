@@ -140,8 +140,10 @@ void Api::attach(Server& server, const std::string& host) {
 
 void Api::list(Response& response) const {
   json scenes = json::array();
-  for (const Folder::Entry& each : folder_.scenes())
+  for (const Folder::Entry& each : folder_.scenes()) {
     scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
+    if (each.place) scenes.back()["place"] = *each.place;
+  }
   response.set_content(report::to_line({{"name", folder_.path().filename().string()},
                                         {"may_be_written", folder_.may_be_written()},
                                         {"seconds", pool_.limits().seconds},

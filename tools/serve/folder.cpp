@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <functional>
+#include <map>
 
 #include "tools/serve/glance.hpp"
 #include "tools/serve/netlist_name.hpp"
@@ -56,6 +58,14 @@ std::optional<std::string> text_of(const fs::path& path) {
 
 std::string version_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
+/// Where a text first names a file; absent if it does not.
+std::optional<std::size_t> place_of(const std::string& name, const std::string& text) {
+  const auto belongs = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' || c == '.'; };
+  for (std::size_t at = text.find(name); at != text.npos; at = text.find(name, at + 1))
+    if (at == 0 || !belongs(text[at - 1])) return at;
+  return {};
+}
+
 /// Puts a text in the place of another: whoever reads it meanwhile sees the old one or the new one. Why it cannot; "" if it
 /// is done.
 std::string put(const fs::path& place, const std::string& text) {
@@ -97,6 +107,13 @@ std::vector<Folder::Entry> Folder::scenes() const {
     looked_at += text->size();
     const std::optional<Glance> seen = looked_at < most_looked_at ? glance(*text) : Glance{};
     if (seen) found.push_back({name.string(), seen->title, seen->about});
+  }
+  std::map<fs::path, std::string> pages;
+  for (Entry& entry : found) {
+    const fs::path place = path_ / entry.file;
+    const auto [page, is_new] = pages.try_emplace(place.parent_path());
+    if (is_new) page->second = text_of(place.parent_path() / "README.md").value_or("");
+    entry.place = place_of(place.filename().string(), page->second);
   }
   std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.file < b.file; });
   return found;

@@ -18,6 +18,7 @@ class Folder {
     std::string file;   ///< relative to the folder: "teaching/creep.toml"
     std::string title;  ///< "" if it has none
     std::string about;  ///< its first words
+    std::optional<std::size_t> place = {};  ///< where README.md beside it first names it, from its beginning; if it does
   };
   /// The netlists in it and below, those that can be simulated by themselves, by name; no more than a thousand.
   std::vector<Entry> scenes() const;

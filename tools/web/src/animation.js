@@ -1,6 +1,6 @@
 // Moves the schematic as the network moves: masses and rods shift, springs stretch, sliders show whether they stick.
 import { element } from './dom.js';
-import { largestOf, number } from './units.js';
+import { largestOf, number, timeShown } from './units.js';
 
 const reach = 24; // px that the largest relative motion of a usual element takes
 const most = 2 * reach; // px that nothing goes beyond, however far it moves
@@ -89,7 +89,8 @@ export class Animation {
       node.style.transform = `translateX(${middle.toFixed(2)}px)`;
     }
     this.scrub.value = String(Math.round(this.place * 1000));
-    this.clock.textContent = `${number(time, 4)} s`;
+    const { name, factor } = timeShown(data.scene.start, data.scene.stop);
+    this.clock.textContent = `${number(time / factor, 4)} ${name}`;
     this.onframe(time);
   }
 

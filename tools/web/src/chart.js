@@ -9,7 +9,8 @@ onTheme(() => charts.forEach((chart) => chart.repaint()));
 
 export const colour = (k) => styled(`--curve-${(k % 7) + 1}`);
 
-export function axis(label, extra = {}) {
+// `factor`: the size of the unit along it, where that is another than that of the values.
+export function axis(label, extra = {}, factor = () => 1) {
   return {
     label,
     labelSize: 22,
@@ -18,7 +19,7 @@ export function axis(label, extra = {}) {
     labelFont: '12px system-ui, sans-serif',
     grid: { stroke: () => styled('--grid'), width: 1 },
     ticks: { stroke: () => styled('--grid'), width: 1 },
-    values: (_plot, splits, _axis, _space, spacing) => splits.map((value) => spaced(value, spacing)),
+    values: (_plot, splits, _axis, _space, spacing) => splits.map((value) => spaced(value / factor(), spacing / factor())),
     ...extra,
   };
 }
@@ -35,7 +36,7 @@ export function apart(_plot, _axis, min, max, length) {
 }
 
 // A value that is read from a curve: three digits more than the height of what is shown.
-export const read = (plot, scale, value, least) => spaced(value, (plot.scales[scale].max - plot.scales[scale].min) / 100, least);
+export const read = (plot, scale, value, least, factor = 1) => spaced(value / factor, (plot.scales[scale].max - plot.scales[scale].min) / 100 / factor, least);
 
 // What an axis shows of values from min to max: somewhat more. What is 0 all the time has its line in the middle.
 export const shownOf = (min, max, more) => (min === 0 && max === 0 ? [-1, 1] : uPlot.rangeNum(min, max, more, true));

@@ -4,6 +4,8 @@ import { element, schematicOf } from './dom.js';
 
 const words = new Intl.Collator('en', { numeric: true });
 const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
+// In the order in which the page of their folder tells of them; what it leaves out comes last.
+const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
 export class Gallery {
   constructor({ onopen }) {
@@ -32,7 +34,7 @@ export class Gallery {
     const order = [...groups.keys()].sort((a, b) => Number(b.startsWith('teaching')) - Number(a.startsWith('teaching')) || words.compare(a, b));
     this.list.replaceChildren(...order.map((folder) =>
       element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
-        element('div', { class: 'card-grid' }, groups.get(folder).sort(byName).map((scene) => this.card(scene))))));
+        element('div', { class: 'card-grid' }, groups.get(folder).sort(inOrder).map((scene) => this.card(scene))))));
     if (!scenes.length) this.list.append(element('p', { class: 'note' }, 'The folder has no netlists yet: write one in the editor, and save it.'));
   }
 
@@ -51,14 +53,25 @@ export class Gallery {
 
   async draw(card) {
     this.drawn.unobserve(card);
+    const picture = card.querySelector('.card-picture');
     try {
       const { text } = await open(card.dataset.file);
       await task({ task: 'show', draw: true, text, file: card.dataset.file }, (message) => {
-        if (message.kind === 'scene' && message.schematic) card.querySelector('.card-picture').replaceChildren(schematicOf(message, { read: false }));
+        if (message.kind === 'scene') picture.replaceChildren(schematicOf(message, { read: false }));
+        const wrong = message.kind === 'mistakes' && message.items.find(({ severity }) => severity === 'error');
+        if (wrong) this.refuse(card, wrong);
       });
     } catch {
       // A card without its picture still opens.
     }
+  }
+
+  // What it would be about is of no use until it can be read.
+  refuse(card, { line, column, message }) {
+    card.querySelector('.card-picture').replaceChildren(element('span', { class: 'note' }, 'no schematic'));
+    const about = card.querySelector('.card-about');
+    about.textContent = `It cannot be read: ${line ? `${line}:${column}: ` : ''}${message}`;
+    about.classList.add('bad');
   }
 
   filter() {

@@ -2,7 +2,7 @@
 import uPlot from 'uplot';
 import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
 import { element } from './dom.js';
-import { largestOf, number, shownIn } from './units.js';
+import { largestOf, number, shownIn, timeShown } from './units.js';
 
 // Where a logarithmic axis has its numbers. uPlot's own choice never ends on some ranges that do not begin at a power of ten.
 function decades(plot, axis, min, max) {
@@ -140,7 +140,8 @@ export class LoopChart extends Chart {
     this.show(k, i);
     const [xs, ys] = this.plot.data[k + 1];
     const curve = this.curves[k];
-    const time = curve.time ? ` at ${number(curve.time[i], 5)} s` : '';
+    const unit = curve.time && timeShown(curve.time[0], curve.time.at(-1));
+    const time = unit ? ` at ${number(curve.time[i] / unit.factor, 5)} ${unit.name}` : '';
     this.readout.textContent = `${curve.name}: ${read(this.plot, 'x', xs[i], 5)} ${this.units[0].name}, ${read(this.plot, 'y', ys[i], 5)} ${this.units[1].name}${time}`;
   }
 

@@ -4,7 +4,7 @@ import 'katex/dist/katex.min.css';
 import { element, table } from './dom.js';
 import { LoopChart } from './loop-chart.js';
 import { TimeChart, TimeGroup } from './time-chart.js';
-import { grouped, number, spaced, withUnit } from './units.js';
+import { grouped, number, spaced, timeShown, withUnit } from './units.js';
 
 // A text with what stands between backticks set as code.
 export const inWords = (text) => text.split(/(`[^`]*`)/).map((part, k) => (k % 2 ? element('code', {}, part.slice(1, -1)) : part));
@@ -87,18 +87,19 @@ export function eventsOf(data) {
   const height = 22 * shown.length + 30;
   const width = 640;
   const left = 130;
+  const unit = timeShown(start, stop);
   const x = (time) => left + ((time - start) / (stop - start)) * (width - left - 20);
   const kinds = [...new Set(items.map((item) => item[2]))];
   const parts = shown.map((name, lane) => {
     const y = 14 + 22 * lane;
     const ticks = items.filter((item) => item[1] === name).map(([time, , what, direction]) =>
-      `<path class="event-tick" style="stroke:var(--curve-${(kinds.indexOf(what) % 7) + 1})" d="M${x(time).toFixed(2)} ${y - 8}v16"><title>${escape(`${name}: ${what}${direction ? `, direction ${direction}` : ''} at ${number(time, 6)} s`)}</title></path>`);
+      `<path class="event-tick" style="stroke:var(--curve-${(kinds.indexOf(what) % 7) + 1})" d="M${x(time).toFixed(2)} ${y - 8}v16"><title>${escape(`${name}: ${what}${direction ? `, direction ${direction}` : ''} at ${number(time / unit.factor, 6)} ${unit.name}`)}</title></path>`);
     return `<text x="${left - 8}" y="${y + 4}" text-anchor="end">${escape(name.length > 18 ? `${name.slice(0, 17)}…` : name)}</text><path class="lane" d="M${left} ${y}H${width - 20}"/>${ticks.join('')}`;
   });
   const axisY = 22 * shown.length + 8;
   const marks = [0, 0.25, 0.5, 0.75, 1].map((part) => {
     const time = start + part * (stop - start);
-    return `<path class="lane" d="M${x(time)} ${axisY - 4}v6"/><text x="${x(time)}" y="${axisY + 16}" text-anchor="middle">${spaced(time, (stop - start) / 4)} s</text>`;
+    return `<path class="lane" d="M${x(time)} ${axisY - 4}v6"/><text x="${x(time)}" y="${axisY + 16}" text-anchor="middle">${spaced(time / unit.factor, (stop - start) / 4 / unit.factor)} ${unit.name}</text>`;
   });
   const host = element('div', { class: 'events' });
   host.innerHTML = `<div class="lanes" tabindex="0" role="group" aria-label="Events over time"><svg viewBox="0 0 ${width} ${height}" role="img" aria-label="Events over time">${parts.join('')}${marks.join('')}</svg></div>`;
@@ -108,9 +109,9 @@ export function eventsOf(data) {
     return element('span', { class: 'key' }, swatch, `${kind} (${items.filter((item) => item[2] === kind).length})`);
   })));
   const most = 200;
-  const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time, 8), name, what, String(direction)]);
+  const rows = items.slice(0, most).map(([time, name, what, direction]) => [number(time / unit.factor, 8), name, what, String(direction)]);
   host.append(element('details', {}, element('summary', {}, `All ${grouped(items.length + left_out)} events`),
-    table(['time [s]', 'element', 'event', 'direction'], rows, 'Events'),
+    table([`time [${unit.name}]`, 'element', 'event', 'direction'], rows, 'Events'),
     items.length + left_out > most ? element('p', { class: 'note' }, `and ${grouped(items.length + left_out - most)} more; \`rheonet run --events\` lists all`) : null));
   if (names.length > lanes) host.append(element('p', { class: 'note' }, `${names.length - lanes} other elements switch too.`));
   return host;

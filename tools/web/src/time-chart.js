@@ -2,7 +2,7 @@
 import uPlot from 'uplot';
 import { apart, axis, Chart, colour, labelOf, read, shownOf, sideways } from './chart.js';
 import { breakable, styled } from './dom.js';
-import { largestOf, shownIn } from './units.js';
+import { largestOf, shownIn, timeShown } from './units.js';
 
 const dashes = [[], [7, 3], [2, 2], [10, 3, 2, 3]];
 const borders = ['solid', 'dashed', 'dotted', 'dashed']; // the same, of a legend
@@ -67,13 +67,15 @@ export class TimeChart extends Chart {
       points: { show: false },
       value: (plot, value) => (value === null || value === undefined ? '–' : `${read(plot, 'y', value, 5)} ${this.shown.name}`),
     }));
+    const data = this.data();
+    this.timeLabel = () => (labelled ? labelOf('time', this.timeUnit) : undefined);
     this.plot = new uPlot(
       {
         width: Math.max(this.width(), 240),
         height,
-        series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6)} s`) }, ...series],
+        series: [{ label: 'time', value: (plot, t) => (t === null ? '–' : `${read(plot, 'x', t, 6, this.timeUnit.factor)} ${this.timeUnit.name}`) }, ...series],
         scales: { x: { time: false }, y: { range: (_, min, max) => shownOf(min, max, 0.1) } },
-        axes: [axis(labelled ? 'time [s]' : undefined, { space: apart, size: labelled ? 36 : 28 }),
+        axes: [axis(this.timeLabel(), { space: apart, size: labelled ? 36 : 28 }, () => this.timeUnit.factor),
           axis(labelOf(quantity, this.shown), { size: (plot, values) => group.room(this, sideways(plot, values)) })],
         cursor: { sync: { key: group.sync.key, setSeries: false }, drag: { x: true, y: false } },
         legend: { live: true, markers: { width: 3, fill: () => 'transparent', dash: (_, k) => (k > 0 ? borders[dashOf(curves[k - 1], k - 1)] : 'solid') } },
@@ -82,7 +84,7 @@ export class TimeChart extends Chart {
           setScale: [(plot, key) => key === 'x' && this.follow(plot)],
         },
       },
-      this.data(),
+      data,
       host,
     );
     host.querySelectorAll('.u-label').forEach((label) => label.replaceChildren(...breakable(label.textContent)));
@@ -96,6 +98,7 @@ export class TimeChart extends Chart {
       : joined(this.curves.map((curve) => [curve.time, scaled(curve.values)]));
     // The times of a run that goes on grow in place.
     this.span = data[0].length ? [data[0][0], data[0].at(-1)] : null;
+    this.timeUnit = timeShown(...(this.span ?? [0, 0]));
     return data;
   }
 
@@ -105,8 +108,10 @@ export class TimeChart extends Chart {
     this.curves = curves;
     this.events = events;
     this.shown = this.as ?? shownIn(this.unit, largestOf(curves.map((curve) => curve.values)));
+    const data = this.data();
+    this.plot.axes[0].label = this.timeLabel();
     this.plot.axes[1].label = labelOf(this.quantity, this.shown);
-    this.plot.setData(this.data(), whole);
+    this.plot.setData(data, whole);
     if (!whole) this.plot.redraw();
   }
 

@@ -1,6 +1,6 @@
 // Values and units as a person reads them.
 
-const prefixes = { '-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G' };
+const prefixes = { '-15': 'f', '-12': 'p', '-9': 'n', '-6': 'µ', '-3': 'm', 0: '', 3: 'k', 6: 'M', 9: 'G' };
 const raised = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹', '.': '·' };
 
 export function inPrint(unit) {
@@ -14,10 +14,13 @@ export function shownIn(unit, largest) {
   if (!(largest > 0) || !Number.isFinite(largest) || !/^(m|N|s|J|W|rad)([*/]|$)/.test(unit)) return plain;
   if (largest >= 0.1 && largest < 1e4) return plain;
   // What would be printed as 1000 of a unit is 1 of the next.
-  const power = Math.min(9, Math.max(-9, 3 * Math.floor(Math.log10(largest * 1.0001) / 3)));
+  const power = Math.min(9, Math.max(-15, 3 * Math.floor(Math.log10(largest * 1.0001) / 3)));
   if (power > 0 && /^(m|s|rad)/.test(unit)) return plain;
   return { name: prefixes[power] + plain.name, factor: 10 ** power };
 }
+
+// The same of times from start to stop.
+export const timeShown = (start, stop) => shownIn('s', Math.max(Math.abs(start), Math.abs(stop)));
 
 export function number(value, digits = 4) {
   if (value === null || value === undefined || Number.isNaN(value)) return '–';
