@@ -142,27 +142,26 @@ scene.toml:3:50: error: `step`: there is no parameter `time`, and no expression 
 delta = "2 N"
 [elements]
 m1 = { type = "mass", at = "a", mass = 1 }
-late = { type = "delay", in = "a.position", delay = 1 }
 a = { type = "force", at = "a", force = "late" }
 b = { type = "force", at = "a", force = "detla" }
 c = { type = "force", at = "a", force = "2*late" }
 d = { type = "force", at = "a", force = { sine = "late", frequency = 1 } }
 )~",
        R"~(
-scene.toml:7:41: error: `force`: there is no parameter `late`
-    7 | a = { type = "force", at = "a", force = "late" }
+scene.toml:5:41: error: `force`: there is no parameter `late`
+    5 | a = { type = "force", at = "a", force = "late" }
       |                                         ^
   the output of a block is given so: { block = "late" }
-scene.toml:8:42: error: `force`: unknown name `detla`
-    8 | b = { type = "force", at = "a", force = "detla" }
+scene.toml:6:42: error: `force`: unknown name `detla`
+    6 | b = { type = "force", at = "a", force = "detla" }
       |                                          ^
   did you mean `delta`?
-scene.toml:9:44: error: `force`: unknown name `late`
-    9 | c = { type = "force", at = "a", force = "2*late" }
+scene.toml:7:44: error: `force`: unknown name `late`
+    7 | c = { type = "force", at = "a", force = "2*late" }
       |                                            ^
   it must be a parameter
-scene.toml:10:51: error: `sine`: unknown name `late`
-   10 | d = { type = "force", at = "a", force = { sine = "late", frequency = 1 } }
+scene.toml:8:51: error: `sine`: unknown name `late`
+    8 | d = { type = "force", at = "a", force = { sine = "late", frequency = 1 } }
       |                                                   ^
   it must be a parameter
 )~"},

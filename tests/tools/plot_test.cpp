@@ -237,12 +237,12 @@ TEST_CASE("a file that cannot be written is told before a run for it") {
 TEST_CASE("run --plot draws what there is of a run that fails, or says that there is nothing") {
   const Folder folder(overcome);
   const std::string said = folder.shell("rheonet run -q scene.toml -o rows.csv --plot a.svg", 1).err;
-  CHECK(contains(said, "the 4 rows up to there are in `rows.csv`\n  the figure `a.svg` shows the run up to there\n"));
+  CHECK(contains(said, "the 3 rows up to there are in `rows.csv`\n  the figure `a.svg` shows the run up to there\n"));
   const std::string svg = folder.read("a.svg");
   CHECK(what_is_wrong_with_xml(svg) == "");
   CHECK(contains(svg, ">k1.force<"));
-  CHECK(contains(svg, ">0.3<"));
-  CHECK_FALSE(contains(svg, ">0.4<"));
+  CHECK(contains(svg, ">0.20<"));
+  CHECK_FALSE(contains(svg, ">0.25<"));
   folder.write("scene.toml", contradictory);
   CHECK(contains(folder.shell("rheonet run -q scene.toml -o rows.csv --plot b.svg", 1).err, "no figure is drawn: the run does not get beyond its start\n"));
   CHECK_FALSE(folder.has("b.svg"));
