@@ -61,7 +61,7 @@ std::vector<Reduced> laws_of(const Scene& scene) {
   return laws;
 }
 
-/// Nodes between pairs are left out.
+/// Nodes between pairs are left out, and free ends.
 void number_nodes(Network& network) {
   const Scene& scene = *network.scene;
   network.node_of.assign(scene.nodes.size(), 0);
@@ -69,9 +69,12 @@ void number_nodes(Network& network) {
     network.node_of[static_cast<std::size_t>(network.pairs[k].node)] = -1 - static_cast<int>(k);
   }
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-    if (network.node_of[n] < 0) continue;
+    if (network.node_of[n] < 0 || network.free_ends.on[n] != static_cast<NodeId>(n)) continue;
     network.node_of[n] = static_cast<int>(network.scene_node.size());
     network.scene_node.push_back(static_cast<NodeId>(n));
+  }
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    if (network.node_of[n] >= 0) network.node_of[n] = network.node_of[static_cast<std::size_t>(network.free_ends.on[n])];
   }
 }
 
@@ -208,6 +211,8 @@ Network build_network(const Scene& scene) {
   network.scene = &scene;
   network.places.assign(scene.elements.size(), {Role::nothing, -1});
   std::vector<Reduced> laws = laws_of(scene);
+  network.free_ends = find_free_ends(scene, laws);
+  for (const int e : network.free_ends.elements) laws[static_cast<std::size_t>(e)] = {nullptr, {}};
   network.pairs = find_pairs(scene, laws);
   for (std::size_t k = 0; k < network.pairs.size(); ++k) {
     const Pair& pair = network.pairs[k];
@@ -220,6 +225,7 @@ Network build_network(const Scene& scene) {
   tell_lost_times(network);
   tell_left_out(network);
   tell_meaningless(network);
+  for (std::string& note : tell_free_ends(scene, network.free_ends)) network.notes.push_back(std::move(note));
   std::vector<char> named(network.nodes(), 0);
   const auto node_of = [&](NodeId node) { return network.node_of[static_cast<std::size_t>(node)]; };
   const auto name_node = [&](NodeId node) {
@@ -227,6 +233,8 @@ Network build_network(const Scene& scene) {
     network.node_order.push_back(node);
   };
   name_node(ground);
+  std::vector<char> hangs(scene.elements.size(), 0);
+  for (const int e : network.free_ends.elements) hangs[static_cast<std::size_t>(e)] = 1;
   Gathered gathered;
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const SceneElement& element = scene.elements[e];
@@ -234,7 +242,7 @@ Network build_network(const Scene& scene) {
     const Branch ends{index, node_of(element.a), node_of(element.b)};
     name_node(ends.a);
     if (!element.at) name_node(ends.b);
-    if (!network.places[e].paired) place_element(network, index, laws[e], ends, gathered);
+    if (!network.places[e].paired && !hangs[e]) place_element(network, index, laws[e], ends, gathered);
   }
   batch_up(gathered.deflections, Role::deflection, network.deflections, network.deflection_laws, network.places,
            [](const Component& c, const Values& v) { return c.deflection(v); });

@@ -8,6 +8,7 @@
 #include "core/network/blocks.hpp"
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"
+#include "core/network/free_ends.hpp"
 #include "core/network/iwan.hpp"
 #include "core/network/pairs.hpp"
 
@@ -58,7 +59,10 @@ struct Network {
   IwanBatch* bundles = nullptr;  ///< nullptr if there are none
   int first_bundle = 0;          ///< branch of the first one
   std::vector<NodeId> scene_node;  ///< the scene's number of each node: those between pairs are not of the network
-  std::vector<int> node_of;        ///< of each of the scene's nodes: its number here, or -1 - the pair that it is in
+  /// Of each of the scene's nodes: its number here (of a free end that of the node that it hangs on), or -1 - the pair that it
+  /// is in.
+  std::vector<int> node_of;
+  FreeEnds free_ends;
   /// All nodes, ground first, in the order in which elements name them: the equations are numbered by it, so that two
   /// ways of writing a network give the same numbers.
   std::vector<NodeId> node_order;

@@ -43,6 +43,7 @@ class Explainer {
     find_merged();
     find_limits();
     find_pairs();
+    find_free_ends();
     find_parts_of_it();
     Observed observed(*this);
     const SimulationSettings settings{.stop = scene_.stop - scene_.start, .accuracy = scene_.accuracy, .interrupt = nullptr,
@@ -175,6 +176,19 @@ class Explainer {
                  .what = fmt::format("deflections of {} spring-slider pairs but", sliders.size()),
                  .reason = "all stand between the same two nodes: a bundle has one unknown, and no event at each yield"},
                 sliders.front());
+    }
+  }
+
+  void find_free_ends() {
+    const FreeEnds& ends = network_.free_ends;
+    for (std::size_t n = 0; n < ends.on.size(); ++n) {
+      if (ends.on[n] == static_cast<NodeId>(n)) continue;
+      leave_out({.what = "motion of", .reason = fmt::format("it hangs on `{}` alone, and moves with it", scene_.nodes[at(ends.on[n])].name),
+                 .of_nodes = true},
+                scene_.nodes[n].name);
+    }
+    for (const int e : ends.elements) {
+      leave_out({.what = "force of", .reason = "it hangs on one node alone, and no force goes through"}, element(e));
     }
   }
 

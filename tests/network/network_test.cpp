@@ -113,6 +113,7 @@ TEST_CASE("elements with a parameter of 0 become nothing, and a note says which"
   b.between("x0", "cfm", "a", "b", {{"stiffness", 31.0}, {"coulomb", 3.1}, {"damping", 0}});
   b.at("m0", "mass", "b", {{"mass", 0}});
   b.between("k1", "spring", "b", "ground", {{"stiffness", 7.3}});
+  b.force("load", "b", Signal(Signal::Constant{0}));
   b.motion("drive", "a", "velocity", Signal(Signal::Constant{0.3}));
   const Scene scene = finish(b);
   const Network net = build_network(scene);
@@ -143,6 +144,7 @@ TEST_CASE("a node at which hundreds of elements meet is one node") {
       b.between("k" + name, "spring", "x", "n" + name, {{"stiffness", 7.3}});
       b.between("c" + name, "dashpot", "n" + name, "ground", {{"damping", 1.7}});
     }
+    b.motion("drive", "x", "velocity", Signal(Signal::Constant{0.3}));
     const Scene scene = b.finish(1, 10, 1e-6);
     CHECK_EQ(build_network(scene).node_order.size(), static_cast<std::size_t>(count) + 2);
   }

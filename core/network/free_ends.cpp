@@ -1,0 +1,187 @@
+#include "core/network/free_ends.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/biconnected_components.hpp>
+#include <cmath>
+#include <map>
+
+#include "core/network/component.hpp"
+#include "core/network/index.hpp"
+#include "core/network/listed.hpp"
+#include "core/network/network.hpp"
+#include "core/network/sets.hpp"
+
+namespace rheonet {
+
+namespace {
+
+Role role_of(const Reduced& law) { return law.component ? law.component->role : Role::nothing; }
+
+bool joins_ends(Role role) { return role == Role::deflection || role == Role::rate || role == Role::slip; }
+
+bool is_given(double start) { return !std::isnan(start) && start != 0; }
+
+bool has_initial_value(const SceneElement& e) {
+  const std::vector<Parameter>& parameters = components()[at(e.declaration)]->declaration.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (parameters[k].kind == Parameter::Kind::initial && is_given(e.values[k])) return true;
+  }
+  return false;
+}
+
+class Search {
+ public:
+  Search(const Scene& scene, const std::vector<Reduced>& laws)
+      : scene_(scene), laws_(laws), result_{std::vector<NodeId>(scene.nodes.size()), {}}, held_(scene.nodes.size(), 0) {
+    for (std::size_t n = 0; n < scene.nodes.size(); ++n) result_.on[n] = static_cast<NodeId>(n);
+  }
+
+  FreeEnds find() {
+    find_held();
+    // Mostly every node has a mass, or only a few have none.
+    if (std::find(held_.begin(), held_.end(), 0) == held_.end()) return std::move(result_);
+    find_hanging();
+    if (any_hangs()) let_stressed_go();
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      const SceneElement& element = scene_.elements[e];
+      if (joins_ends(role_of(laws_[e])) && result_.on[at(element.a)] == result_.on[at(element.b)])
+        result_.elements.push_back(static_cast<int>(e));
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool any_hangs() const {
+    for (std::size_t n = 0; n < result_.on.size(); ++n) {
+      if (result_.on[n] != static_cast<NodeId>(n)) return true;
+    }
+    return false;
+  }
+
+  /// Nodes that something holds besides elements that join them to others.
+  void find_held() {
+    held_[ground] = 1;
+    for (std::size_t n = 0; n < held_.size(); ++n) {
+      const SceneNode& node = scene_.nodes[n];
+      if (is_given(node.position) || !std::isnan(node.velocity)) held_[n] = 1;
+    }
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      const Role role = role_of(laws_[e]);
+      if (role != Role::mass && role != Role::motion && role != Role::force) continue;
+      held_[at(scene_.elements[e].a)] = 1;
+      if (!scene_.elements[e].at) held_[at(scene_.elements[e].b)] = 1;
+    }
+  }
+
+  /// A node that hangs lies in no block (a part of the graph that no single node parts) with a node over all that are held.
+  void find_hanging() {
+    using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property,
+                                        boost::property<boost::edge_index_t, std::size_t>>;
+    const std::size_t nodes = held_.size(), above = nodes;
+    Graph graph(nodes + 1);
+    std::size_t edges = 0;
+    const auto join = [&](std::size_t a, std::size_t b) { boost::add_edge(a, b, edges++, graph); };
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      const std::size_t a = at(scene_.elements[e].a), b = at(scene_.elements[e].b);
+      if (joins_ends(role_of(laws_[e])) && !(held_[a] && held_[b])) join(a, b);
+    }
+    for (std::size_t n = 0; n < nodes; ++n) {
+      if (held_[n]) join(n, above);
+    }
+    std::vector<std::size_t> block(edges);
+    const auto index = boost::get(boost::edge_index, graph);
+    const std::size_t blocks = boost::biconnected_components(graph, boost::make_iterator_property_map(block.begin(), index));
+    std::vector<char> firm(blocks, 0);
+    for (const auto& edge : boost::make_iterator_range(boost::out_edges(above, graph))) firm[block[boost::get(index, edge)]] = 1;
+    std::vector<std::size_t> reached;  // what is not free, and what is found to hang, in that order
+    std::vector<char> met(nodes + 1, 0);
+    met[above] = 1;
+    for (std::size_t n = 0; n < nodes; ++n) {
+      const auto around = boost::make_iterator_range(boost::out_edges(n, graph));
+      met[n] = std::any_of(around.begin(), around.end(), [&](const auto& edge) { return firm[block[boost::get(index, edge)]] != 0; });
+      if (met[n]) reached.push_back(n);
+    }
+    for (std::size_t k = 0; k < reached.size(); ++k) {
+      for (const auto& edge : boost::make_iterator_range(boost::out_edges(reached[k], graph))) {
+        const std::size_t other = boost::target(edge, graph);
+        if (met[other]) continue;
+        met[other] = 1;
+        result_.on[other] = result_.on[reached[k]];
+        reached.push_back(other);
+      }
+    }
+  }
+
+  /// Springs have a force at the start if their ends do not begin together, and there may be one behind a step.
+  bool stressed(std::size_t e) const {
+    if (laws_[e].component->role != Role::deflection) return false;
+    const Values one{laws_[e].values};
+    const auto batch = laws_[e].component->deflection(one);
+    const double p = batch->start(0, 0);
+    double force = 0, creep = 0;
+    batch->evaluate(&p, &force, &creep);
+    return force != 0;
+  }
+
+  /// Whatever hangs on what may begin elsewhere than at 0, over any number of elements, stays as it is.
+  void let_stressed_go() {
+    Sets together(held_.size());
+    std::vector<std::size_t> displaced;
+    for (std::size_t n = 0; n < held_.size(); ++n) {
+      if (is_given(scene_.nodes[n].position)) displaced.push_back(n);
+    }
+    for (std::size_t e = 0; e < laws_.size(); ++e) {
+      const SceneElement& element = scene_.elements[e];
+      if (!element.at && element.a != ground && element.b != ground) together.join(element.a, element.b);
+      const bool moved = laws_[e].component && laws_[e].component->role == Role::motion && prescribes_position(element) &&
+                         (fed(e) || element.signals.at(0).before(scene_.start) != 0);
+      const bool hangs = joins_ends(role_of(laws_[e])) && result_.on[at(element.a)] == result_.on[at(element.b)];
+      if (!moved && !has_initial_value(element) && !(hangs && stressed(e))) continue;
+      displaced.push_back(at(element.a));
+      displaced.push_back(at(element.b));
+    }
+    std::vector<char> goes(held_.size(), 0);
+    for (const std::size_t n : displaced) goes[at(together.find(static_cast<NodeId>(n)))] = 1;
+    goes[ground] = 0;  // it is joined to nothing
+    for (std::size_t n = 1; n < held_.size(); ++n) {
+      if (goes[at(together.find(static_cast<NodeId>(n)))]) result_.on[n] = static_cast<NodeId>(n);
+    }
+  }
+
+  /// Where a block moves a node that begins where the block does.
+  bool fed(std::size_t e) const {
+    return std::any_of(scene_.feeds.begin(), scene_.feeds.end(), [&](const SceneFeed& feed) { return feed.element == static_cast<int>(e); });
+  }
+
+  const Scene& scene_;
+  const std::vector<Reduced>& laws_;
+  FreeEnds result_;
+  std::vector<char> held_;
+};
+
+}  // namespace
+
+FreeEnds find_free_ends(const Scene& scene, const std::vector<Reduced>& laws) { return Search(scene, laws).find(); }
+
+std::vector<std::string> tell_free_ends(const Scene& scene, const FreeEnds& ends) {
+  struct Hanging { std::vector<std::string> nodes, elements; };
+  std::map<NodeId, Hanging> hanging;
+  for (std::size_t n = 0; n < ends.on.size(); ++n) {
+    if (ends.on[n] != static_cast<NodeId>(n)) hanging[ends.on[n]].nodes.push_back(scene.nodes[n].name);
+  }
+  for (const int e : ends.elements) hanging[ends.on[at(scene.elements[at(e)].a)]].elements.push_back(scene.elements[at(e)].name);
+  std::vector<std::string> words;
+  for (const auto& [node, what] : hanging) {
+    if (what.elements.size() < 2) continue;
+    const bool several = what.nodes.size() > 1;
+    const std::string goes = node == ground ? (several ? "rest" : "rests") : (several ? "move with it" : "moves with it");
+    words.push_back(fmt::format("node{} {} hang{} on `{}` alone and {}: {} carry no force", several ? "s" : "", listed(what.nodes),
+                                several ? "" : "s", scene.nodes[at(node)].name, goes, listed(what.elements)));
+  }
+  return words;
+}
+
+}  // namespace rheonet
