@@ -26,8 +26,6 @@ namespace rheonet {
 
 namespace {
 
-// An unknown cannot be known better than to some roundings; IDA asks for no less.
-constexpr double least_tolerance = 6.4e-16;
 // What jumps by less than this share of the accuracy may be smooth as well: so much error is left at the end of a stretch in
 // what no error test looks at.
 constexpr double jump_share = 0.1;
@@ -329,7 +327,7 @@ class Run {
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }
 
-  double tolerance(double share) const { return std::max(share * settings_.accuracy, least_tolerance); }
+  double tolerance(double share) const { return std::max(share * settings_.accuracy, Tolerances::least_tolerance); }
 
   void tell_overload() const {
     const double t = std::max(left_, system_->integrator.time());

@@ -42,6 +42,11 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what == Blocks::Sensor::What::position) sensed_[at(sensor.index)] = 1;
   }
+  block_scale_.assign(nodes, std::numeric_limits<double>::infinity());
+  block_force_seen_.assign(network.forces.size(), 0);
+  rested_.assign(network.sliders.size(), 0);
+  slid_.assign(network.sliders.size(), 0);
+  slider_share_.assign(nodes, 1);
   foreseen_ = seen_;
   force_seen_.assign(deflections, 0);
   flow_seen_ = noise_ = force_seen_;
@@ -151,6 +156,7 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
     slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
     meet(structure.sliders[k], view.slider_velocity[k]);
+    see_rest(k, view.slider_velocity[k]);
   }
   for (const Gap& gap : gaps_) {
     double& seen = gap_seen_[at(gap.node)];
@@ -192,6 +198,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   }
   const Dae::View& view = dae_->view(t, y.data(), yp.data());
   see(y, view);
+  find_slider_shares();
   find_rounding(view);
   find_difference_rounding(view);
   find_stopping(view);
@@ -270,6 +277,7 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   }
   if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least.velocity);
   scale = std::max(scale, foreseen_of(q));
+  if (q.sort == Sort::position && sensed_[q.index]) scale = std::min(scale, block_scale_[q.index]);
   if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
   if (q.sort != Sort::deflection) return scale;
   // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
@@ -309,6 +317,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Scales largest = find_largest(slope);
   largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
+  find_block_scales(largest[static_cast<std::size_t>(Sort::force)]);
   const auto least_share = [&](double least, double grains) {
     return std::max(least, grains * std::numeric_limits<double>::epsilon() / local());
   };
@@ -322,7 +331,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
     }
-    tolerance_[i] = local() * scale;
+    tolerance_[i] = std::max(local() * slider_share(quantity_[i]), least_tolerance) * scale;
     bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
   const auto unresolved = [&](const std::vector<double>& rounding) {
@@ -332,6 +341,27 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   loosen_positions();
   loosen_balanced_forces(slope);
   find_noise(slope);
+}
+
+/// What the forces allow that blocks make of a position: a stop in the way of what comes from far takes little of that way.
+void Tolerances::find_block_scales(double largest_force) {
+  if (network_.blocks.sensors.empty()) return;
+  BlockSignals& blocks = dae_->drive().blocks();
+  blocks.update_slopes(dae_->drive().past());
+  std::fill(block_scale_.begin(), block_scale_.end(), std::numeric_limits<double>::infinity());
+  for (std::size_t f = 0; f < network_.forces.size(); ++f) {
+    const int block = network_.forces[f].block;
+    if (block < 0) continue;
+    block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->drive().force[f]));
+    const double force = std::max(block_force_seen_[f], floor_of_kind * largest_force);
+    for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
+      const Blocks::Sensor& sensor = network_.blocks.sensors[s];
+      if (sensor.what != Blocks::Sensor::What::position) continue;
+      const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
+      double& scale = block_scale_[at(sensor.index)];
+      if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);
+    }
+  }
 }
 
 /// A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.

@@ -16,9 +16,12 @@ namespace rheonet {
 ///
 /// A deflection is measured by the force that it makes: presliding of a nanometre is as much as sliding of a metre. No
 /// scale is below `floor_of_kind` times the largest of its kind, so that what is yet to come need not be resolved in
-/// every digit.
+/// every digit. Around a slider that comes to rest forces are resolved as its own is: it bears what they leave.
 class Tolerances {
  public:
+  /// An unknown cannot be known better than to some roundings; IDA asks for no less.
+  static constexpr double least_tolerance = 6.4e-16;
+
   Tolerances(const Network& network, double relative);
 
   /// Goes over to these equations; what has been seen is kept.
@@ -75,6 +78,10 @@ class Tolerances {
   /// in may be a small movement beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void find_gaps();
+  void find_block_scales(double largest_force);
+  void see_rest(std::size_t slider, double velocity);
+  void find_slider_shares();
+  double slider_share(const Quantity& q) const;
   void find_held();
   double local() const;
   using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
@@ -121,6 +128,12 @@ class Tolerances {
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
   std::vector<Quantity> quantity_;                    ///< of each unknown
   std::vector<char> sensed_;                          ///< of each node: a block takes in its position
+  std::vector<char> rested_;                          ///< of each slider: it has come to rest, if only for an instant
+  std::vector<signed char> slid_;                     ///< of each slider: the direction of its last motion
+  bool any_rested_ = false;
+  std::vector<double> slider_share_;                  ///< of each part: to what share tolerances are tighter for its sliders
+  std::vector<double> block_scale_;                   ///< of each node: for the forces that blocks make of its position [m]
+  std::vector<double> block_force_seen_;              ///< of each force of the network that a block gives [N]
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
   std::array<std::vector<double>, sorts> seen_;       ///< largest magnitude of everything that can be an unknown
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`

@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "core/network/index.hpp"
+#include "core/solve/tolerances.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Forces may be so many times what a slider bears before they are resolved for its sake: errors of steps add up to less than
+// what they may. And they are so to no less than this share, which takes two to three times the steps.
+constexpr double much_larger = 10, least_slider_share = 1e-3;
+
+}  // namespace
+
+void Tolerances::see_rest(std::size_t slider, double velocity) {
+  if (rested_[slider]) return;
+  const signed char now = velocity > 0 ? 1 : velocity < 0 ? -1 : 0;
+  rested_[slider] = now == 0 || now == -slid_[slider];
+  slid_[slider] = now;
+  any_rested_ = any_rested_ || rested_[slider];
+}
+
+/// The force of a slider that has come to rest is what the others around it leave it to bear. These may have been many times as
+/// large while it slipped: what they were wrong by is off where it has come to rest, by as much as its own force allows.
+void Tolerances::find_slider_shares() {
+  if (!any_rested_) return;
+  const Structure& structure = dae_->structure();
+  std::vector<double> force(part_.size(), 0);
+  const auto meet = [&](const Branch& b, double f) {
+    double& largest = force[at(part_of(b))];
+    largest = std::max(largest, f);
+  };
+  for (std::size_t j = 0; j < force_seen_.size(); ++j) meet(structure.deflections[j], force_seen_[j]);
+  for (std::size_t r = 0; r < dashpot_seen_.size(); ++r) meet(structure.rates[r], dashpot_seen_[r]);
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    const Network::Force& f = network_.forces[k];
+    meet({f.element, f.a, f.b < 0 ? ground : f.b}, block_force_seen_[k]);
+  }
+  std::fill(slider_share_.begin(), slider_share_.end(), 1.0);
+  for (std::size_t k = 0; k < rested_.size(); ++k) {
+    const double bound = network_.sliders[k].law.breakaway;
+    const std::size_t part = at(part_of(structure.sliders[k]));
+    if (!rested_[k] || !(bound > 0) || much_larger * bound >= force[part]) continue;
+    slider_share_[part] = std::min(slider_share_[part], std::max(least_slider_share, much_larger * bound / force[part]));
+  }
+}
+
+double Tolerances::slider_share(const Quantity& q) const {
+  if (!any_rested_ || q.sort == Sort::block) return 1;
+  const Structure& structure = dae_->structure();
+  if (q.sort == Sort::deflection) return slider_share_[at(part_of(structure.deflections[q.index]))];
+  if (q.sort == Sort::force) return slider_share_[at(part_of(structure.rates[q.index]))];
+  return slider_share_[at(part_[q.index])];
+}
+
+}  // namespace rheonet
