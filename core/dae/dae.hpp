@@ -65,8 +65,8 @@ class Dae {
   /// From here on slopes of power laws are no less than their secants from rest: an iteration with them never overshoots
   /// rest, where Newton's may go to and fro between both sides of it.
   void use_secants(bool use) { secants_ = use; }
-  /// Sums of the magnitudes of the terms of each algebraic equation at the last `residual`, as far as they are forces and
-  /// velocities: what is lost by rounding is a share of them.
+  /// Sums of the magnitudes of the terms of each algebraic equation at the last `residual`, as far as they are forces (or
+  /// what makes them of deflections, if that is more) and velocities: what is lost by rounding is a share of them.
   void magnitudes(double* r) const;
   /// That share.
   static constexpr double rounding_share = 1e-14;

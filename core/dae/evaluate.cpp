@@ -6,6 +6,13 @@
 
 namespace rheonet {
 
+namespace {
+
+// A deflection is rounded less often than a sum of forces is: what is lost is so much of rounding_share.
+constexpr double deflection_share = 0.1;
+
+}  // namespace
+
 double Dae::known_position(NodeId node) const {
   const int motion = structure_->motion[at(node)];
   return motion < 0 ? 0 : drive_->position[at(motion)];
@@ -120,7 +127,10 @@ void Dae::magnitudes(double* r) const {
     add(b.a, f);
     add(b.b, f);
   };
-  for (std::size_t j = 0; j < ip_.size(); ++j) add_branch(structure_->deflections[j], view_.f[j]);
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    // Friction that has slid far, and turned, has a small force of a large deflection.
+    add_branch(structure_->deflections[j], std::max(std::abs(view_.f[j]), deflection_share * std::abs(df_[j] * view_.p[j])));
+  }
   for (std::size_t k = 0; k < if_.size(); ++k) {
     const Branch& b = structure_->rates[k];
     // The difference of two velocities is known to the last digit of each.

@@ -136,6 +136,18 @@ stop = 3
 output = { points = 61 }
 record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
 )"},
+    {"friction that has relaxed to almost nothing after a long way, and is set in motion by a slider", R"([elements]
+e2 = { type = "vfm", between = ["n1", "ground"], damping = 3.74, stiffness = 287 }
+e3 = { type = "cfm", between = ["n2", "n1"], stiffness = 136, coulomb = 0.103, damping = 7.9, exponent = 0 }
+e4 = { type = "cfm", between = ["n3", "n2"], stiffness = 419, coulomb = 1.81, damping = 1.17, exponent = 3 }
+e5 = { type = "sfm", between = ["n3", "n2"], stiffness = 109, coulomb = 2.5, exponent = 1 }
+e6 = { type = "slider", between = ["n1", "n3"], coulomb = 2.07 }
+f = { type = "motion", at = "n3", velocity = { ramp = -0.628, offset = 0.628 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
     {"a small viscous force between masses and friction, all of it on the move", R"([elements]
 e1 = { type = "sfm", between = ["n0", "ground"], stiffness = 52, coulomb = 1.92, exponent = 3 }
 e2 = { type = "sfm", between = ["n0", "ground"], stiffness = 313, coulomb = 0.312, exponent = 1 }
