@@ -1,5 +1,7 @@
 #include "core/result/certify.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "core/network/network.hpp"
 #include "core/result/csv.hpp"
 
 namespace rheonet {
@@ -197,5 +200,19 @@ class Certification {
 }  // namespace
 
 Certificate certify(const Scene& scene, const RunSettings& settings) { return Certification(scene, settings).go(); }
+
+Summary run_certified(const Scene& asked, const RunSettings& settings) {
+  Scene scene = asked;
+  scene.accuracy = settings.tolerance.value_or(scene.accuracy);
+  Certificate certificate = certify(scene, settings);
+  if (!certificate.holds) {
+    throw SimulationError(certificate.rounds.empty()
+                              ? fmt::format("not certified: no run was there to measure it by: {}", certificate.obstacle)
+                              : fmt::format("not certified: {} `{}` may be off by more", at_time(scene, certificate.until - scene.start),
+                                            scene.records[certificate.result().worst].path));
+  }
+  certificate.summary.cpu_seconds = certificate.cpu_seconds;
+  return certificate.summary;
+}
 
 }  // namespace rheonet

@@ -13,6 +13,7 @@ struct Manner {
   std::string name = {};          ///< "order up to 4"
   int order = RunSettings{}.order;  ///< of the method, at most
   bool locate_events = true;      ///< see Integrator::Options
+  bool certified = false;         ///< run after run, until one is known to be as accurate as asked (certify.hpp)
   std::vector<Scene> scene = {};  ///< one that is simulated in its place; none: itself
 };
 

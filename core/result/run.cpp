@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/network/network.hpp"
+#include "core/result/certify.hpp"
 #include "core/result/channels.hpp"
 #include "core/result/claims.hpp"
 #include "core/result/cpu_time.hpp"
@@ -316,6 +317,7 @@ Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& sett
   const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
   RunSettings in_manner = settings;
   in_manner.order = manner.order;
+  if (manner.certified) return run_certified(scene, in_manner);
   return manner.locate_events ? run(scene, in_manner) : integrate(scene, in_manner, false);
 }
 

@@ -21,10 +21,13 @@ constexpr double grains = 16;
 // but the error of the others: it has no size of its own.
 constexpr double share_of_kind = 1e-4;
 
+// What is over within this share of the time to the events before and after is as good as a jump.
+constexpr double share_of_stretches = 1e-2;
+
 /// Gathers what makes a yardstick of a run.
 class Watch {
  public:
-  Watch(const Scene& scene, double near, Yardstick& result) : scene_(scene), near_(near), result_(result) {
+  Watch(const Scene& scene, double near, Yardstick& result) : scene_(scene), near_(near), result_(result), event_(scene.start) {
     result_.largest.assign(scene.records.size(), 0);
   }
 
@@ -32,12 +35,34 @@ class Watch {
 
   void state(double t, const std::vector<double>& values) {
     see(values);
-    if (t == last_time_ && values != last_ && near_a_row(t)) result_.instants.push_back({t, last_, values});
+    if (t == last_time_) {
+      if (t > event_) pass(t);
+      if (values != last_ && near_a_row(t)) result_.instants.push_back({t, last_, values});
+      at_event_ = values;
+    }
     last_time_ = t;
     last_ = values;
   }
 
+  void end() {
+    take_passage(std::numeric_limits<double>::infinity());
+    std::stable_sort(result_.instants.begin(), result_.instants.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  }
+
  private:
+  /// From the last event to this one, at t, with the records last seen.
+  void pass(double t) {
+    const double stretch = t - event_;
+    take_passage(stretch);
+    if (stretch <= near_ && stretch <= share_of_stretches * before_event_ && near_a_row(t)) passage_ = {{t, at_event_, last_, stretch}};
+    before_event_ = stretch;
+    event_ = t;
+  }
+  /// What may have been one is, if it was short beside the stretch that came after it too.
+  void take_passage(double next) {
+    if (!passage_.empty() && passage_.front().lasts <= share_of_stretches * next) result_.instants.push_back(std::move(passage_.front()));
+    passage_.clear();
+  }
   void see(const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       result_.largest[k] = std::max(result_.largest[k], std::abs(values[k]));
@@ -53,6 +78,10 @@ class Watch {
   Yardstick& result_;
   double last_time_ = not_given;
   std::vector<double> last_;
+  double event_;                  ///< the last one, or the start [s]
+  double before_event_ = 0;       ///< the time to the one before that [s]
+  std::vector<double> at_event_;  ///< records just after the last event
+  Instants passage_;              ///< one that may be as good as a jump, or none
 };
 
 /// Distance of a value from what a record is at t, one-sided at its jumps.
@@ -61,8 +90,10 @@ double distance(double value, double truth, std::size_t column, double t, const 
   const auto first = std::lower_bound(instants.begin(), instants.end(), t - shift,
                                       [](const Yardstick::Instant& i, double time) { return i.time < time; });
   for (auto i = first; i != instants.end() && i->time <= t + shift; ++i) {
-    if (explained * std::abs(i->after[column] - i->before[column]) < result) continue;
-    result = std::min({result, std::abs(value - i->before[column]), std::abs(value - i->after[column])});
+    const double before = i->before[column], after = i->after[column];
+    if (i->lasts > shift || explained * std::abs(after - before) < result) continue;
+    if (i->lasts > 0 && std::min(before, after) <= value && value <= std::max(before, after)) return 0;
+    result = std::min({result, std::abs(value - before), std::abs(value - after)});
   }
   return result;
 }
@@ -103,6 +134,7 @@ Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings
   Watch watch(scene, near, result);
   settings.state = [&watch](double time, const std::vector<double>& values) { watch.state(time, values); };
   result.course = run_to_memory(scene, std::move(settings));
+  watch.end();
   for (const std::vector<double>& row : result.course.rows) watch.row(row);
   return result;
 }

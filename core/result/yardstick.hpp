@@ -8,10 +8,12 @@ namespace rheonet {
 
 /// A run that others are measured by: a much more accurate one, and what its rows do not show.
 struct Yardstick {
-  /// An instant near a row at which a record may jump, and the records on both sides of it.
+  /// An instant near a row at which a record may jump, and the records on both sides of it. A stretch between two events is
+  /// taken for one as well, if it is short beside those on both sides of it: a signal that goes over as if it jumped.
   struct Instant {
-    double time;
+    double time;                        ///< of a stretch that of its end
     std::vector<double> before, after;
+    double lasts = 0;                   ///< s
   };
   Course course;
   std::vector<double> largest;    ///< magnitude of each record, between rows too
@@ -23,7 +25,8 @@ struct Yardstick {
 Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings = {});
 
 /// The error of a record in a run, as the accuracy of a scene is defined: at a row the distance from the true value, or,
-/// where the record jumps no further away than `shift` [s], from its value on either side of the jump.
+/// where the record jumps no further away than `shift` [s], from its value on either side of the jump; where it takes some of
+/// that time for it, from its values on the way.
 struct RecordError {
   double largest = 0;    ///< SI
   double time = 0;       ///< of that [s]

@@ -117,4 +117,28 @@ TEST_CASE("a scene that cannot be simulated has no prices; an interrupt ends the
   CHECK_THROWS_AS(price_list(scene_of(swings), {.tolerances = {1e-3}, .interrupt = &interrupted}), SimulationError);
 }
 
+TEST_CASE("certified runs have prices too: what they are off by is what was asked for, at the cost of all runs") {
+  const Scene scene = scene_of(swings, 1e-5);
+  const PriceList list = price_list(scene, {.tolerances = {1e-3, 1e-6}, .manners = {{.name = "usual"}, {.name = "certified", .certified = true}}, .runs = 1, .too_slow = 1e3});
+  REQUIRE(list.prices.size() == 4);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Price &usual = list.prices[i], &certified = list.prices[i + 2];
+    CAPTURE(usual.method.tolerance);
+    REQUIRE(certified.failure.empty());
+    CHECK(certified.method.tolerance == usual.method.tolerance);
+    CHECK(certified.error() <= certified.method.tolerance);
+    CHECK(certified.error() == doctest::Approx(usual.error()));
+    CHECK(certified.summary.cpu_seconds > usual.summary.cpu_seconds);
+  }
+}
+
+TEST_CASE("what cannot be certified has no price, and says when and of what") {
+  const Scene scene = scene_of(swings, 1e-5);
+  const PriceList list = price_list(scene, {.tolerances = {1e-15}, .manners = {{.name = "usual"}, {.name = "certified", .certified = true}}, .runs = 1, .too_slow = 1e3});
+  REQUIRE(list.prices.size() == 2);
+  CHECK(list.prices[0].failure.empty());
+  CHECK(list.prices[1].failure.find("not certified: at t = ") == 0);
+  CHECK(list.prices[1].failure.find("`block.position`") != std::string::npos);
+}
+
 }  // namespace rheonet::test

@@ -245,6 +245,7 @@ struct CommandLine {
     add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
              "E,...");
     precision->add_option("--runs", runs, "of each accuracy, whose CPU time is taken; 5 if not given")->type_name("N");
+    precision->add_flag("--certified", arguments.certified, "also runs that `run --certify` would hand over, and what it takes to know them as accurate");
     precision->add_flag("--variants", arguments.variants, "also otherwise than usual: the order of the method limited, events not located, reductions not made, sliders smoothed");
     add_list(precision, "--variant", arguments.variant_texts,
              "also another scene, or this one with other values, `;` between them; errors are those against this scene",

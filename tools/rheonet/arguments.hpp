@@ -38,6 +38,7 @@ struct Arguments {
   std::vector<double> accuracies;      ///< of `precision`, each once, from the loosest on
   int runs = 5;                        ///< of `precision`, for each accuracy; of `effects`, of each model
   bool variants = false;               ///< of `precision`
+  bool certified = false;              ///< of `precision`: certified runs too
   std::vector<std::string> variant_texts;  ///< of `precision`: as after --variant
   std::vector<std::string> without;    ///< effects
   std::optional<std::vector<std::string>> only;  ///< effects; empty: none

@@ -58,6 +58,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   PriceList list;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {
     std::vector<Manner> all = arguments.variants ? manners(scene) : std::vector<Manner>{{.name = "order up to 5"}};
+    if (arguments.certified) all.push_back({.name = "certified", .certified = true});
     std::move(asked->begin(), asked->end(), std::back_inserter(all));
     list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
                               .manners = std::move(all),
