@@ -103,43 +103,6 @@ test('two variants are compared', async () => {
   await close();
 });
 
-test('the schematic moves as the network does', async () => {
-  const { page, close } = await open('#file=more/stick-slip.toml');
-  const transform = (name) => page.locator(`.drawing [data-element="${name}"]`).evaluate((node) => node.style.transform);
-  const at = (part) => page.locator('.animation input').evaluate((input, value) => {
-    input.value = String(value);
-    input.dispatchEvent(new Event('input', { bubbles: true }));
-  }, Math.round(1000 * part));
-  const shift = async (name) => Number(/translateX\((-?[\d.]+)px\)/.exec(await transform(name))[1]);
-  const stretch = async (name) => Number(/scaleX\(([\d.]+)\)/.exec(await transform(name))[1]);
-  // It sticks until the spring pulls with 2 N, at 2 s, and slips at once after.
-  await at(0.2);
-  assert.equal(await page.locator('.drawing .slider.sticks').count(), 1);
-  assert.equal(await shift('m1'), 0);
-  const pulled = await stretch('k1');
-  await at(0.24);
-  assert.notEqual(await stretch('k1'), pulled);
-  await at(0.26);
-  assert.equal(await page.locator('.drawing .slider.slips').count(), 1);
-  assert.notEqual(await shift('m1'), 0);
-  assert.equal(await page.locator('.clock').textContent(), '2.08 s');
-  // Played, it moves by itself, and the point on the loop moves with it.
-  await page.locator('.plot-head label', { hasText: 'Force against displacement' }).click();
-  await page.locator('.plot-tools select').selectOption('k1');
-  await page.locator('button.play').click();
-  const places = new Set();
-  for (let k = 0; k < 30 && places.size < 4; ++k) {
-    places.add(await page.locator('.loop .dot').evaluate((dot) => dot.style.transform));
-    await page.waitForTimeout(100);
-  }
-  assert.ok(places.size >= 4);
-  await page.locator('button.play').click();
-  const [clock] = [await page.locator('.clock').textContent()];
-  await page.waitForTimeout(200);
-  assert.equal(await page.locator('.clock').textContent(), clock);
-  await close();
-});
-
 async function exported(page, label) {
   await page.locator('button', { hasText: 'Export' }).click();
   const [download] = await Promise.all([page.waitForEvent('download'), page.locator('[role="menuitem"]', { hasText: label }).click()]);

@@ -1,5 +1,6 @@
 // Moves the schematic as the network moves: masses and rods shift, springs stretch, sliders show whether they stick.
 import { element } from './dom.js';
+import { Labels } from './labels.js';
 import { largestOf, number, timeShown } from './units.js';
 
 const reach = 24; // px that the largest relative motion of a usual element takes
@@ -36,7 +37,7 @@ export class Animation {
     this.host.hidden = !data.hasCurves;
     this.parts = svg ? [...svg.querySelectorAll('[data-element]')].map((node) => this.part(node, data.scene.ends)) : [];
     this.rods = svg ? [...svg.querySelectorAll('path.node')].map((node) => ({ node, name: node.dataset.node })) : [];
-    this.labels = svg ? [...svg.querySelectorAll('text')].map((node) => this.label(node)) : [];
+    this.labels = svg && new Labels(svg, this.parts, most);
     const { scene } = data;
     const stretched = scene.elements.filter(({ b }) => b).map(({ name }) => data.column(`${name}.displacement`)).filter(Boolean);
     const moved = stretched.length ? stretched : data.records.filter(({ channel }) => channel === 'position').map(({ path }) => data.column(path));
@@ -54,22 +55,6 @@ export class Animation {
     return { node, left, right, name, slider, x: box.x, width: box.width, y: box.y, height: box.height };
   }
 
-  // What a text goes along with: the node that it names, or the symbol that it stands in, above or below.
-  label(node) {
-    if (node.getAttribute('font-style') === 'italic') return { node, of: { left: node.textContent } };
-    const box = node.getBBox();
-    const x = box.x + box.width / 2;
-    const y = box.y + box.height / 2;
-    let of = {};
-    let nearest = 45; // px
-    for (const part of this.parts) {
-      if (x < part.x || x > part.x + part.width) continue;
-      const away = Math.max(part.y - y, y - part.y - part.height, 0);
-      if (away < nearest) [nearest, of] = [away, part];
-    }
-    return { node, of };
-  }
-
   shift(node, i) {
     if (!node || node === 'ground') return 0;
     const column = this.data.column(`${node}.position`);
@@ -84,10 +69,7 @@ export class Animation {
     const i = data.at(time);
     for (const { node, name } of this.rods) node.style.transform = `translateX(${this.shift(name, i).toFixed(2)}px)`;
     for (const part of this.parts) this.drawPart(part, i);
-    for (const { node, of: { left, right } } of this.labels) {
-      const middle = (this.shift(left ?? right, i) + this.shift(right ?? left, i)) / 2;
-      node.style.transform = `translateX(${middle.toFixed(2)}px)`;
-    }
+    this.labels?.place((node) => this.shift(node, i));
     this.scrub.value = String(Math.round(this.place * 1000));
     const { name, factor } = timeShown(data.scene.start, data.scene.stop);
     this.clock.textContent = `${number(time / factor, 4)} ${name}`;

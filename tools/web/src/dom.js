@@ -40,6 +40,16 @@ export function onTheme(changed) {
   new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
 }
 
+// Tells its style sheet on which side of a part of the page that scrolls there is more of it.
+function tellMore(host) {
+  const look = () => {
+    host.classList.toggle('more-left', host.scrollLeft > 1);
+    host.classList.toggle('more-right', host.scrollLeft + host.clientWidth < host.scrollWidth - 1);
+  };
+  host.addEventListener('scroll', look);
+  new ResizeObserver(look).observe(host);
+}
+
 // The drawing of a network, in the colours of the page; one that is to be read is never smaller than one can read.
 export function schematicOf(scene, { read = true } = {}) {
   const host = element('div', { class: 'schematic' });
@@ -60,6 +70,7 @@ export function schematicOf(scene, { read = true } = {}) {
     host.tabIndex = 0;
     host.setAttribute('role', 'group');
     host.setAttribute('aria-label', 'Schematic');
+    tellMore(host);
   }
   svg.style.maxWidth = `${svg.getAttribute('width')}px`;
   svg.removeAttribute('width');

@@ -165,7 +165,10 @@ export class Sliders {
     const asked = this.all.filter(({ knob }) => knob.asked).sort((a, b) => a.knob.asked - b.knob.asked);
     const others = this.all.filter(({ knob }) => !knob.asked);
     if (asked.length) {
-      this.host.replaceChildren(element('fieldset', {}, element('legend', {}, 'to move'), asked.map(({ row }) => row)),
+      const fields = element('fieldset', {}, element('legend', {}, 'to move'), asked.map(({ row }) => row));
+      // Short names leave more room to move in.
+      fields.style.setProperty('--name', `${Math.min(10, 2 + Math.max(...asked.map(({ knob }) => knob.name.length)))}ch`);
+      this.host.replaceChildren(fields,
         element('details', {}, element('summary', {}, `All other numbers (${others.length})`), grouped(others)));
     } else this.host.replaceChildren(...grouped(others));
     if (!this.all.length) this.host.append(element('p', { class: 'note' }, 'The netlist has no numbers to turn.'));

@@ -1,0 +1,62 @@
+// The texts of a schematic in motion: each goes along with what it names, as far as it stays apart from the others and from
+// the ground.
+
+const apart = 2; // px
+const passes = 12; // one moves the next; between two, half of what is left goes in each
+
+function boxOf(node) {
+  const { x, y, width, height } = node.getBBox();
+  return { x, y, width, height };
+}
+
+// What a text goes along with: the node that it names, or the symbol that it stands in, above or below.
+function ownerOf(node, box, parts) {
+  if (node.getAttribute('font-style') === 'italic') return { left: node.textContent };
+  const x = box.x + box.width / 2;
+  const y = box.y + box.height / 2;
+  let owner = {};
+  let nearest = 45; // px
+  for (const part of parts) {
+    if (x < part.x || x > part.x + part.width) continue;
+    const away = Math.max(part.y - y, y - part.y - part.height, 0);
+    if (away < nearest) [nearest, owner] = [away, part];
+  }
+  return owner;
+}
+
+export class Labels {
+  // `parts`: the symbols, with their boxes and the nodes `left` and `right` of them; none moves further than `most` px.
+  constructor(svg, parts, most) {
+    this.labels = [...svg.querySelectorAll('text')].map((node) => {
+      const box = boxOf(node);
+      return { node, ...box, owner: ownerOf(node, box, parts) };
+    });
+    const walls = [...svg.querySelectorAll('path.ground')].map((node) => ({ ...boxOf(node), fixed: true, shift: 0 }));
+    const row = [...this.labels, ...walls].sort((a, b) => a.x - b.x);
+    this.neighbours = [];
+    row.forEach((a, k) => {
+      for (const b of row.slice(k + 1)) {
+        const gap = b.x - a.x - a.width;
+        if (gap > 2 * most) break;
+        // What is well over another as it is drawn stays so.
+        if (gap >= -apart && a.y < b.y + b.height && b.y < a.y + a.height) this.neighbours.push({ a, b, room: Math.max(0, gap - apart) });
+      }
+    });
+  }
+
+  // shiftOf(node of the network): how far it is from where it is drawn, px.
+  place(shiftOf) {
+    for (const label of this.labels) {
+      const { left, right } = label.owner;
+      label.shift = (shiftOf(left ?? right) + shiftOf(right ?? left)) / 2;
+    }
+    for (let pass = 0; pass < passes; ++pass)
+      for (const { a, b, room } of this.neighbours) {
+        const over = a.shift - b.shift - room;
+        if (over <= 0) continue;
+        a.shift -= a.fixed ? 0 : b.fixed ? over : over / 2;
+        b.shift += b.fixed ? 0 : a.fixed ? over : over / 2;
+      }
+    for (const { node, shift } of this.labels) node.style.transform = `translateX(${shift.toFixed(2)}px)`;
+  }
+}
