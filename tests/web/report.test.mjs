@@ -208,6 +208,26 @@ test('a report of a run that fails at its start says so where its curves would b
   await context.close();
 });
 
+test('names of any length do not make a report wider than the screen', async () => {
+  const name = 'a'.repeat(150);
+  writeFileSync(join(folder, 'names.toml'), `[elements]
+drive = { type = "motion", at = "end", velocity = { sine = "1 m/s", frequency = "2 Hz" } }
+${name} = { type = "spring", between = ["end", "${name}"], stiffness = 10 }
+block = { type = "slider", between = ["${name}", "ground"], coulomb = 1 }
+[simulate]
+stop = 1
+record = ["${name}.force", "${name}.position"]
+[expect]
+"${name}.force" = { max = 1 }
+`);
+  await rheonet(['report', 'names.toml', '-o', 'names.html', '--certify'], { cwd: folder });
+  const { context, page, wrong } = await open('names.html', { viewport: { width: 390, height: 844 } });
+  assert.ok((await page.locator('.explanation').textContent()).includes(name));
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
 test('of two scenes nothing is compared that has different units', async () => {
   const line = `[elements]
 pull = { type = "motion", at = "a", velocity = "1 m/s" }

@@ -24,10 +24,10 @@ std::string plural(std::size_t count, const std::string& noun) {
 /// "2.3 ms": three digits are more than a prediction has.
 std::string duration(double seconds) {
   const std::pair<double, const char*> units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}};
-  for (const auto& [size, name] : units) {
-    if (seconds >= size) return fmt::format("{:.2g} {}", seconds / size, name);
-  }
-  return fmt::format("{:.2g} us", seconds / 1e-6);
+  const auto* unit = std::find_if(std::begin(units), std::end(units) - 1, [&](const auto& u) { return seconds >= u.first; });
+  const double value = seconds / unit->first;
+  const double step = value > 0 ? std::pow(10, std::floor(std::log10(value)) - 1) : 1;
+  return fmt::format("{:g} {}", std::round(value / step) * step, unit->second);
 }
 
 Passage::Line plain(std::string text) { return {.label = "", .text = std::move(text)}; }
