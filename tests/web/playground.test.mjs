@@ -1,6 +1,7 @@
 // The playground, as somebody uses it.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { netlist, number, numbersOnCanvas, redrawn, setUp, shows, slider, stickSlip } from './desk.mjs';
@@ -42,6 +43,21 @@ test('the gallery shows the netlists of the folder, and opens one', async () => 
   await page.waitForFunction(() => document.querySelector('h1').textContent === 'Stick and slip');
   await done(page);
   for (const name of ['pull', 'k1', 'm1', 's1']) assert.equal(await page.locator(`.drawing [data-element="${name}"]`).count(), 1);
+  await close();
+});
+
+test('the gallery says of a netlist that cannot be read what is wrong with it first', async () => {
+  writeFileSync(join(desk.folder, 'mistaken.toml'), bingham.replace('"spring"', '"sprong"').replace('"dashpot"', '"dashpod"'));
+  const { page, close } = await open('');
+  const card = page.locator('.card', { has: page.locator('.bad') });
+  await card.waitFor();
+  assert.equal(await card.count(), 1);
+  assert.equal(await card.getAttribute('data-file'), 'mistaken.toml');
+  assert.match(await card.textContent(), /^no schematic.*It cannot be read: 10:\d+: unknown element type sprong$/);
+  await accessible(page, 'a card of a netlist with mistakes');
+  await card.click();
+  await page.waitForSelector('.mistake.error');
+  rmSync(join(desk.folder, 'mistaken.toml'));
   await close();
 });
 

@@ -12,8 +12,18 @@ export function element(name, attributes = {}, ...children) {
   return node;
 }
 
+// Tells its style sheet on which side of a part of the page that scrolls there is more of it.
+function tellMore(host) {
+  const look = () => {
+    host.classList.toggle('more-left', host.scrollLeft > 1);
+    host.classList.toggle('more-right', host.scrollLeft + host.clientWidth < host.scrollWidth - 1);
+  };
+  host.addEventListener('scroll', look);
+  new ResizeObserver(look).observe(host);
+}
+
 export function table(headings, rows, caption) {
-  return element(
+  const host = element(
     'div',
     { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption },
     element(
@@ -23,6 +33,8 @@ export function table(headings, rows, caption) {
       element('tbody', {}, rows.map((cells) => element('tr', {}, cells.map((cell) => element('td', { class: typeof cell === 'string' && cell.length < 14 ? 'short' : null }, cell))))),
     ),
   );
+  tellMore(host);
+  return host;
 }
 
 // A path, a name or a unit, which a line breaks behind its dots and the like, and not within a word.
@@ -38,16 +50,6 @@ export const styled = (name) => getComputedStyle(document.documentElement).getPr
 export function onTheme(changed) {
   matchMedia('print').addEventListener('change', changed);
   new MutationObserver(changed).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
-}
-
-// Tells its style sheet on which side of a part of the page that scrolls there is more of it.
-function tellMore(host) {
-  const look = () => {
-    host.classList.toggle('more-left', host.scrollLeft > 1);
-    host.classList.toggle('more-right', host.scrollLeft + host.clientWidth < host.scrollWidth - 1);
-  };
-  host.addEventListener('scroll', look);
-  new ResizeObserver(look).observe(host);
 }
 
 // The drawing of a network, in the colours of the page; one that is to be read is never smaller than one can read.

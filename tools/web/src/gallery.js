@@ -1,6 +1,7 @@
 // The netlists of the folder, to choose from.
 import { open, task } from './api.js';
 import { element, schematicOf } from './dom.js';
+import { inWords } from './sections.js';
 
 const words = new Intl.Collator('en', { numeric: true });
 const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || words.compare(a.file, b.file);
@@ -70,7 +71,7 @@ export class Gallery {
   refuse(card, { line, column, message }) {
     card.querySelector('.card-picture').replaceChildren(element('span', { class: 'note' }, 'no schematic'));
     const about = card.querySelector('.card-about');
-    about.textContent = `It cannot be read: ${line ? `${line}:${column}: ` : ''}${message}`;
+    about.replaceChildren(`It cannot be read: ${line ? `${line}:${column}: ` : ''}`, ...inWords(message));
     about.classList.add('bad');
   }
 
