@@ -212,13 +212,13 @@ test('names of any length do not make a report wider than the screen', async () 
   const name = 'a'.repeat(150);
   writeFileSync(join(folder, 'names.toml'), `[elements]
 drive = { type = "motion", at = "end", velocity = { sine = "1 m/s", frequency = "2 Hz" } }
-${name} = { type = "spring", between = ["end", "${name}"], stiffness = 10 }
+${name}k = { type = "spring", between = ["end", "${name}"], stiffness = 10 }
 block = { type = "slider", between = ["${name}", "ground"], coulomb = 1 }
 [simulate]
 stop = 1
-record = ["${name}.force", "${name}.position"]
+record = ["${name}k.force", "${name}.position"]
 [expect]
-"${name}.force" = { max = 1 }
+"${name}k.force" = { max = 1 }
 `);
   await rheonet(['report', 'names.toml', '-o', 'names.html', '--certify'], { cwd: folder });
   const { context, page, wrong } = await open('names.html', { viewport: { width: 390, height: 844 } });
