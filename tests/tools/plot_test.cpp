@@ -221,6 +221,20 @@ TEST_CASE("a figure does not overwrite what it is drawn from") {
   CHECK(folder.read("scene.svg") == scene);
 }
 
+TEST_CASE("of a table nobody chose columns of, those without numbers are left out; of one that is chosen it is told") {
+  const Folder folder(scene);
+  folder.write("r.csv", "run,k [N/m],error,note\n1,10,,good\n2,20,\"does, not\",\n3,,,bad\n");
+  const Finished drawn = folder.shell("rheonet plot r.csv -o a.svg", 0);
+  CHECK(drawn.err == "note: `error` has no numbers, and is left out\nnote: `note` has no numbers, and is left out\n"
+                     "note: `k`: 1 of 3 points are not finite and left out\n");
+  CHECK(contains(folder.read("a.svg"), "<desc>k [N/m] against run: k</desc>"));
+  CHECK(contains(folder.shell("rheonet plot r.csv -y error -x run -o b.svg", 2).err, "r.csv:3:6: expected a number, found `does, not`"));
+  folder.write("r.csv", "run,k\n1,10\n2,x\n");
+  CHECK(contains(folder.shell("rheonet plot r.csv -o b.svg", 2).err, "r.csv:3:3: expected a number, found `x`"));
+  folder.write("r.csv", "run,k\n1,y\n2,x\n");
+  CHECK(contains(folder.shell("rheonet plot r.csv -o b.svg", 2).err, "error: r.csv:2:3: expected a number, found `y`"));
+}
+
 TEST_CASE("a file that cannot be written is told before a run for it") {
   const Folder folder(endless);
   folder.write("folder.svg/file", "");

@@ -97,6 +97,17 @@ CsvFile::CsvFile(const std::string& path, std::optional<Domain> domain) : path_(
   }
 }
 
+bool CsvFile::has_numbers(std::size_t column) const {
+  std::ifstream in = open(path_);
+  std::string line;
+  for (long number = 0; next(in, line, number);) {
+    if (number <= header_line_) continue;
+    const std::vector<CsvField> fields = csv_fields(line);
+    if (column < fields.size() && csv_number(fields[column])) return true;
+  }
+  return false;
+}
+
 std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs) const {
   std::ifstream in = open(path_);
   std::vector<Trace> traces(pairs.size());

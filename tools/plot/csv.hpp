@@ -34,6 +34,9 @@ class CsvFile {
 
   const std::vector<Column>& columns() const { return columns_; }
 
+  /// Whether a column has a number in any row.
+  bool has_numbers(std::size_t column) const;
+
   /// Reads the rows: a trace in SI for each pair of columns. Throws Mistake: no rows, a row of another length, a field
   /// that is no number. Fields that are empty, and values that are not finite,
   /// interrupt a curve.

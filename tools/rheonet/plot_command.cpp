@@ -71,7 +71,15 @@ std::vector<plot::ColumnPair> pairs_of(const PlotSource& source, const std::vect
     const std::string x = x_name.empty() ? source.columns().front().name : x_name;
     const std::optional<std::size_t> x_column = find(source, x);
     if (!x_column) throw no_column(source, x);
-    for (const std::size_t y : chosen_columns(source.columns(), x)) pairs.emplace_back(*x_column, y);
+    const std::vector<std::size_t> chosen = chosen_columns(source.columns(), x);
+    const bool any = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t y) { return source.has_numbers(y); });
+    for (const std::size_t y : chosen) {
+      // Where none has any, reading them says what is wrong with the file.
+      if (!any || source.has_numbers(y))
+        pairs.emplace_back(*x_column, y);
+      else
+        say("note: `{}` has no numbers, and is left out\n", printable(source.columns()[y].name));
+    }
     if (pairs.empty()) throw Mistake(fmt::format("`{}` has nothing but `{}`", source.file(), x));
     return pairs;
   }

@@ -25,6 +25,7 @@ class CsvSource final : public PlotSource {
     columns_ = csv_.columns();
   }
 
+  bool has_numbers(std::size_t column) const override { return csv_.has_numbers(column); }
   std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override { return csv_.read(pairs); }
 
  private:

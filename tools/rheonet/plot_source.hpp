@@ -22,6 +22,9 @@ class PlotSource {
   /// What a scene wants drawn, if that was left to it.
   const PlotTable& own() const { return own_; }
 
+  /// Whether a column has a number in any row: one of words has not.
+  virtual bool has_numbers(std::size_t) const { return true; }
+
   /// Goes through the rows: a trace in SI for each pair of columns. Throws plot::Mistake; PlotEnded if a scene cannot
   /// be simulated.
   virtual std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) = 0;
