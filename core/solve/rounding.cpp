@@ -39,8 +39,18 @@ void Tolerances::find_parts() {
   for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
+/// Something is a function of time, or of an earlier one.
+bool Tolerances::driven() const {
+  const auto changes = [](const Signal& signal) { return !std::holds_alternative<Signal::Constant>(signal.shape()); };
+  const auto by_time = [&](const Network::Force& f) { return f.block < 0 && changes(f.signal); };
+  const auto generates = [&](const Blocks::Block& b) { return b.law.delay > 0 || (b.generates && changes(b.signal)); };
+  return !network_.motions.empty() || dae_->drive().past().any() ||
+         std::any_of(network_.forces.begin(), network_.forces.end(), by_time) ||
+         std::any_of(network_.blocks.blocks.begin(), network_.blocks.blocks.end(), generates);
+}
+
 /// Through dashpots and friction motion follows what moves at once, and jitters as time is rounded. Where there are only
-/// springs it goes by the lengths of steps.
+/// springs it goes by the lengths of steps, and so where sliders end it, but for what comes at its time.
 void Tolerances::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
@@ -50,7 +60,9 @@ void Tolerances::find_jitter() {
     }
   }
   for (const Branch& b : structure.rates) dissipates[at(part_of(b))] = 1;
-  for (const Branch& b : structure.sliders) dissipates[at(part_of(b))] = 1;
+  if (!structure.sliders.empty() && driven()) {
+    for (const Branch& b : structure.sliders) dissipates[at(part_of(b))] = 1;
+  }
   jitters_.assign(quantity_.size(), 1);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];

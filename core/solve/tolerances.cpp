@@ -218,6 +218,8 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   if (t > forget_) forget();
   see(y, view);
   find_difference_rounding(view);
+  // What blocks push back with may set in long after a restart.
+  if (!network_.blocks.sensors.empty()) find_slider_shares();
   step_ = t - reached_;
   reached_ = t;
   find_dashpot_rounding(view);

@@ -95,6 +95,7 @@ class Tolerances {
   void bear_noise(std::size_t i, double t, double jitter, double largest_velocity);
   void update(double t, const std::vector<double>& yp, const Dae::View& view);
   void find_parts();
+  bool driven() const;
   void find_jitter();
   struct Loads;
   Loads find_loads(const Dae::View& view) const;
