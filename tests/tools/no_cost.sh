@@ -28,7 +28,7 @@ SCENE
 
 instructions() {
   scene "$1" > scene.toml
-  "$valgrind" --tool=callgrind --callgrind-out-file=/dev/null "$rheonet" run scene.toml -q -o rows.csv 2> log.txt || { cat log.txt; exit 1; }
+  "$valgrind" --tool=callgrind --callgrind-out-file=/dev/null "$rheonet" run scene.toml -q -o rows.csv 2> log.txt || { cat log.txt >&2; exit 1; }
   sed -n 's/.*Collected : *//p' log.txt
 }
 
@@ -57,4 +57,5 @@ check delay          "x = { type = \"vfm\", $on_cart, stiffness = 50, damping = 
 check feedback       'x = { type = "gain", in = "cart.velocity", gain = "3 N*s/m" }' ''
 check 'a part by itself' 'x = { type = "mass", at = "bob", mass = 2 }
 y = { type = "spring", between = ["bob", "ground"], stiffness = 300 }' ''
+check 'a free end' 'x = { type = "cfm", between = ["cart", "loose"], stiffness = 50, damping = 3, coulomb = 2, exponent = 1 }' ''
 exit $failed
