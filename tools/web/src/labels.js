@@ -1,5 +1,5 @@
-// The texts of a schematic in motion: each goes along with what it names, as far as it stays apart from the others and from
-// the ground.
+// The texts of a schematic in motion: each goes along with what it names, as far as it stays apart from the others, from the
+// ground, masses and rods.
 
 const apart = 2; // px
 const passes = 12; // one moves the next; between two, half of what is left goes in each
@@ -31,15 +31,18 @@ export class Labels {
       const box = boxOf(node);
       return { node, ...box, owner: ownerOf(node, box, parts) };
     });
-    const walls = [...svg.querySelectorAll('path.ground')].map((node) => ({ ...boxOf(node), fixed: true, shift: 0 }));
-    const row = [...this.labels, ...walls].sort((a, b) => a.x - b.x);
+    const rods = [...svg.querySelectorAll('path.node')].map((node) => ({ ...boxOf(node), owner: node.dataset.node })).filter(({ width, height }) => width < 1 && height > 1);
+    const masses = parts.filter(({ node }) => node.classList.contains('mass')).map(({ x, y, width, height, left, right }) => ({ x, y, width, height, owner: left ?? right }));
+    const walls = [...svg.querySelectorAll('path.ground')].map((node) => ({ ...boxOf(node), owner: 'ground' }));
+    this.obstacles = [...rods, ...masses, ...walls].map((box) => ({ ...box, fixed: true }));
+    const row = [...this.labels, ...this.obstacles].sort((a, b) => a.x - b.x);
     this.neighbours = [];
     row.forEach((a, k) => {
       for (const b of row.slice(k + 1)) {
         const gap = b.x - a.x - a.width;
         if (gap > 2 * most) break;
         // What is well over another as it is drawn stays so.
-        if (gap >= -apart && a.y < b.y + b.height && b.y < a.y + a.height) this.neighbours.push({ a, b, room: Math.max(0, gap - apart) });
+        if (!(a.fixed && b.fixed) && gap >= -apart && a.y < b.y + b.height && b.y < a.y + a.height) this.neighbours.push({ a, b, room: Math.max(0, gap - apart) });
       }
     });
   }
@@ -50,6 +53,7 @@ export class Labels {
       const { left, right } = label.owner;
       label.shift = (shiftOf(left ?? right) + shiftOf(right ?? left)) / 2;
     }
+    for (const obstacle of this.obstacles) obstacle.shift = shiftOf(obstacle.owner);
     for (let pass = 0; pass < passes; ++pass)
       for (const { a, b, room } of this.neighbours) {
         const over = a.shift - b.shift - room;
