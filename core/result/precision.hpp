@@ -38,7 +38,8 @@ struct PriceListSettings {
   std::vector<double> tolerances;  ///< in any order
   std::vector<Manner> manners = {{.name = "order up to 5"}};  ///< each is gone through; see `too_slow`
   int runs = 5;                    ///< of each method, whose CPU time is taken
-  /// A method that takes so many times the CPU time of the slowest one of the first of the manners is the last of its manner.
+  /// A method that takes so many times the CPU time of the slowest one of the first of the manners is the last of its manner,
+  /// unless that is to certify.
   double too_slow = 10;
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress = {};  ///< called now and then, with the share of the methods that are done

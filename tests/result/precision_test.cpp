@@ -132,6 +132,15 @@ TEST_CASE("certified runs have prices too: what they are off by is what was aske
   }
 }
 
+TEST_CASE("what certifying takes is no reason to leave off, as it is of other manners") {
+  const PriceListSettings settings{.tolerances = {1e-3, 1e-5}, .manners = {{.name = "usual"}, {.name = "low", .order = 2}, {.name = "certified", .certified = true}}, .runs = 1, .too_slow = 1e-3};
+  const PriceList list = price_list(scene_of(swings, 1e-5), settings);
+  long of_manner[3] = {};
+  for (const Price& p : list.prices) ++of_manner[p.method.manner];
+  CHECK(of_manner[1] == 1);
+  CHECK(of_manner[2] == 2);
+}
+
 TEST_CASE("what cannot be certified has no price, and says when and of what") {
   const Scene scene = scene_of(swings, 1e-5);
   const PriceList list = price_list(scene, {.tolerances = {1e-15}, .manners = {{.name = "usual"}, {.name = "certified", .certified = true}}, .runs = 1, .too_slow = 1e3});
