@@ -228,6 +228,23 @@ record = ["${name}k.force", "${name}.position"]
   await context.close();
 });
 
+test('no two curves of a panel look the same, whichever scene records them', async () => {
+  const moved = bingham.replace('record = ["k1.force", "mid.velocity"]', 'record = ["k1.force", "mid.position", "drum.position"]')
+    .replaceAll('"drum', '"wheel').replaceAll('"mid', '"joint');
+  writeFileSync(join(folder, 'moved.toml'), moved);
+  await rheonet(['report', 'stiff.toml', 'moved.toml', '-o', 'looks.html'], { cwd: folder });
+  const { context, page, wrong } = await open('looks.html');
+  const panels = await page.locator('.comparison .chart').evaluateAll((charts) => charts.map((chart) =>
+    [...chart.querySelectorAll('.u-series')].slice(1).map((series) => {
+      const { borderTopColor, borderTopStyle } = getComputedStyle(series.querySelector('.u-marker'));
+      return { name: series.querySelector('.u-label').textContent, look: `${borderTopColor} ${borderTopStyle}` };
+    })));
+  assert.ok(panels.some((curves) => curves.length === 2 && curves.every(({ name }) => /^B .*position/.test(name))), JSON.stringify(panels));
+  for (const curves of panels) assert.equal(new Set(curves.map(({ look }) => look)).size, curves.length, JSON.stringify(curves));
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
 test('of two scenes nothing is compared that has different units', async () => {
   const line = `[elements]
 pull = { type = "motion", at = "a", velocity = "1 m/s" }

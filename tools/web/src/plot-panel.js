@@ -179,11 +179,13 @@ export class PlotPanel {
           name: label ? `${label} ${record.path}` : record.path,
           time: data.time,
           values: data.columns[k],
-          style: panel.names.indexOf(record.path) + (panel.names.length === 1 && this.runs.length > 1 ? run : 0),
+          style: panel.names.indexOf(record.path),
           dash: run,
         });
       });
     });
+    // One record of several runs is told apart by colour too.
+    for (const { names, curves } of panels.values()) if (names.length === 1) curves.forEach((curve) => (curve.style = curve.dash));
     return [...panels.values()];
   }
 
