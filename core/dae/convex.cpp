@@ -234,6 +234,18 @@ bool ConvexNetwork::stick_where_met() {
   return met;
 }
 
+/// What was let go and has not moved, since others hold its ends, sticks: to which of its bounds it went may have been decided by
+/// a force that is no longer there. False if there is nothing such.
+bool ConvexNetwork::stick_where_idle() {
+  merge();
+  bool idle = false;
+  for (Branch& b : branches_) {
+    if (!b.jumps || b.stuck || difference(b) != 0) continue;
+    idle = b.stuck = true;
+  }
+  return idle;
+}
+
 ConvexNetwork::Outcome ConvexNetwork::solve() {
   choose_weak();
   stick_at_first();
@@ -242,6 +254,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   int idle = 0;  // rounds in a row that brought nothing
   double least = std::numeric_limits<double>::infinity();  // of what was left, since the last release
   int stagnant = 0;
+  bool looked_again = false;  // since the last step
   const std::size_t rounds = 200 + 20 * branches_.size();
   for (std::size_t round = 0; round < rounds; ++round) {
     merge();
@@ -257,8 +270,9 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         // What was let go together holds itself back: then one at a time. If one alone does, it was rounding.
         const bool alone = released_.size() == 1;
         for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
-        if (alone) return Outcome::solved;
-        released_.resize(1);
+        if (alone && (looked_again || !stick_where_idle())) return Outcome::solved;
+        looked_again = looked_again || alone;
+        released_.resize(alone ? 0 : 1);
         continue;
       }
       settled = !(descent < 0);
@@ -279,6 +293,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       continue;
     }
     released_.clear();
+    looked_again = false;
     for (Branch& b : branches_) b.apart = b.jumps && !b.stuck && difference(b) != 0;
     if (search(d) == Outcome::unbounded) {
       for (std::size_t k = 0; k < u_.size(); ++k) {

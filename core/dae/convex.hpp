@@ -79,6 +79,7 @@ class ConvexNetwork {
   void choose_weak();
   void stick_at_first();
   bool stick_where_met();
+  bool stick_where_idle();
   void merge();
   bool balanced(std::vector<double>& gradient) const;
   bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants);

@@ -7,6 +7,7 @@
 #include <boost/graph/biconnected_components.hpp>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/network/component.hpp"
 #include "core/network/index.hpp"
@@ -81,17 +82,20 @@ class Search {
     using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property,
                                         boost::property<boost::edge_index_t, std::size_t>>;
     const std::size_t nodes = held_.size(), above = nodes;
-    Graph graph(nodes + 1);
-    std::size_t edges = 0;
-    const auto join = [&](std::size_t a, std::size_t b) { boost::add_edge(a, b, edges++, graph); };
+    // Once between the same two: the search for blocks does not number what runs beside an edge that it has come along.
+    std::vector<std::pair<std::size_t, std::size_t>> joins;
     for (std::size_t e = 0; e < laws_.size(); ++e) {
       const std::size_t a = at(scene_.elements[e].a), b = at(scene_.elements[e].b);
-      if (joins_ends(role_of(laws_[e])) && !(held_[a] && held_[b])) join(a, b);
+      if (joins_ends(role_of(laws_[e])) && !(held_[a] && held_[b])) joins.push_back(std::minmax(a, b));
     }
+    std::sort(joins.begin(), joins.end());
+    joins.erase(std::unique(joins.begin(), joins.end()), joins.end());
     for (std::size_t n = 0; n < nodes; ++n) {
-      if (held_[n]) join(n, above);
+      if (held_[n]) joins.push_back({n, above});
     }
-    std::vector<std::size_t> block(edges);
+    Graph graph(nodes + 1);
+    for (std::size_t k = 0; k < joins.size(); ++k) boost::add_edge(joins[k].first, joins[k].second, k, graph);
+    std::vector<std::size_t> block(joins.size());
     const auto index = boost::get(boost::edge_index, graph);
     const std::size_t blocks = boost::biconnected_components(graph, boost::make_iterator_property_map(block.begin(), index));
     std::vector<char> firm(blocks, 0);

@@ -67,6 +67,19 @@ TEST_CASE("what hangs on one node alone moves with it, and carries no force") {
   }
 }
 
+TEST_CASE("elements side by side hang as one does, whatever is written first") {
+  for (const bool mass_first : {true, false}) {
+    SceneBuilder b;
+    if (mass_first) b.at("heavy", "mass", "m", {{"mass", 0.31}});
+    b.between("h1", "vfm", "m", "x", {{"stiffness", k}, {"damping", B}, {"delay", 0.1}});
+    b.between("h2", "vfm", "x", "m", {{"stiffness", 0.3 * k}, {"damping", B}, {"delay", 0.2}});
+    b.between("held", "spring", "m", "ground", {{"stiffness", k}});
+    if (!mass_first) b.at("heavy", "mass", "m", {{"mass", 0.31}});
+    b.force("push", "m", Signal(Signal::Constant{1.7}));
+    CHECK_EQ(on(finished(b), "x"), "m");
+  }
+}
+
 TEST_CASE("what else holds a node keeps it, and all on the way to it, from hanging free") {
   const auto hangs = [](const SceneBuilder& b, const char* node) { return on(finished(b), node) != node; };
   SUBCASE("a mass") {
