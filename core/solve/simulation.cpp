@@ -62,7 +62,7 @@ class Run {
         systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
         switches_(network, drive_.blocks()),
         headway_(network.scene->elements.size() + 1, settings.accuracy),
-        softening_(network, classified_) {
+        softening_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
     drive_.past().disregard(jump_share * settings.accuracy);
@@ -151,6 +151,7 @@ class Run {
       if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
     }
     tolerances_.attach(system_->dae);
+    softening_.attach(system_->structure);
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);
     yp_.assign(y_.size(), 0);

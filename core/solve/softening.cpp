@@ -12,35 +12,36 @@
 
 namespace rheonet {
 
-Softening::Softening(const Network& network, const Structure& classified)
+Softening::Softening(const Network& network)
     : network_(network), applied_(network.rates.size(), not_given), least_velocity_(network.rates.size(), 0), stops_(network.rates.size(), 0),
-      mass_(network.rates.size(), 0) {
-  find_stops(classified);
-}
+      mass_(network.rates.size(), 0) {}
 
-void Softening::find_stops(const Structure& classified) {
-  const auto heavy = [&](NodeId n) { return classified.kind[at(n)] == Kind::known || classified.kind[at(n)] == Kind::massive; };
+void Softening::attach(const Structure& structure) {
+  std::fill(stops_.begin(), stops_.end(), 0);
+  std::fill(mass_.begin(), mass_.end(), 0);
+  const auto heavy = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
+  // Ends that sliders hold together are one node in this.
   const auto for_each_pseudoplastic = [&](auto visit) {
     for (const Laws<RateBatch>& laws : network_.rate_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
         const std::size_t r = at(laws.first) + i;
-        if (laws.batch->growth(i).exponent < 1) visit(r, network_.rates[r]);
+        if (laws.batch->growth(i).exponent < 1 && structure.rates[r].a != structure.rates[r].b) visit(r, structure.rates[r]);
       }
     }
   };
   // Chains of them through massless nodes.
-  Sets chains(classified.kind.size());
+  Sets chains(structure.kind.size());
   for_each_pseudoplastic([&](std::size_t, const Branch& b) {
     if (!heavy(b.a) && !heavy(b.b)) chains.join(b.a, b.b);
   });
   struct Ends { int heavy = 0; bool mass = false; };
-  std::vector<Ends> ends(classified.kind.size());
+  std::vector<Ends> ends(structure.kind.size());
   const auto ends_of = [&](const Branch& b) {
     Ends direct;
     Ends& sum = heavy(b.a) && heavy(b.b) ? direct : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
     for (const NodeId n : {b.a, b.b}) {
       sum.heavy += heavy(n) ? 1 : 0;
-      sum.mass = sum.mass || classified.kind[at(n)] == Kind::massive;
+      sum.mass = sum.mass || structure.kind[at(n)] == Kind::massive;
     }
     return sum;
   };
@@ -50,8 +51,8 @@ void Softening::find_stops(const Structure& classified) {
     const Ends found = direct ? ends_of(b) : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
     stops_[r] = found.heavy > 1 && (found.mass || !direct);
   });
-  const auto yields = [&](NodeId n) { return classified.kind[at(n)] == Kind::massive ? 1 / classified.mass[at(n)] : 0; };
-  for (const StopChain& chain : find_stop_chains(network_, classified)) {
+  const auto yields = [&](NodeId n) { return structure.kind[at(n)] == Kind::massive ? 1 / structure.mass[at(n)] : 0; };
+  for (const StopChain& chain : find_stop_chains(network_, structure)) {
     const double yielding = yields(chain.a) + yields(chain.b);
     for (const int r : chain.rates) mass_[at(r)] = yielding > 0 ? 1 / yielding : 0;
   }

@@ -12,9 +12,11 @@ namespace rheonet {
 /// About how far power laws are taken as linear around rest, where their slope would be 0 or infinite.
 class Softening {
  public:
-  /// `classified` is the network's structure with every slider slipping. The network must outlive this.
-  Softening(const Network& network, const Structure& classified);
+  /// The network must outlive this.
+  explicit Softening(const Network& network);
 
+  /// Goes over to the modes with this structure.
+  void attach(const Structure& structure);
   /// At the start, with the velocities of all nodes. Dilatant laws that start from rest would let their ends go there:
   /// rounding of the velocities that the drive comes to gives them some slope.
   void begin(const Drive& drive, const std::vector<double>& velocity);
@@ -23,7 +25,6 @@ class Softening {
 
  private:
   const Network& network_;
-  void find_stops(const Structure& classified);
   double slowest_stop(std::size_t rate, const Growth& growth) const;
   std::vector<double> applied_;         ///< of each rate branch [m/s]; not_given before the first time
   std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
