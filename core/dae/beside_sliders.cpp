@@ -22,6 +22,19 @@ void Instant::rest_beside_sliders(const Fired& fired, const State& state, const 
   }
 }
 
+/// What moves as it is told to, and alike, is as good as one.
+void Instant::join_given(const ConvexNetwork& problem, Sets& sets) const {
+  std::vector<NodeId> given;
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    if (structure_.kind[n] == Kind::known) given.push_back(static_cast<NodeId>(n));
+  }
+  const auto value = [&](NodeId node) { return problem.value(slot(node)); };
+  std::stable_sort(given.begin(), given.end(), [&](NodeId a, NodeId b) { return value(a) < value(b); });
+  for (std::size_t k = 1; k < given.size(); ++k) {
+    if (same_velocity(problem, given[k - 1], given[k])) sets.join(given[k - 1], given[k]);
+  }
+}
+
 // Where a slider and friction that relaxes keep the same ends together, the slider is the sharper of the two: the friction
 // rests (s = 0) while the slider has force left. At its bound the slider can take no more, and the friction stands with a
 // mixture of rest and the slider's direction, until it would as well rest.
@@ -31,6 +44,7 @@ std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vect
                                    Change& change) const {
   std::vector<int> slipping, candidates, stopped;
   Sets firm(structure_.kind.size());
+  join_given(problem, firm);
   for (std::size_t k = 0; k < slider_of.size(); ++k) {
     if (problem.direction(slider_of[k]) != 0) continue;
     const Branch& b = network_.sliders[k].branch;

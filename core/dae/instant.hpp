@@ -97,6 +97,7 @@ class Instant {
     return a == b || (structure_.group[static_cast<std::size_t>(a)] < 0 && structure_.group[static_cast<std::size_t>(b)] < 0);
   }
   bool may_stand(int branch) const;
+  void join_given(const ConvexNetwork& problem, Sets& sets) const;
   void rest_beside_sliders(const Fired& fired, const State& state, const Modes& modes) const;
   static bool relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i,
                                  double p);
