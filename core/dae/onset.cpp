@@ -81,8 +81,16 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   }
   take_directions(onset, state, change);
   std::vector<int> broken;
+  Sets held(nodes);
+  join_given(problem, held);
   for (std::size_t k = 0; k < onset.slider.size(); ++k) {
-    const int direction = problem.direction(onset.slider[k]);
+    if (problem.direction(onset.slider[k]) == 0) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
+  }
+  for (std::size_t k = 0; k < onset.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    // At its bound, while others hold its ends: it sticks, and the forces of all of them are those of least norm.
+    const bool sticks = held.find(b.a) == held.find(b.b) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
+    const int direction = sticks ? 0 : problem.direction(onset.slider[k]);
     modes.slider[k] = static_cast<signed char>(direction);
     if (direction != 0 && bound(k, direction) > network_.sliders[k].law.coulomb) broken.push_back(static_cast<int>(k));
   }
