@@ -26,11 +26,13 @@ double Tolerances::force_noise(int rate) const {
 /// A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
 void Tolerances::find_noise(const std::vector<double>& slope) {
   const Structure& structure = dae_->structure();
+  // What rounding leaves of forces, dashpots make a velocity of at nodes without mass alone.
+  const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.mass[at(node)] > 0; };
   const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
+    const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
     const double unresolved =
         given ? given_noise * flow
-              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_),
-                          rounding_at_rest_[at(part_of(b))], of_difference});
+              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_), of_rounding, of_difference});
     // More than nothing: an event function that begins at 0 would never be seen to fall through it.
     return std::max(unresolved, std::numeric_limits<double>::min());
   };
