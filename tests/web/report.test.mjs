@@ -260,3 +260,15 @@ record = ["k1.force"]
   assert.deepEqual(wrong, []);
   await context.close();
 });
+
+test('what a netlist includes is named by its way from there', async () => {
+  mkdirSync(join(folder, 'parts'));
+  writeFileSync(join(folder, 'parts', 'legs.toml'), '[models.leg]\nports = ["a", "b"]\n[models.leg.elements]\nk = { type = "spring", between = ["a", "b"], stiffness = 70 }\n');
+  writeFileSync(join(folder, 'table.toml'), 'include = ["parts/legs.toml"]\n[elements]\nleg = { type = "leg", between = ["top", "ground"] }\npush = { type = "force", at = "top", force = 3 }\n[simulate]\nstop = 1\n');
+  await rheonet(['report', 'table.toml', '-o', 'table.html'], { cwd: folder });
+  const { context, page, wrong } = await open('table.html');
+  assert.deepEqual((await page.locator('.source-text summary').allTextContents()).map((text) => text.trim()), ['table.toml', 'parts/legs.toml (included)']);
+  assert.ok(!readFileSync(join(folder, 'table.html'), 'utf8').includes(join(folder, 'parts')));
+  assert.deepEqual(wrong, []);
+  await context.close();
+});

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -40,6 +41,14 @@ json shown_in(const std::vector<std::string>& wished, const std::string& unit) {
     if (other.size && plot::compatible(measure, other)) return {{"name", plot::in_print(wish)}, {"factor", other.size->factor}};
   }
   return nullptr;
+}
+
+/// A file by its way from the scene's folder; one that is far from there by its name alone.
+std::string seen_from(const std::filesystem::path& scene, const std::filesystem::path& file) {
+  std::error_code failed;
+  const std::filesystem::path folder = scene.has_parent_path() ? scene.parent_path() : ".";
+  const std::string way = std::filesystem::proximate(file, folder, failed).generic_string();
+  return failed || way.starts_with("../../..") || way.starts_with('/') ? file.filename().string() : way;
 }
 
 json records(const ReadResult& read) {
@@ -195,7 +204,8 @@ std::string scene_message(const ReadResult& read, const std::string& file, std::
   for (const Sources::File& source : read.sources.files) {
     constexpr std::size_t most = 100'000;
     const std::string cut = source.text.size() > most ? "\n... and more\n" : "";
-    sources.push_back({{"file", source.path.string()}, {"role", name_of(source.role)}, {"text", source.text.substr(0, most) + cut}});
+    const std::string name = source.role == Sources::Role::scene ? source.path.string() : seen_from(read.sources.files.front().path, source.path);
+    sources.push_back({{"file", name}, {"role", name_of(source.role)}, {"text", source.text.substr(0, most) + cut}});
   }
   const json drawing = schematic(read);
   return to_line({{"kind", "scene"},
