@@ -13,8 +13,9 @@ void BlockSignals::check_sensors(const Network& network, const Structure& classi
     if (sensor.what != What::velocity || classified.kind[at(sensor.index)] != Kind::floating) continue;
     throw SimulationError(
         network.spot_of_node(sensor.index),
-        fmt::format("no block can take in `{}`: node `{}` has neither a mass nor a dashpot, so that its velocity follows "
-                    "from how fast the forces there change; give it one, or take in the position",
+        fmt::format("no block can take in `{}`: node `{}` has no mass, and no dashpots lead from there to a mass, to ground or to a "
+                    "prescribed motion, so that its velocity follows from how fast the forces there change; add one, or take in "
+                    "the position",
                     network.scene->sensed[at(sensor.record)].path, network.node_name(sensor.index)));
   }
 }
