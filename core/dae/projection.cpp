@@ -103,10 +103,29 @@ class Consistency::Projection {
   bool within_rounding(const std::vector<double>& y) {
     find_defects(y);
     dae_.magnitudes(magnitude_.data());
+    add_unknown_velocities();
     for (std::size_t i = 0; i < n_; ++i) {
       if (!differential(i) && std::abs(defect_[i]) > Dae::rounding_share * magnitude_[i]) return false;
     }
     return true;
+  }
+
+  /// Where velocities that follow from balances of forces have to agree, as friction is held still, they need not to less than
+  /// what the rounding of these forces makes of them: all may be at rest, and have no size of their own.
+  void add_unknown_velocities() {
+    const Pattern& pattern = dae_.pattern();
+    for (std::size_t column = 0; column < n_; ++column) {
+      if (c_.kind_[column] != velocity || differential(column)) continue;
+      double own = 0;  // of its balance, which has its number
+      for (int e = pattern.column_start[column]; e < pattern.column_start[column + 1]; ++e) {
+        if (at(pattern.row[at(e)]) == column) own = std::abs(c_.values_[at(e)]);
+      }
+      if (own == 0) continue;
+      for (int e = pattern.column_start[column]; e < pattern.column_start[column + 1]; ++e) {
+        const std::size_t row = at(pattern.row[at(e)]);
+        if (c_.kind_[row] == deflection && !differential(row)) magnitude_[row] += std::abs(c_.values_[at(e)]) * magnitude_[column] / own;
+      }
+    }
   }
 
   /// Newton's step for what is left of the equations.
