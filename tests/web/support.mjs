@@ -37,10 +37,18 @@ export async function serve(folder, ...options) {
     });
     process.on('exit', (status) => reject(new Error(`the server ends with ${status}: ${text}`)));
   });
+  // Rejects where the server does not end within the time that its slowest answer may take.
   const stop = () =>
-    new Promise((resolve) => {
+    new Promise((resolve, reject) => {
       process.removeAllListeners('exit');
-      process.on('exit', (status) => resolve(status));
+      const late = setTimeout(() => {
+        reject(new Error('the server does not end on SIGTERM'));
+        process.kill('SIGKILL');
+      }, 60000);
+      process.on('exit', (status) => {
+        clearTimeout(late);
+        resolve(status);
+      });
       process.kill('SIGTERM');
     });
   return { origin, port: Number(new URL(origin).port), process, stop };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -62,15 +61,17 @@ ExitStatus listen(const ServeArguments& wanted, serve::Folder& folder) {
     return not_simulated;
   }
   const std::atomic<bool>& interrupted = end_on_signals();
+  // A server that does not listen yet takes no notice of being stopped.
+  std::atomic<bool> ended = false;
   std::thread ending([&] {
-    while (!interrupted) std::this_thread::sleep_for(50ms);
+    while (!ended && !(interrupted && server.is_running())) std::this_thread::sleep_for(50ms);
     server.stop();
   });
   fmt::print("{} (Ctrl-C ends it): the netlists of {}\n", address_of(wanted.host, port), printable(folder.path().string()));
   std::fflush(stdout);
   if (wanted.open) open_in_browser(address_of(wanted.host, port));
   const bool listened = server.listen_after_bind();
-  if (!interrupted) ::raise(SIGTERM);
+  ended = true;
   ending.join();
   return listened ? done : not_simulated;
 }

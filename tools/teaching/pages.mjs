@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { browser, serve, watched } from '../../tests/web/support.mjs';
+import { browser, done, serve, watched } from '../../tests/web/support.mjs';
 
 const folder = process.argv[2];
 const chromium = await browser();
@@ -19,22 +19,24 @@ async function pageIn(origin, address, act, picture) {
   await context.close();
 }
 
-await pageIn('file', pathToFileURL(join(folder, 'seal.html')).href, (page) => page.waitForSelector('.chart canvas'), 'report.png');
+try {
+  await pageIn('file', pathToFileURL(join(folder, 'seal.html')).href, (page) => page.waitForSelector('.chart canvas'), 'report.png');
 
-await pageIn(server.origin, server.origin, async (page) => {
-  await page.locator('.card[data-file="seal.toml"]').click();
-  await page.waitForFunction(() => /drawn/.test(document.querySelector('.status').textContent));
-  await page.locator('button', { hasText: 'Compare' }).click();
-  const frequency = page.locator('[data-slider="parameters.frequency"] input[type="range"]');
-  await frequency.focus();
-  const reads = () => page.locator('[data-slider="parameters.frequency"] input[type="text"]').inputValue();
-  for (let k = 0; k < 100 && Number(await reads()) < 5; ++k) await frequency.press('ArrowRight');
-  assert.ok(Math.abs(Number(await reads()) - 5) < 0.5, await reads());
-  await page.waitForSelector('.loop-legend .key >> nth=1');
-  await page.locator('.animation input').fill('560');
-  await page.mouse.move(0, 0);
-  await page.waitForTimeout(500);
-}, 'playground.png');
-
-await server.stop();
-await chromium.close();
+  await pageIn(server.origin, server.origin, async (page) => {
+    await page.locator('.card[data-file="seal.toml"]').click();
+    await done(page);
+    await page.locator('button', { hasText: 'Compare' }).click();
+    const frequency = page.locator('[data-slider="parameters.frequency"] input[type="range"]');
+    await frequency.focus();
+    const reads = () => page.locator('[data-slider="parameters.frequency"] input[type="text"]').inputValue();
+    for (let k = 0; k < 100 && Number(await reads()) < 5; ++k) await frequency.press('ArrowRight');
+    assert.ok(Math.abs(Number(await reads()) - 5) < 0.5, await reads());
+    await page.waitForSelector('.loop-legend .key >> nth=1');
+    await done(page);
+    await page.locator('.animation input').fill('560');
+    await page.mouse.move(0, 0);
+    await page.waitForTimeout(500);
+  }, 'playground.png');
+} finally {
+  await Promise.all([server.stop(), chromium.close()]);
+}
