@@ -6,13 +6,6 @@
 
 namespace rheonet {
 
-namespace {
-
-// A deflection is rounded less often than a sum of forces is: what is lost is so much of rounding_share.
-constexpr double deflection_share = 0.1;
-
-}  // namespace
-
 double Dae::known_position(NodeId node) const {
   const int motion = structure_->motion[at(node)];
   return motion < 0 ? 0 : drive_->position[at(motion)];

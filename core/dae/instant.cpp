@@ -228,6 +228,10 @@ double Instant::halt(double t, const std::vector<int>& events, const Modes& mode
   return std::max(0.0, heat);
 }
 
+double Instant::force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p) {
+  return p == 0 ? 0 : std::max(batch.slope(i, p, -1), batch.slope(i, p, 1)) * std::abs(p);
+}
+
 Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& slider_force, bool rates) const {
   Nodal result{std::vector<double>(structure_.kind.size(), 0), std::vector<double>(structure_.kind.size(), 0)};
   const auto add = [&](NodeId node, double f) {
@@ -243,7 +247,15 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     laws.batch->evaluate(&state.p[at(laws.first)], &f[at(laws.first)], &c[at(laws.first)]);
   }
-  for (std::size_t j = 0; j < f.size(); ++j) add_branch(network_.deflections[j], f[j]);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      const Branch& b = network_.deflections[j];
+      add_branch(b, f[j]);
+      const double more = deflection_share * force_of_deflection(*laws.batch, i, state.p[j]) - std::abs(f[j]);
+      for (const NodeId node : {b.a, b.b}) result.magnitude[at(node)] += std::max(0.0, more);
+    }
+  }
   for (std::size_t k = 0; k < slider_force.size(); ++k) add_branch(network_.sliders[k].branch, slider_force[k]);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; rates && i < laws.batch->size(); ++i) {

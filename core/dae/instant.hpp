@@ -108,6 +108,8 @@ class Instant {
   bool same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const;
   std::vector<NodeId> given_in(Sets& sets) const;
   void take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force);
+  /// What the slope of a law makes of its deflection [N]: its force is known to a rounding of this.
+  static double force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p);
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider, int side) const;
   bool massless(NodeId node) const {

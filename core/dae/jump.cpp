@@ -90,7 +90,8 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
       if (carried(a, b) || laws.batch->delay(i) > 0) continue;
       const DeflectionBatch& batch = *laws.batch;
       const double p = state.p[j], f0 = f[j];
-      problem.add(slot(a), slot(b), {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1), .rounding = std::abs(f0),
+      problem.add(slot(a), slot(b), {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1),
+                         .rounding = std::max(std::abs(f0), force_of_deflection(batch, i, p)),
                          .beyond = [&batch, i, p, f0](double step, double& slope) {
                            return batch.force_along(i, p, step, slope) - f0;
                          }});

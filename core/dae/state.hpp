@@ -4,6 +4,10 @@
 
 namespace rheonet {
 
+/// A deflection is rounded less often than a sum of forces is. Where a small force comes of a large deflection, so much of what
+/// the slope makes of that counts as a force that is rounded.
+constexpr double deflection_share = 0.1;
+
 /// Where a network is, whatever its modes: what goes from the equations of one mode to those of the next.
 struct State {
   std::vector<double> velocity;  ///< of each node [m/s]; of massless nodes a guess

@@ -125,7 +125,7 @@ class Certification {
     if (tolerance > Certificate::rounding_shows * (1 + rounding)) return attempt(settings_, tolerance);
     auto beside = std::async(std::launch::async, [&] {
       const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
-      return run_as_yardstick(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order});
+      return run_as_yardstick(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order, .account = false});
     });
     std::shared_ptr<Attempt> result = attempt(settings_, tolerance);
     try {

@@ -97,8 +97,8 @@ class SideBySide {
     if (division_.left_out.empty()) return;
     for (const Excerpt& excerpt : division_.unasked) check(excerpt.scene);
     if (!scene_.blocks.empty()) build_network(scene_);  // blocks that are left out may wait for each other
-    notes.push_back(fmt::format("not integrated, since nothing asks for what happens there: {}; the energy account is without it",
-                                listed(division_.left_out)));
+    notes.push_back(fmt::format("not integrated, since nothing asks for what happens there: {}{}", listed(division_.left_out),
+                                settings_.account ? "; the energy account is without it" : ""));
   }
 
   void work() {

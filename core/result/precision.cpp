@@ -21,7 +21,7 @@ constexpr double reference_tolerances[] = {1e-12, 1e-11, 1e-10};
 constexpr int check_order = 4;
 
 RunSettings settings_of(const Method& method, const PriceListSettings& settings) {
-  return {.interrupt = settings.interrupt, .tolerance = method.tolerance, .order = method.order};
+  return {.interrupt = settings.interrupt, .tolerance = method.tolerance, .order = method.order, .account = false};
 }
 
 class Pricing {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -43,8 +44,8 @@ class Recorder final : public Observer {
         event_(settings.event),
         account_(settings.energy),
         tells_(settings.events != nullptr),
-        energy_(scene_.accuracy * 0.01, length_),
         switched_(scene_.elements.size(), 0) {
+    if (settings.account || account_) energy_.emplace(scene_.accuracy * 0.01, length_);
     for (const Record& record : scene_.records) names_.push_back(record.path);
   }
 
@@ -56,10 +57,12 @@ class Recorder final : public Observer {
       events_.header({"element", "event", "direction"});
     }
     unknowns_ = std::max(unknowns_, dae.unknowns());
-    energy_.attach(dae, consistency);
     channels_.attach(dae, consistency);
-    energy_.begin(t, y, yp, heat);
-    tell_energy(t);
+    if (energy_) {
+      energy_->attach(dae, consistency);
+      energy_->begin(t, y, yp, heat);
+      tell_energy(t);
+    }
     if (claims_.any()) {
       claimed_.attach(dae, consistency);
       claims_.begin(t, claimed_.read(t, y, yp));
@@ -81,8 +84,10 @@ class Recorder final : public Observer {
   }
 
   void step(const Integrator& integrator) override {
-    energy_.step(integrator);
-    tell_energy(integrator.time());
+    if (energy_) {
+      energy_->step(integrator);
+      tell_energy(integrator.time());
+    }
     const double until = integrator.time() - slack();
     for (; next_ <= scene_.output_intervals && row_time(next_) < until; ++next_) {
       // An output time may lie by its rounding before the step.
@@ -139,7 +144,7 @@ class Recorder final : public Observer {
     std::stable_sort(result.begin(), result.end(), [](const auto& p, const auto& q) { return p.times > q.times; });
     return result;
   }
-  const EnergyAccount& energy() const { return energy_; }
+  const std::optional<EnergyAccount>& energy() const { return energy_; }
   std::vector<Finding> findings() const { return claims_.findings(); }
   int unknowns() const { return unknowns_; }
 
@@ -167,7 +172,7 @@ class Recorder final : public Observer {
   }
 
   void tell_energy(double t) const {
-    if (account_) account_(scene_time(t), {energy_.supplied(), energy_.stored(), energy_.dissipated()});
+    if (account_) account_(scene_time(t), {energy_->supplied(), energy_->stored(), energy_->dissipated()});
   }
 
   double scene_time(double t) const { return t == length_ ? scene_.stop : scene_.start + t; }
@@ -193,7 +198,7 @@ class Recorder final : public Observer {
   std::function<void(double, const std::string&, const char*, int)> event_;
   std::function<void(double, const EnergySoFar&)> account_;
   bool tells_;  ///< of events
-  EnergyAccount energy_;
+  std::optional<EnergyAccount> energy_;  ///< if asked for
   std::vector<long> switched_;  ///< how often, of each element
   std::int64_t next_ = 0;
   bool pending_event_ = false;
@@ -290,11 +295,13 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
     summary.profile = named(profile, scene, summary.switched);
     summary.steps_of_order.assign(profile.orders().begin(), profile.orders().end());
   }
-  summary.supplied = recorder.energy().supplied();
-  summary.stored = recorder.energy().stored();
-  summary.dissipated = recorder.energy().dissipated();
-  summary.largest = recorder.energy().largest();
-  summary.missing = recorder.energy().missing();
+  if (const auto& energy = recorder.energy()) {
+    summary.supplied = energy->supplied();
+    summary.stored = energy->stored();
+    summary.dissipated = energy->dissipated();
+    summary.largest = energy->largest();
+    summary.missing = energy->missing();
+  }
   summary.findings = recorder.findings();
   summary.notes = network.notes;
   summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());

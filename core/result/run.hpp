@@ -35,6 +35,7 @@ struct RunSettings {
   std::optional<double> tolerance = {};  ///< the integrator works to this accuracy in place of the scene's; > 0
   int order = 5;                         ///< of the integration method, at most; 1 to 5
   int threads = 1;                       ///< on so many independent parts of a scene may be integrated side by side; >= 1
+  bool account = true;                   ///< keeps the energy account; without it the energies of the Summary are 0
   bool profile = false;                  ///< finds out what the steps are spent on: Summary::profile
 };
 

@@ -13,7 +13,7 @@ namespace {
 
 // The tolerance of a step against the accuracy of the result where errors are forgotten: within the time that they take for
 // that they add up, and records are not the unknowns themselves.
-constexpr double forgetful_share = 1e-3;
+constexpr double forgetful_share = 2e-3;
 // The same of a step over small kinks, of which the errors have either sign. (Of 1000 pairs on a mass at accuracy 1e-6 that
 // takes a tenth of the steps, with errors of 2e-7.)
 constexpr double dense_forgetful_share = 6e-3;

@@ -26,6 +26,14 @@ void require(int flag, const char* call) {
 // estimates of errors, and keeps the order low and steps short.
 constexpr double iteration_share = 0.02, no_farther = 0.1;
 
+// A step is made longer where it may be so many times as long as the last. (IDA's default of 2 leaves steps at less than half
+// of what they may be; below 1.3 they change so often that the order does not rise.)
+constexpr double growth = 1.5;
+
+// A step whose length is another one by this share gets a Jacobian of its own. (By IDA's default of 0.25 one that has become
+// longer by half goes on with the old one, and takes twice the iterations; a Jacobian costs less than one of them.)
+constexpr double stale = 0.01;
+
 }  // namespace
 
 struct Integrator::Implementation {
@@ -76,6 +84,8 @@ struct Integrator::Implementation {
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
+    require(IDASetEtaFixedStepBounds(ida, 1, growth), "IDASetEtaFixedStepBounds");
+    require(IDASetDeltaCjLSetup(ida, stale), "IDASetDeltaCjLSetup");
     if (!dae.rough()) require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
@@ -219,12 +229,12 @@ struct Integrator::Implementation {
     require(IDASetStopTime(ida, stop - lost), "IDASetStopTime");
   }
 
-  /// After a step. IDA raises the order after a few steps of one length, and doubles the length of a step whose error is small.
-  /// Where the error of what is stiff goes with a change of that length, each doubling is rejected, and the order would be 1
-  /// for good. Then no length is doubled until the order has gone up.
+  /// After a step. IDA raises the order after a few steps of one length, and makes a step longer whose error is small.
+  /// Where the error of what is stiff goes with a change of that length, each longer one is rejected, and the order would be 1
+  /// for good. Then no step grows until the order has gone up.
   void rise() {
     constexpr int enough = 6;
-    constexpr double growth = 2, none = 1e6;  // IDA's own: steps grow where they may by that
+    constexpr double none = 1e6;
     int order = 0;
     long failures = 0;
     IDAGetLastOrder(ida, &order);

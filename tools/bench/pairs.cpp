@@ -16,6 +16,9 @@ namespace {
 using namespace rheonet;
 using namespace rheonet::bench;
 
+/// As the programs by hand: without an energy account.
+const RunSettings alone{.account = false};
+
 struct Pair {
   std::string name;
   std::string netlist;
@@ -93,7 +96,7 @@ void compare(const Pair& pair, std::FILE* csv, int runs, double tightest) {
       run = pair.by_hand(setting, times);
       hand_seconds.push_back(cpu_seconds() - begin);
       begin = cpu_seconds();
-      summary = rheonet::run(scene);
+      summary = rheonet::run(scene, alone);
       seconds.push_back(cpu_seconds() - begin);
     }
     by_hand.push_back({setting, error(record_of(run), truth), median(hand_seconds), run.steps});
@@ -118,7 +121,7 @@ int once(char** words) {
     if (std::strcmp(words[1], "hand") == 0)
       pair.by_hand(tolerance, times);
     else
-      run(scene);
+      run(scene, alone);
   }
   return 0;
 }

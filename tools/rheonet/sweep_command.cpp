@@ -146,6 +146,7 @@ std::optional<std::string> Sweep::make(long run, const std::atomic<bool>& stop) 
     std::string text;
     RunSettings settings;
     settings.interrupt = &stop;
+    settings.account = table_.needs_account();
     if (!table_.measures())
       settings.row = [&](double time, const std::vector<double>& values) { SweepTable::append(text, begin, time, values); };
     const Summary summary = rheonet::run(*read.scene, settings);

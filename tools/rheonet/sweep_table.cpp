@@ -16,9 +16,9 @@ namespace rheonet::tool {
 namespace {
 
 const RunFigure figures[] = {
-    {"energy dissipated", [](const Summary& s) { return s.dissipated; }},
-    {"energy supplied", [](const Summary& s) { return s.supplied; }},
-    {"energy stored", [](const Summary& s) { return s.stored; }},
+    {"energy dissipated", [](const Summary& s) { return s.dissipated; }, true},
+    {"energy supplied", [](const Summary& s) { return s.supplied; }, true},
+    {"energy stored", [](const Summary& s) { return s.stored; }, true},
     {"steps", [](const Summary& s) { return static_cast<double>(s.steps); }},
     {"events", [](const Summary& s) { return static_cast<double>(s.events); }},
 };
@@ -52,6 +52,10 @@ std::variant<SweepTable, NoVariation> SweepTable::make(const std::vector<std::st
                        meant.empty() ? "for instance max(k1.force), or energy dissipated" : fmt::format("did you mean `{}`?", meant)};
   }
   return table;
+}
+
+bool SweepTable::needs_account() const {
+  return std::any_of(measures_.begin(), measures_.end(), [](const Measure& m) { return m.figure && m.figure->of_energy; });
 }
 
 std::vector<std::string> SweepTable::record_measures() const {

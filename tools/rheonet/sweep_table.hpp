@@ -14,6 +14,7 @@ namespace rheonet::tool {
 struct RunFigure {
   const char* name;
   double (*of)(const Summary&);
+  bool of_energy = false;  ///< takes the energy account of a run
 };
 
 /// The columns of a sweep's table, and its rows as CSV: the number of the run, from 1 on, its values in SI (as text where
@@ -27,6 +28,8 @@ class SweepTable {
   bool measures() const { return !measures_.empty(); }
   /// Those that are a record's, for ReadOptions.
   std::vector<std::string> record_measures() const;
+  /// One of them takes the energy account of a run.
+  bool needs_account() const;
   /// Without measures: the records that the rows have.
   void set_records(const std::vector<Record>& records);
 
