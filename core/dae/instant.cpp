@@ -8,10 +8,11 @@
 #include <tuple>
 #include <utility>
 
-#include "core/network/time_grain.hpp"
+#include "core/dae/dae.hpp"
 #include "core/network/index.hpp"
 #include "core/network/overload.hpp"
 #include "core/network/rigid_links.hpp"
+#include "core/network/time_grain.hpp"
 
 namespace rheonet {
 
@@ -233,7 +234,8 @@ double Instant::force_of_deflection(const DeflectionBatch& batch, std::size_t i,
 }
 
 Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& slider_force, bool rates) const {
-  Nodal result{std::vector<double>(structure_.kind.size(), 0), std::vector<double>(structure_.kind.size(), 0)};
+  const std::vector<double> none(structure_.kind.size(), 0);
+  Nodal result{none, none, none};
   const auto add = [&](NodeId node, double f) {
     if (node < 0) return;
     result.sum[at(node)] += f;
@@ -260,7 +262,14 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; rates && i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
-      add_branch(b, laws.batch->force_at(i, state.velocity[at(b.a)] - state.velocity[at(b.b)]));
+      const double va = state.velocity[at(b.a)], vb = state.velocity[at(b.b)], w = std::abs(va - vb);
+      const double force = laws.batch->force_at(i, w);
+      add_branch(b, va < vb ? -force : force);
+      if (!(laws.batch->growth(i).exponent < 1)) continue;
+      // Solved for its force, with which the velocities agree to their rounding: near rest they make another one of it.
+      const double left = Dae::rounding_share * (std::abs(va) + std::abs(vb));
+      const double rounding = std::max(laws.batch->force_at(i, w + left) - force, force - laws.batch->force_at(i, w - left));
+      for (const NodeId node : {b.a, b.b}) result.rounding[at(node)] += rounding;
     }
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {

@@ -42,7 +42,8 @@ class Instant {
   void check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const;
 
  private:
-  struct Nodal { std::vector<double> sum, magnitude; };
+  /// Of each node the forces on it: `rounding` is what that of velocities leaves of them [N].
+  struct Nodal { std::vector<double> sum, magnitude, rounding; };
   double time_ahead(double t, double horizon, const State& state) const;
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
   Structure take_along(double t, std::vector<double>& dx) const;

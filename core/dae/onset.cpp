@@ -109,7 +109,7 @@ void Instant::add_nodes(Onset& onset, const State& state) const {
       onset.problem.set_inertia(node, structure_.mass[n] / onset.h);
       onset.slope_around[n] = structure_.mass[n] / onset.h;
     }
-    const bool balanced = std::abs(onset.now.sum[n]) <= balance_rounding * onset.now.magnitude[n] + slack_[n];
+    const bool balanced = std::abs(onset.now.sum[n]) <= balance_rounding * onset.now.magnitude[n] + onset.now.rounding[n] + slack_[n];
     if (!balanced) onset.problem.load(node, -onset.now.sum[n]);
   }
   onset.problem.fix(slot(ground), 0);

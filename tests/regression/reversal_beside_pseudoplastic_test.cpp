@@ -1,0 +1,40 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet::test;
+
+// A dashpot of flow index below 1 is solved for its force. Where friction beside it reverses the velocities that it follows
+// from are equal but for their rounding, of which it makes a force: taken for one that is out of balance, it pressed the
+// friction into standing, and nothing determined the node.
+TEST_CASE("friction that relaxes reverses beside a pseudoplastic dashpot while both its ends move") {
+  const std::string scene = R"([elements]
+fixing = { type = "sfm", between = ["block", "ground"], stiffness = 106, coulomb = 0.144, exponent = 1 }
+block = { type = "mass", at = "block", mass = 0.149 }
+joint = { type = "cfm", between = ["plate", "block"], stiffness = 79.3, coulomb = 1.31, damping = 2.73, exponent = 1 }
+gel = { type = "dashpot", between = ["plate", "block"], damping = 29.7, flow_index = 0.5 }
+rubber = { type = "vfm", between = ["hand", "plate"], damping = 13.7, stiffness = 45.5 }
+oil = { type = "dashpot", between = ["hand", "plate"], damping = 17.9 }
+drive = { type = "motion", at = "hand", position = { sine = 0.0622, frequency = 1.53 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["fixing.force", "joint.force", "gel.force", "rubber.force", "oil.force", "block.velocity", "plate.velocity"]
+)";
+  const Trajectory best = simulate(scene, 1e-10);
+  for (const double accuracy : {3e-3, 2e-3, 1.5e-3, 1e-3, 5e-4, 1e-6}) {
+    CAPTURE(accuracy);
+    const Trajectory rows = simulate(scene, accuracy);
+    REQUIRE(rows.time().size() == best.time().size());
+    for (const std::string& name : best.header) {
+      CAPTURE(name);
+      double worst = 0;
+      for (std::size_t k = 0; k < best.time().size(); ++k) worst = std::max(worst, std::abs(rows[name][k] - best[name][k]));
+      CHECK(worst <= 2 * accuracy * best.scale(name));
+    }
+  }
+}
