@@ -24,6 +24,8 @@ constexpr double least_of_network = 1e-12;
 constexpr double share_of_network = 1e-3;
 // Energies that differ by this share are equal.
 constexpr double link_rounding = 1e-9;
+// Of the force of a slider: what it is short of by more is no error of steps.
+constexpr double largest_error = 1e-3;
 // Jumps in a row that refine each other.
 constexpr int most_jumps = 3;
 
@@ -66,6 +68,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   }
   take_back_excess(!stepped_ && !delayed, modes, force);
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
+  bool first = true;
   for (bool again = true; again;) {
     // A long way leaves a rounding of its own: a second jump takes the rest.
     drive_.sense(t, state);
@@ -73,6 +76,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
       std::fill(dx.begin(), dx.end(), 0.0);
       drive_.sense(t, state);
     }
+    if (first && !stepped_ && !delayed) keep_slipping(force);
+    first = false;
     change.standing.clear();  // what would stand if nothing let go
     const std::vector<int> broken =
         onset(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
@@ -93,6 +98,16 @@ void Instant::take_back_excess(bool smooth, const Modes& modes, std::vector<doub
     if (modes.slider[k] != Modes::stuck || !(excess > 0)) continue;
     force[k] = side * most;
     for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += excess;
+  }
+}
+
+/// Nor does one that slips come to rest for an error of the steps: it keeps its force, and the balance at its ends is off by it.
+void Instant::keep_slipping(std::vector<double>& force) {
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double full = slipping_[k] * network_.sliders[k].law.coulomb, lack = slipping_[k] * (full - force[k]);
+    if (!(lack > 0) || lack > largest_error * std::abs(full)) continue;
+    force[k] = full;
+    for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += lack;
   }
 }
 

@@ -108,6 +108,7 @@ class Instant {
   void take_directions(const Onset& onset, const State& state, Change& change);
   bool same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const;
   std::vector<NodeId> given_in(Sets& sets) const;
+  void keep_slipping(std::vector<double>& force);
   void take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force);
   /// What the slope of a law makes of its deflection [N]: its force is known to a rounding of this.
   static double force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p);
