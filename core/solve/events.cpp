@@ -175,6 +175,35 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
   return laws;
 }
 
+std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp,
+                                              const std::vector<int>& stopped) {
+  const Structure& structure = dae_.structure();
+  const Dae::View& view = resolved(t, y.data(), yp.data());
+  std::vector<double> change(structure.kind.size(), 0);  // of the velocity of each node, as what is left of others' is taken away
+  const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || change[at(n)] != 0; };
+  const auto stop = [&](int k, double velocity) {
+    const Branch& b = structure.sliders[at(k)];
+    const bool first = firm(b.b) || (!firm(b.a) && structure.mass[at(b.a)] <= structure.mass[at(b.b)]);
+    if (!firm(first ? b.a : b.b)) change[at(first ? b.a : b.b)] = first ? -velocity : velocity;
+  };
+  for (const int k : stopped) {
+    if (!structure.stuck[at(k)]) stop(k, view.slider_velocity[at(k)]);
+  }
+  std::vector<int> along;
+  for (bool more = true; std::exchange(more, false);) {
+    for (const int k : sliders_) {
+      const Branch& b = structure.sliders[at(k)];
+      if (structure.stuck[at(k)] || contains(stopped, k) || contains(along, k)) continue;
+      const double by = change[at(b.a)] - change[at(b.b)], velocity = view.slider_velocity[at(k)] + by;
+      if (by == 0 || !(modes_.slider[at(k)] * velocity < 0)) continue;
+      along.push_back(k);
+      stop(k, velocity);
+      more = true;
+    }
+  }
+  return along;
+}
+
 bool NetworkEvents::sticks() const {
   return !limit_margin_.empty() || !held_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }

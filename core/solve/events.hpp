@@ -30,6 +30,8 @@ class NetworkEvents final : public EventFunctions {
   /// A law, or a slider, that moves against its direction, at this speed [m/s].
   struct Turned { int branch; double speed; bool slides = false; };
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
+  /// Sliders that slip as slowly as others stop: as these (`stopped`) come to rest they would move against their direction.
+  std::vector<int> stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp, const std::vector<int>& stopped);
 
   /// Sliders stick here that may break away, friction rests, or blocks limit what they take in.
   bool sticks() const;

@@ -98,6 +98,10 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     fired.sudden.turns.push_back(branch);
     fired.elements.push_back(dae.network().deflections[at(branch)].element);
   }
+  for (const int k : system.events.stopped_along(t, y, yp, fired.sudden.sliders)) {
+    fired.sudden.sliders.push_back(k);
+    fired.elements.push_back(dae.network().sliders[at(k)].branch.element);
+  }
   return fired;
 }
 
