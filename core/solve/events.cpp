@@ -327,9 +327,10 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
 const Dae::View& NetworkEvents::resolved(double t, const double* y, const double* yp) {
   // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of the
   // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
-  // The same of a velocity that goes like a power of time: no polynomial follows it.
+  // The same of a velocity that goes like a power of time: no polynomial follows it. And friction at rest may be as near to
+  // moving as a rate changes in a step: of its first steps the polynomial knows no more than one rate.
   const bool between_steps = dae_.rough() || dae_.follows_time();
-  if (rates_needed_ || (between_steps && !events_.empty())) {
+  if (rates_needed_ || !held_.empty() || (between_steps && !events_.empty())) {
     y_.assign(y, y + dae_.size());
     try {
       if (between_steps) consistency_.project(t, y_);
