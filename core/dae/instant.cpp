@@ -24,8 +24,6 @@ constexpr double least_of_network = 1e-12;
 constexpr double share_of_network = 1e-3;
 // Energies that differ by this share are equal.
 constexpr double link_rounding = 1e-9;
-// Of the force of a slider: what it is short of by more is no error of steps.
-constexpr double largest_error = 1e-3;
 // Jumps in a row that refine each other.
 constexpr int most_jumps = 3;
 
@@ -72,6 +70,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   for (bool again = true; again;) {
     // A long way leaves a rounding of its own: a second jump takes the rest.
     drive_.sense(t, state);
+    for (int k = 0; k < most_jumps && first && !stepped_ && !delayed && settle_errors(t, state, force); ++k) drive_.sense(t, state);
     for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
       std::fill(dx.begin(), dx.end(), 0.0);
       drive_.sense(t, state);

@@ -48,17 +48,23 @@ class Instant {
   /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
   Structure take_along(double t, std::vector<double>& dx) const;
   void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes);
+  /// Of forces: what is out by more of them is no error of the integrator's steps.
+  static constexpr double largest_error = 1e-3;
   /// The displacements within the instant, on the way to the balance of the forces under the drive last evaluated.
   struct Jump {
     ConvexNetwork problem;
     ConvexNetwork::Outcome outcome;
     std::vector<int> slider_branch;  ///< of each slider; -1 for one that cannot move
   };
-  /// Nothing if there is nothing to balance.
-  std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force) const;
+  /// Nothing if there is nothing to balance. With `along` laws go on, or a little back, as they go at present.
+  std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force, bool along = false) const;
   /// Takes the state there; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
+  /// The same where no more than errors of the integrator's steps is out of balance: friction that gives way by them does
+  /// not turn. False if that does not balance.
+  bool settle_errors(double t, State& state, std::vector<double>& force) const;
+  double farthest(const Jump& jump) const;
   /// Whether there are any.
   bool take_delayed_steps(double t, State& state, Change& change);
   [[noreturn]] void report_unbalanced(double t) const;
@@ -112,6 +118,7 @@ class Instant {
   void take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force);
   /// What the slope of a law makes of its deflection [N]: its force is known to a rounding of this.
   static double force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p);
+  Nodal together(const Nodal& single) const;
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider, int side) const;
   bool massless(NodeId node) const {

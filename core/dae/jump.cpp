@@ -49,18 +49,24 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
   }
 }
 
+/// Of what moves together within an instant, at the node that speaks for it.
+Instant::Nodal Instant::together(const Nodal& single) const {
+  Nodal result{std::vector<double>(single.sum.size(), 0), std::vector<double>(single.sum.size(), 0)};
+  for (std::size_t n = 0; n < single.sum.size(); ++n) {
+    result.sum[at(speaker(static_cast<NodeId>(n)))] += single.sum[n];
+    result.magnitude[at(speaker(static_cast<NodeId>(n)))] += single.magnitude[n];
+  }
+  return result;
+}
+
 // Within an instant forces stay finite: masses keep their places, dashpots with them, and what has neither goes where the
 // forces balance, along the laws' own curves and against the friction of the sliders.
 std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, const State& state,
-                                                const std::vector<double>& force) const {
+                                                const std::vector<double>& force, bool along) const {
   const std::size_t nodes = structure_.kind.size();
-  const Nodal now = nodal(state, force, false);
-  std::vector<double> sum(nodes, 0), magnitude(nodes, 0), slack(nodes, 0);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    sum[at(speaker(static_cast<NodeId>(n)))] += now.sum[n];
-    magnitude[at(speaker(static_cast<NodeId>(n)))] += now.magnitude[n];
-    slack[at(speaker(static_cast<NodeId>(n)))] += slack_[n];
-  }
+  const auto [sum, magnitude] = together(nodal(state, force, false));
+  std::vector<double> slack(nodes, 0);
+  for (std::size_t n = 0; n < nodes; ++n) slack[at(speaker(static_cast<NodeId>(n)))] += slack_[n];
   bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   ConvexNetwork problem(static_cast<int>(nodes));
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -90,6 +96,11 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
       if (carried(a, b) || laws.batch->delay(i) > 0) continue;
       const DeflectionBatch& batch = *laws.batch;
       const double p = state.p[j], f0 = f[j];
+      if (along) {
+        const double slope = batch.slope(i, p, batch.direction(i));
+        problem.add(slot(a), slot(b), {.backward = slope, .forward = slope, .rounding = std::max(std::abs(f0), force_of_deflection(batch, i, p))});
+        continue;
+      }
       problem.add(slot(a), slot(b), {.backward = batch.slope(i, p, -1), .forward = batch.slope(i, p, 1),
                          .rounding = std::max(std::abs(f0), force_of_deflection(batch, i, p)),
                          .beyond = [&batch, i, p, f0](double step, double& slope) {
@@ -134,6 +145,41 @@ void Instant::report_hidden_shares(double t) const {
       "{} rounding hides how dashpots {} share the step in position of {}: their values lie too far apart; give the step a time to "
       "rise in",
       at_time(*network_.scene, t), listed(dashpots), listed(motions)));
+}
+
+double Instant::farthest(const Jump& jump) const {
+  double most = 0;
+  for (const Branch& b : network_.deflections) {
+    most = std::max(most, std::abs(jump.problem.value(slot(speaker(b.a))) - jump.problem.value(slot(speaker(b.b)))));
+  }
+  return most;
+}
+
+bool Instant::settle_errors(double t, State& state, std::vector<double>& force) const {
+  const Nodal now = together(nodal(state, force, false));
+  for (std::size_t n = 0; n < now.sum.size(); ++n) {
+    if (structure_.group[n] >= 0 && std::abs(now.sum[n]) > largest_error * now.magnitude[n]) return false;
+  }
+  const std::vector<double> still(structure_.kind.size(), 0);
+  const std::optional<Jump> back = find_jump(still, state, force), along = find_jump(still, state, force, true);
+  if (!along || along->outcome != ConvexNetwork::Outcome::solved || back->outcome != ConvexNetwork::Outcome::solved) return false;
+  // What has hardly any slope as it goes would go far for nothing.
+  constexpr double far = 1e3;
+  if (farthest(*along) > far * farthest(*back)) return false;
+  const auto moved = [&](NodeId node) { return along->problem.value(slot(speaker(node))); };
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      if (!(laws.batch->delay(i) > 0)) state.p[j] += moved(network_.deflections[j].a) - moved(network_.deflections[j].b);
+    }
+  }
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    if (along->slider_branch[k] >= 0) force[k] += along->problem.force(along->slider_branch[k]);
+  }
+  std::vector<double> distance(state.position.size());
+  for (std::size_t n = 0; n < distance.size(); ++n) state.position[n] += distance[n] = moved(static_cast<NodeId>(n));
+  drive_.past().moved(t, distance);
+  return true;
 }
 
 bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
