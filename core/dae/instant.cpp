@@ -330,7 +330,7 @@ void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
 
 /// What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
 /// within the time looked ahead. What sticks to an end without mass, or stands, goes along.
-void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state) const {
+void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state) {
   if (std::none_of(fired.turns.begin(), fired.turns.end(), [&](int j) { return may_stand(j); })) return;
   Sets together(structure_.kind.size());
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
@@ -347,6 +347,7 @@ void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state
   for (std::size_t n = 0; n < heavy.size(); ++n) {
     if (!massless(static_cast<NodeId>(n))) heavy[at(together.find(static_cast<NodeId>(n)))] = 1;
   }
+  const std::vector<double> before = state.velocity;
   for (const int j : fired.turns) {
     if (!may_stand(j)) continue;
     const Branch& b = network_.deflections[at(j)];
@@ -356,6 +357,16 @@ void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state
     const double velocity = state.velocity[at(beside)];
     for (std::size_t n = 0; n < heavy.size(); ++n) {
       if (together.find(static_cast<NodeId>(n)) == stops) state.velocity[n] = velocity;
+    }
+  }
+  // The forces that went with it (of a pseudoplastic dashpot far more than change ahead) leave a balance, and are none to come.
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double w = before[at(b.a)] - before[at(b.b)], now = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      if (now == w) continue;
+      const double left = std::abs(laws.batch->force_at(i, w) - laws.batch->force_at(i, now));
+      for (const NodeId node : {b.a, b.b}) slack_[at(node)] += left;
     }
   }
 }

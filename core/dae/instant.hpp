@@ -82,7 +82,7 @@ class Instant {
                          std::vector<double>& force, Change& change);
   /// The convex problem that decides, and what it is made from.
   struct Onset;
-  void stop_at_turns(const Fired& fired, const Modes& modes, State& state) const;
+  void stop_at_turns(const Fired& fired, const Modes& modes, State& state);
   void add_nodes(Onset& onset, const State& state) const;
   void add_drive(Onset& onset);
   void add_deflection_laws(Onset& onset, const State& state) const;

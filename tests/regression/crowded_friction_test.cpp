@@ -167,6 +167,83 @@ stop = 3
 output = { points = 61 }
 record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "e9.force", "e10.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
 )"},
+    {"a slider beside friction of exponent 0 that yields while it slips", R"([elements]
+e1 = { type = "sfm", between = ["n0", "ground"], stiffness = 42, coulomb = 0.238, exponent = 3 }
+e2 = { type = "slider", between = ["n0", "ground"], coulomb = 0.16, breakaway = 0.192 }
+e3 = { type = "sfm", between = ["n1", "n0"], stiffness = 60.2, coulomb = 0.141, exponent = 0 }
+e4 = { type = "sfm", between = ["n2", "n1"], stiffness = 61.7, coulomb = 2.39, exponent = 0.5 }
+e5 = { type = "sfm", between = ["n2", "n1"], stiffness = 392, coulomb = 0.954, exponent = 1 }
+e6 = { type = "sfm", between = ["n0", "n1"], stiffness = 39.4, coulomb = 0.222, exponent = 0 }
+f = { type = "motion", at = "n1", velocity = { sine = 0.125, frequency = 2.24 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "n0.velocity", "n1.velocity", "n2.velocity"]
+)"},
+    {"a slider that slips as slowly as the one beside it stops", R"([elements]
+e1 = { type = "slider", between = ["n0", "ground"], coulomb = 1.3 }
+e2 = { type = "sfm", between = ["n1", "n0"], stiffness = 279, coulomb = 1.66, exponent = 0 }
+e3 = { type = "slider", between = ["n1", "n0"], coulomb = 0.184, breakaway = 0.2208 }
+e4 = { type = "vfm", between = ["n2", "n1"], damping = 7.6, stiffness = 31.9 }
+e5 = { type = "sfm", between = ["n2", "n1"], stiffness = 436, coulomb = 1.93, exponent = 0 }
+m6 = { type = "mass", at = "n1", mass = 0.189 }
+m7 = { type = "mass", at = "n2", mass = 1.54 }
+f = { type = "force", at = "n1", force = { sine = 1.16, frequency = 1.82, phase = 3.85556 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "n0.velocity", "n1.velocity", "n2.velocity"]
+)"},
+    {"friction that stands to within a thousandth of its way of starting", R"([elements]
+e1 = { type = "slider", between = ["n0", "ground"], coulomb = 1.44, breakaway = 2.16 }
+e2 = { type = "cfm", between = ["n0", "ground"], stiffness = 139, coulomb = 0.285, damping = 1.09, exponent = 1 }
+e3 = { type = "cfm", between = ["n1", "n0"], stiffness = 61.1, coulomb = 0.108, damping = 0.751, exponent = 0.5 }
+e4 = { type = "cfm", between = ["n2", "n1"], stiffness = 774, coulomb = 0.335, damping = 4.74, exponent = 3 }
+e5 = { type = "dashpot", between = ["n2", "n1"], damping = 1.75 }
+e6 = { type = "slider", between = ["ground", "n0"], coulomb = 1.04 }
+e7 = { type = "slider", between = ["ground", "n2"], coulomb = 2.56 }
+e8 = { type = "cfm", between = ["n1", "n2"], stiffness = 36.1, coulomb = 1.22, damping = 6.83, exponent = 1 }
+m9 = { type = "mass", at = "n0", mass = 4.67 }
+m10 = { type = "mass", at = "n2", mass = 0.257 }
+f = { type = "force", at = "n1", force = { ramp = -1.67, offset = 1.67 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "n0.velocity", "n1.velocity", "n2.velocity"]
+)"},
+    {"friction far beyond its bound beside friction that yields", R"([elements]
+e1 = { type = "sfm", between = ["n0", "ground"], stiffness = 712, coulomb = 0.528, exponent = 2 }
+e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 242, coulomb = 1.12, damping = 2.36, exponent = 0 }
+e3 = { type = "dashpot", between = ["n2", "n1"], damping = 31 }
+e4 = { type = "cfm", between = ["n3", "n2"], stiffness = 22, coulomb = 1.26, damping = 6.05, exponent = 0 }
+e5 = { type = "spring", between = ["ground", "n0"], stiffness = 189 }
+e6 = { type = "cfm", between = ["n0", "n2"], stiffness = 11, coulomb = 0.162, damping = 1.82, exponent = 2 }
+e7 = { type = "cfm", between = ["n3", "n2"], stiffness = 392, coulomb = 0.226, damping = 0.695, exponent = 1 }
+f = { type = "motion", at = "n3", position = { sine = 0.332, frequency = 2.66 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"friction that stops beside a pseudoplastic dashpot, and is to turn at once", R"([elements]
+e1 = { type = "slider", between = ["n0", "ground"], coulomb = 0.46 }
+e2 = { type = "cfm", between = ["n0", "ground"], stiffness = 11.4, coulomb = 1.83, damping = 2.15, exponent = 1 }
+e3 = { type = "slider", between = ["n1", "n0"], coulomb = 1.07 }
+e4 = { type = "sfm", between = ["n1", "n0"], stiffness = 243, coulomb = 2.16, exponent = 2 }
+e5 = { type = "cfm", between = ["n2", "n1"], stiffness = 21.7, coulomb = 0.301, damping = 1.91, exponent = 1 }
+e6 = { type = "dashpot", between = ["n2", "n1"], damping = 7.91, flow_index = 0.5 }
+e7 = { type = "slider", between = ["n3", "n2"], coulomb = 2.28, breakaway = 2.736 }
+e8 = { type = "vfm", between = ["ground", "n2"], damping = 2.12, stiffness = 35.1 }
+e9 = { type = "slider", between = ["n2", "n3"], coulomb = 0.389 }
+m10 = { type = "mass", at = "n0", mass = 0.423 }
+m11 = { type = "mass", at = "n2", mass = 0.394 }
+m12 = { type = "mass", at = "n3", mass = 2.39 }
+f = { type = "motion", at = "n0", position = { sine = 0.109, frequency = 0.611 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "e9.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
 };
 
 }  // namespace
