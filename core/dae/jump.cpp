@@ -51,10 +51,13 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
 
 /// Of what moves together within an instant, at the node that speaks for it.
 Instant::Nodal Instant::together(const Nodal& single) const {
-  Nodal result{std::vector<double>(single.sum.size(), 0), std::vector<double>(single.sum.size(), 0)};
-  for (std::size_t n = 0; n < single.sum.size(); ++n) {
-    result.sum[at(speaker(static_cast<NodeId>(n)))] += single.sum[n];
-    result.magnitude[at(speaker(static_cast<NodeId>(n)))] += single.magnitude[n];
+  const std::vector<double> none(single.sum.size(), 0);
+  Nodal result{none, none, none};
+  for (std::size_t n = 0; n < none.size(); ++n) {
+    const std::size_t speaks = at(speaker(static_cast<NodeId>(n)));
+    result.sum[speaks] += single.sum[n];
+    result.magnitude[speaks] += single.magnitude[n];
+    result.rounding[speaks] += single.rounding[n];
   }
   return result;
 }
@@ -64,7 +67,7 @@ Instant::Nodal Instant::together(const Nodal& single) const {
 std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, const State& state,
                                                 const std::vector<double>& force, bool along) const {
   const std::size_t nodes = structure_.kind.size();
-  const auto [sum, magnitude] = together(nodal(state, force, false));
+  const auto [sum, magnitude, rounding] = together(nodal(state, force, false));
   std::vector<double> slack(nodes, 0);
   for (std::size_t n = 0; n < nodes; ++n) slack[at(speaker(static_cast<NodeId>(n)))] += slack_[n];
   bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
@@ -75,7 +78,7 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
       problem.fix(slot(node), dx[n]);
     } else if (speaker(node) != node) {
       problem.fix(slot(node), 0);
-    } else if (std::abs(sum[n]) > balance_rounding * magnitude[n] + slack[n]) {
+    } else if (std::abs(sum[n]) > balance_rounding * magnitude[n] + rounding[n] + slack[n]) {
       problem.load(slot(node), -sum[n]);
       needed = true;
     }
