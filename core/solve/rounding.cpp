@@ -165,22 +165,28 @@ void Tolerances::find_rounding(const Dae::View& view) {
   }
   rounding_at_rest_ = plain_rounding_;
   find_dashpot_rounding(view);
-  find_force_rounding(view, loads.df, loads.force);
+  force_rounding_.assign(structure.kind.size(), 0);
+  find_force_rounding(view);
   find_rounding_now(view);
 }
 
 /// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, at
-/// rest the most.
-void Tolerances::find_force_rounding(const Dae::View& view, const std::vector<double>& df,
-                                     const std::vector<double>& force) {
+/// rest the most. That of forces grows with them up to the next restart.
+void Tolerances::find_force_rounding(const Dae::View& view) {
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
-  force_rounding_ = force;
-  for (std::size_t j = 0; j < df.size(); ++j) {
-    double& largest = force_rounding_[at(part_of(structure.deflections[j]))];
-    largest = std::max(largest, std::abs(df[j] * view.p[j]));
+  const std::vector<double>& slope = dae_->slopes();
+  const auto add = [&](NodeId part, double f) { force_rounding_[at(part)] = std::max(force_rounding_[at(part)], eps * std::abs(f)); };
+  const auto meet = [&](const Branch& b, double f) {
+    if (structure.kind[at(b.a)] != Kind::known || structure.kind[at(b.b)] != Kind::known) add(part_of(b), f);
+  };
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    meet(structure.deflections[j], view.f[j]);
+    meet(structure.deflections[j], slope[j] * view.p[j]);
   }
-  for (double& rounding : force_rounding_) rounding *= eps;
+  for (std::size_t r = 0; r < structure.rates.size(); ++r) meet(structure.rates[r], view.rate_force[r]);
+  for (std::size_t k = 0; k < structure.sliders.size(); ++k) meet(structure.sliders[k], view.slider_force[k]);
+  for (std::size_t n = 0; n < part_.size(); ++n) add(part_[n], view.applied[n]);
   for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
     if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
     double& largest = force_rounding_[at(part_of(structure.rates[r]))];

@@ -223,6 +223,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   step_ = t - reached_;
   reached_ = t;
   find_dashpot_rounding(view);
+  if (dae_->rough()) find_force_rounding(view);
   find_rounding_now(view);
   kinks_.follow(*dae_, view);
   find_stopping(view);

@@ -107,7 +107,7 @@ class Tolerances {
   void loosen_balanced_forces(const std::vector<double>& slope);
   void find_noise(const std::vector<double>& slope);
   void find_slip_noise(const std::vector<double>& slope);
-  void find_force_rounding(const Dae::View& view, const std::vector<double>& df, const std::vector<double>& force);
+  void find_force_rounding(const Dae::View& view);
   void find_difference_rounding(const Dae::View& view);
   void find_rounding_now(const Dae::View& view);
   void find_dashpot_rounding(const Dae::View& view);

@@ -66,6 +66,19 @@ double Trajectory::scale(const std::string& name) const {
   return largest;
 }
 
+double largest_error(const Trajectory& rows, const Trajectory& exact) {
+  REQUIRE(rows.time() == exact.time());
+  double largest = 0;
+  for (const std::string& name : exact.header) {
+    const double scale = exact.scale(name);
+    for (std::size_t k = 0; k < exact.time().size(); ++k) {
+      const double error = std::abs(rows[name][k] - exact[name][k]);
+      if (error > 0) largest = std::max(largest, error / scale);
+    }
+  }
+  return largest;
+}
+
 Scene scene_of(const std::string& toml, double accuracy) {
   ReadOptions options;
   if (accuracy > 0) options.accuracy = accuracy;

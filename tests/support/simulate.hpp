@@ -43,6 +43,10 @@ Attempt attempt(const Scene& scene);
 /// The rows that a run has written to a file.
 Trajectory read_rows(std::FILE* csv);
 
+/// By how much the record that is farthest from the same one of another run is off at its worst row, as a share of its scale
+/// there. Fails the test if the rows are not at the same times.
+double largest_error(const Trajectory& rows, const Trajectory& exact);
+
 /// The message that `simulate` would throw; "" if it does not.
 std::string refusal(const std::string& toml);
 
