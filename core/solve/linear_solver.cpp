@@ -1,5 +1,6 @@
 #include "core/solve/linear_solver.hpp"
 
+#include <klu.h>
 #include <sundials/sundials_nvector.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunlinsol/sunlinsol_klu.h>
@@ -12,6 +13,15 @@
 #include "core/network/index.hpp"
 
 namespace rheonet {
+
+namespace {
+
+// So much more than with pivots that are chosen for a matrix its coefficients may grow with those of an earlier one.
+constexpr double much_more = 1e3;
+// What is larger than that says that there are no better ones.
+constexpr double most = 1e6;
+
+}  // namespace
 
 LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance, N_Vector like,
                            SUNContext context)
@@ -75,10 +85,22 @@ void LinearSolver::filled() {
 
 int LinearSolver::setup() {
   const int flag = SUNLinSolSetup(inner_, matrix_);
-  if (!sparse_ || flag != SUNLS_PACKAGE_FAIL_REC) return flag;
-  // KLU keeps the pivots that it chose first. What was one may since have come to 0, friction's slope at its bound for one.
+  if (!sparse_) return flag;
+  // KLU keeps the pivots that it chose first. What was one may since have come to 0, friction's slope at its bound for one, or
+  // near it: what is divided by that leaves few digits of others.
+  if (flag == SUNLS_SUCCESS && pivot_growth() <= much_more * first_growth_) return flag;
+  if (flag != SUNLS_SUCCESS && flag != SUNLS_PACKAGE_FAIL_REC) return flag;
   if (SUNLinSol_KLUReInit(inner_, matrix_, SUNSparseMatrix_NNZ(matrix_), SUNKLU_REINIT_PARTIAL) != SUNLS_SUCCESS) return flag;
-  return SUNLinSolSetup(inner_, matrix_) == SUNLS_SUCCESS ? SUNLS_SUCCESS : SUNLS_PACKAGE_FAIL_REC;
+  if (SUNLinSolSetup(inner_, matrix_) != SUNLS_SUCCESS) return SUNLS_PACKAGE_FAIL_REC;
+  first_growth_ = std::min(pivot_growth(), most);
+  return SUNLS_SUCCESS;
+}
+
+double LinearSolver::pivot_growth() const {
+  klu_l_common* common = SUNLinSol_KLUGetCommon(inner_);
+  klu_l_rgrowth(SUNSparseMatrix_IndexPointers(matrix_), SUNSparseMatrix_IndexValues(matrix_), SUNSparseMatrix_Data(matrix_),
+                SUNLinSol_KLUGetSymbolic(inner_), SUNLinSol_KLUGetNumeric(inner_), common);
+  return 1 / common->rgrowth;
 }
 
 int LinearSolver::solve(N_Vector x, N_Vector b, double tolerance) const {

@@ -33,6 +33,8 @@ class LinearSolver {
  private:
   static LinearSolver& of(SUNLinearSolver outer) { return *static_cast<LinearSolver*>(outer->content); }
   int setup();
+  /// Of the sparse matrix: how much larger its coefficients have become as it was factorised.
+  double pivot_growth() const;
   int solve(N_Vector x, N_Vector b, double tolerance) const;
 
   const Pattern& pattern_;
@@ -41,6 +43,7 @@ class LinearSolver {
   SUNLinearSolver inner_, outer_;
   bool sparse_;
   std::vector<double> values_;  // of the dense matrix
+  double first_growth_ = 1;     // with pivots that were chosen for that matrix
   std::vector<double> row_scale_, column_scale_;
 };
 

@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-
 #include "tests/support/simulate.hpp"
 
 using namespace rheonet::test;
@@ -240,6 +239,23 @@ f = { type = "motion", at = "n0", position = { sine = 0.109, frequency = 0.611 }
 stop = 3
 output = { points = 61 }
 record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "e9.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
+)"},
+    {"friction that goes on so long at its bound that its slope is lost, among others", R"([elements]
+e1 = { type = "slider", between = ["n0", "ground"], coulomb = 0.346 }
+e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 390, coulomb = 0.419, damping = 1.43, exponent = 1 }
+e3 = { type = "cfm", between = ["n2", "n1"], stiffness = 25.7, coulomb = 2.25, damping = 1.52, exponent = 1 }
+e4 = { type = "cfm", between = ["n2", "n1"], stiffness = 943, coulomb = 0.101, damping = 0.378, exponent = 0 }
+e5 = { type = "cfm", between = ["n3", "n2"], stiffness = 44.7, coulomb = 2.5, damping = 3.3, exponent = 1 }
+e6 = { type = "dashpot", between = ["n1", "n3"], damping = 0.496, flow_index = 0.7 }
+e7 = { type = "vfm", between = ["n0", "n3"], damping = 0.425, stiffness = 35.9 }
+e8 = { type = "spring", between = ["n2", "n0"], stiffness = 98.7 }
+m9 = { type = "mass", at = "n2", mass = 1.8 }
+m10 = { type = "mass", at = "n3", mass = 0.132 }
+f = { type = "motion", at = "n0", velocity = { sine = 0.934, frequency = 1.81 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
 )"},
 };
 
