@@ -42,7 +42,7 @@ struct Structure {
   /// sum of flows[k].sign (p' + creep)_k + sum of velocities[k].sign v_k; ground has no term, its velocity is 0.
   struct Term { int index; double sign; };
   struct Loop {
-    int branch;                    ///< the deflection branch that closes the loop: its own flow has sign +1. A delayed one
+    int branch = -1;               ///< the deflection branch that closes the loop: its own flow has sign +1. A delayed one
                                    ///< closes none: it stands alone, and its flow is what it feels of the past
     std::vector<Term> flows;       ///< deflection branches
     std::vector<Term> velocities;  ///< nodes: velocity, for floating nodes that relative to the group's reference
