@@ -78,8 +78,8 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
       problem.fix(slot(node), dx[n]);
     } else if (speaker(node) != node) {
       problem.fix(slot(node), 0);
-    } else if (std::abs(sum[n]) > balance_rounding * magnitude[n] + rounding[n] + slack[n]) {
-      problem.load(slot(node), -sum[n]);
+    } else if (const double out = std::abs(sum[n]) - slack[n]; out > balance_rounding * magnitude[n] + rounding[n]) {
+      problem.load(slot(node), -std::copysign(out, sum[n]));
       needed = true;
     }
   }

@@ -109,8 +109,8 @@ void Instant::add_nodes(Onset& onset, const State& state) const {
       onset.problem.set_inertia(node, structure_.mass[n] / onset.h);
       onset.slope_around[n] = structure_.mass[n] / onset.h;
     }
-    const bool balanced = std::abs(onset.now.sum[n]) <= balance_rounding * onset.now.magnitude[n] + onset.now.rounding[n] + slack_[n];
-    if (!balanced) onset.problem.load(node, -onset.now.sum[n]);
+    const double out = std::abs(onset.now.sum[n]) - slack_[n];
+    if (out > balance_rounding * onset.now.magnitude[n] + onset.now.rounding[n]) onset.problem.load(node, -std::copysign(out, onset.now.sum[n]));
   }
   onset.problem.fix(slot(ground), 0);
 }

@@ -257,6 +257,35 @@ stop = 3
 output = { points = 61 }
 record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "e8.force", "n0.velocity", "n1.velocity", "n2.velocity", "n3.velocity"]
 )"},
+    {"a slider beside friction that saturates, and springs that hold the same node", R"([elements]
+e1 = { type = "spring", between = ["n0", "ground"], stiffness = 32.4 }
+e2 = { type = "vfm", between = ["n1", "n0"], damping = 0.504, stiffness = 80.6 }
+e3 = { type = "slider", between = ["n1", "n0"], coulomb = 2 }
+e4 = { type = "cfm", between = ["n2", "n1"], stiffness = 109, coulomb = 0.236, damping = 0.586, exponent = 1 }
+e5 = { type = "vfm", between = ["n2", "n1"], damping = 0.397, stiffness = 83 }
+e6 = { type = "vfm", between = ["n0", "n2"], damping = 4.71, stiffness = 258 }
+e7 = { type = "dashpot", between = ["n2", "ground"], damping = 2.17 }
+m8 = { type = "mass", at = "n2", mass = 2.85 }
+f = { type = "force", at = "n1", force = { sine = 5.91, frequency = 2.27, phase = 3.35012 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "n0.velocity", "n1.velocity", "n2.velocity"]
+)"},
+    {"a slider that breaks away between springs, a little late", R"([elements]
+e1 = { type = "spring", between = ["n0", "ground"], stiffness = 9.97 }
+e2 = { type = "dashpot", between = ["n1", "n0"], damping = 0.733, flow_index = 0.7 }
+e3 = { type = "spring", between = ["n1", "n0"], stiffness = 6.06 }
+e4 = { type = "sfm", between = ["n2", "n1"], stiffness = 392, coulomb = 0.401, exponent = 0 }
+e5 = { type = "vfm", between = ["n2", "n1"], damping = 5.43, stiffness = 195 }
+e6 = { type = "slider", between = ["n0", "n2"], coulomb = 0.938, breakaway = 1.407 }
+e7 = { type = "sfm", between = ["n2", "ground"], stiffness = 19.7, coulomb = 0.498, exponent = 1 }
+f = { type = "force", at = "n1", force = { ramp = -3.47, offset = 3.47 } }
+[simulate]
+stop = 3
+output = { points = 61 }
+record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force", "e7.force", "n0.velocity", "n1.velocity", "n2.velocity"]
+)"},
 };
 
 }  // namespace
