@@ -244,7 +244,7 @@ double Instant::halt(double t, const std::vector<int>& events, const Modes& mode
 }
 
 double Instant::force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p) {
-  return p == 0 ? 0 : std::max(batch.slope(i, p, -1), batch.slope(i, p, 1)) * std::abs(p);
+  return p == 0 ? 0 : batch.slope(i, p, batch.direction(i)) * std::abs(p);
 }
 
 Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& slider_force, bool rates) const {

@@ -35,8 +35,7 @@ struct Weak { int element; NodeId a, b; };
 /// Spanning trees of the deflection branches, breadth first, so that loops stay short.
 class Forest {
  public:
-  Forest(const Network& network, Structure& s)
-      : network_(network), s_(s), branches_of_(s.groups.size()), firm_(network.deflections.size(), 0) {
+  Forest(const Network& network, Structure& s) : network_(network), s_(s), branches_of_(s.groups.size()) {
     reached_.assign(s.groups.size(), 0);
     for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -50,12 +49,7 @@ class Forest {
         const int ga = s.group[at(b.a)], gb = s.group[at(b.b)];
         if (ga >= 0) branches_of_[at(ga)].push_back(j);
         if (gb >= 0 && gb != ga) branches_of_[at(gb)].push_back(j);
-        if (std::isinf(laws.batch->steady(i).bound)) firm_[at(j)] = 1;
       }
-    }
-    // A deflection of the tree follows from a balance of forces, which near the bound of friction tells little of it.
-    for (std::vector<int>& branches : branches_of_) {
-      std::stable_partition(branches.begin(), branches.end(), [&](int j) { return firm_[at(j)] != 0; });
     }
     for (std::size_t k = 0; k < s.sliders.size(); ++k) {
       if (!s.stuck[k] && s.sliders[k].a != s.sliders[k].b) {
@@ -175,8 +169,7 @@ class Forest {
 
   const Network& network_;
   Structure& s_;
-  std::vector<std::vector<int>> branches_of_;  ///< each group, firm ones first
-  std::vector<char> firm_;  ///< of each deflection branch: its force has no bound
+  std::vector<std::vector<int>> branches_of_;
   std::vector<Weak> weak_;
   std::vector<char> reached_;
   std::vector<int> order_;

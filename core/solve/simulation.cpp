@@ -219,6 +219,7 @@ class Run {
         leave(t);
         if (settings_.profile) settings_.profile->blame_failure(system_->integrator);
         if (gets_nowhere(t, {solver()}) || headway_.failing(t, glimpse * horizon(t))) fail(outcome);
+        tolerances_.trust(false);
         restart(t, until, shrink);
         continue;
       }
@@ -230,6 +231,7 @@ class Run {
       if (settings_.profile) settings_.profile->step(system_->integrator);
       const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       accumulation_.follow(t, view);
+      tolerances_.trust(true);
       tolerances_.allow(tolerance(accumulation_.local_share()), tolerance(accumulation_.dense_share()));
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       deflections_ = view.p;

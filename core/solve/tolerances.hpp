@@ -32,6 +32,9 @@ class Tolerances {
   /// do not foresee); they are forgotten after ten times that.
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                const std::vector<double>& coming_size);
+  /// Whether what there is to see is to be believed. Where the integrator has just failed the equations may be so near to
+  /// singular that velocities are without any measure; until they are solved again no scale comes of them.
+  void trust(bool trusted) { trusted_ = trusted; }
   /// From here on an unknown is allowed this share of its scale, and `dense` where small kinks are (kinks.hpp).
   void allow(double relative, double dense) {
     relative_ = relative;
@@ -179,6 +182,7 @@ class Tolerances {
   double largest_velocity_ = 0;
   Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
+  bool trusted_ = true;
   std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
   std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]
