@@ -20,6 +20,9 @@ namespace {
 constexpr double much_more = 1e3;
 // What is larger than that says that there are no better ones.
 constexpr double most = 1e6;
+// A pivot off the diagonal is taken where that is smaller than this share of the largest of its column. (KLU's 1e-3 costs three
+// digits of what is stiff.)
+constexpr double pivot_share = 0.1;
 
 }  // namespace
 
@@ -35,6 +38,7 @@ LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vecto
     matrix_ = SUNSparseMatrix(n, n, pattern.entries(), CSC_MAT, context);
     inner_ = SUNLinSol_KLU(like, matrix_, context);
     SUNLinSol_KLUGetCommon(inner_)->scale = 0;
+    SUNLinSol_KLUGetCommon(inner_)->tol = pivot_share;
   } else {
     values_.resize(at(pattern.entries()));
     matrix_ = SUNDenseMatrix(n, n, context);
