@@ -64,19 +64,21 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     if (event && !stepped_) came_to_rest_[k] = modes.slider[k];
     slipping_[k] = event ? 0 : modes.slider[k];
   }
-  take_back_excess(!stepped_ && !delayed, modes, force);
+  // Until something breaks away all that is out of balance between steps of the drive is an error of the integrator's.
+  bool smooth = !stepped_ && !delayed;
+  std::fill(slack_.begin(), slack_.end(), 0.0);
+  if (smooth) take_back_excess(modes, force);
   // What breaks away under more than its force of sliding lets go of the difference: others may follow.
-  bool first = true;
   for (bool again = true; again;) {
     // A long way leaves a rounding of its own: a second jump takes the rest.
     drive_.sense(t, state);
-    for (int k = 0; k < most_jumps && first && !stepped_ && !delayed && settle_errors(t, state, force); ++k) drive_.sense(t, state);
+    for (int k = 0; smooth && k < most_jumps && settle_errors(t, state, force); ++k) drive_.sense(t, state);
     for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
       std::fill(dx.begin(), dx.end(), 0.0);
       drive_.sense(t, state);
     }
-    if (first && !stepped_ && !delayed) keep_slipping(force);
-    first = false;
+    if (smooth) keep_slipping(force);
+    smooth = false;
     change.standing.clear();  // what would stand if nothing let go
     const std::vector<int> broken =
         onset(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
@@ -89,9 +91,8 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
 
 /// Between steps of the drive what a slider bears beyond its bound is an error of the integrator's steps. It has its bound then,
 /// and the balance at its ends is off by the rest, which nothing need jump for.
-void Instant::take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force) {
-  std::fill(slack_.begin(), slack_.end(), 0.0);
-  for (std::size_t k = 0; smooth && k < force.size(); ++k) {
+void Instant::take_back_excess(const Modes& modes, std::vector<double>& force) {
+  for (std::size_t k = 0; k < force.size(); ++k) {
     const int side = force[k] > 0 ? 1 : -1;
     const double most = bound(k, side), excess = std::abs(force[k]) - most;
     if (modes.slider[k] != Modes::stuck || !(excess > 0)) continue;

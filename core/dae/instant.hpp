@@ -65,6 +65,10 @@ class Instant {
   /// not turn. False if that does not balance.
   bool settle_errors(double t, State& state, std::vector<double>& force) const;
   double farthest(const Jump& jump) const;
+  /// How far a jump takes a node [m].
+  double moved(const Jump& jump, NodeId node) const { return jump.problem.value(slot(speaker(node))); }
+  /// Keeps up the positions.
+  void displace(double t, const Jump& jump, State& state) const;
   /// Whether there are any.
   bool take_delayed_steps(double t, State& state, Change& change);
   [[noreturn]] void report_unbalanced(double t) const;
@@ -115,7 +119,7 @@ class Instant {
   bool same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const;
   std::vector<NodeId> given_in(Sets& sets) const;
   void keep_slipping(std::vector<double>& force);
-  void take_back_excess(bool smooth, const Modes& modes, std::vector<double>& force);
+  void take_back_excess(const Modes& modes, std::vector<double>& force);
   /// What the slope of a law makes of its deflection [N]: its force is known to a rounding of this.
   static double force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p);
   Nodal together(const Nodal& single) const;

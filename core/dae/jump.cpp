@@ -153,9 +153,15 @@ void Instant::report_hidden_shares(double t) const {
 double Instant::farthest(const Jump& jump) const {
   double most = 0;
   for (const Branch& b : network_.deflections) {
-    most = std::max(most, std::abs(jump.problem.value(slot(speaker(b.a))) - jump.problem.value(slot(speaker(b.b)))));
+    most = std::max(most, std::abs(moved(jump, b.a) - moved(jump, b.b)));
   }
   return most;
+}
+
+void Instant::displace(double t, const Jump& jump, State& state) const {
+  std::vector<double> distance(state.position.size());
+  for (std::size_t n = 0; n < distance.size(); ++n) state.position[n] += distance[n] = moved(jump, static_cast<NodeId>(n));
+  drive_.past().moved(t, distance);
 }
 
 bool Instant::settle_errors(double t, State& state, std::vector<double>& force) const {
@@ -169,19 +175,16 @@ bool Instant::settle_errors(double t, State& state, std::vector<double>& force) 
   // What has hardly any slope as it goes would go far for nothing.
   constexpr double far = 1e3;
   if (farthest(*along) > far * farthest(*back)) return false;
-  const auto moved = [&](NodeId node) { return along->problem.value(slot(speaker(node))); };
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;
-      if (!(laws.batch->delay(i) > 0)) state.p[j] += moved(network_.deflections[j].a) - moved(network_.deflections[j].b);
+      if (!(laws.batch->delay(i) > 0)) state.p[j] += moved(*along, network_.deflections[j].a) - moved(*along, network_.deflections[j].b);
     }
   }
   for (std::size_t k = 0; k < force.size(); ++k) {
     if (along->slider_branch[k] >= 0) force[k] += along->problem.force(along->slider_branch[k]);
   }
-  std::vector<double> distance(state.position.size());
-  for (std::size_t n = 0; n < distance.size(); ++n) state.position[n] += distance[n] = moved(static_cast<NodeId>(n));
-  drive_.past().moved(t, distance);
+  displace(t, *along, state);
   return true;
 }
 
@@ -195,7 +198,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
     report_unbalanced(t);
   }
 
-  const auto moved = [&](NodeId node) { return problem.value(slot(speaker(node))); };
+  const auto moved = [&](NodeId node) { return this->moved(*found, node); };
   double stored = 0, work = 0, heat = 0, delayed = 0, slope;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -226,9 +229,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   }
   // A step of the drive does what work it takes; without one, what is lost becomes heat.
   change.heat += delayed + (stepped ? heat : std::max(0.0, work - stored - delayed));
-  std::vector<double> distance(state.position.size());
-  for (std::size_t n = 0; n < distance.size(); ++n) state.position[n] += distance[n] = moved(static_cast<NodeId>(n));
-  drive_.past().moved(t, distance);
+  displace(t, *found, state);
   return true;
 }
 

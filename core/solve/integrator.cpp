@@ -8,11 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "core/network/index.hpp"
 #include "core/solve/linear_solver.hpp"
+#include "core/solve/newton_test.hpp"
 
 namespace rheonet {
 
@@ -24,7 +26,7 @@ void require(int flag, const char* call) {
 
 // What an iteration leaves may be this share of a step's allowed error. More of it, as by IDA's default, is noise in the
 // estimates of errors, and keeps the order low and steps short.
-constexpr double iteration_share = 0.02, no_farther = 0.1;
+constexpr double iteration_share = 0.02;
 
 // A step is made longer where it may be so many times as long as the last. (IDA's default of 2 leaves steps at less than half
 // of what they may be; below 1.3 they change so often that the order does not rise.)
@@ -46,10 +48,7 @@ struct Integrator::Implementation {
   N_Vector ny = nullptr, np = nullptr, nw = nullptr;
   std::unique_ptr<LinearSolver> linear;
   SUNNonlinearSolver newton = nullptr;
-  SUNNonlinSolConvTestFn ida_test = nullptr;  // IDA's own of Newton's convergence
-  void* ida_test_data = nullptr;
-  std::vector<double> last_change;      // of Newton's iteration, where it is our own test that ends it
-  double first_change = 0;              // of Newton's iteration that is under way
+  std::optional<NewtonTest> test;
   void* ida = nullptr;
   double time = 0, previous = 0, stop = 0;
   /// IDA adds up the lengths of its steps, and rounds each sum. Where a step is a small part of the time that it has come to,
@@ -96,12 +95,7 @@ struct Integrator::Implementation {
     }
     newton = SUNNonlinSol_Newton(ny, context);
     require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
-    const auto* content = static_cast<SUNNonlinearSolverContent_Newton>(newton->content);
-    ida_test = content->CTest;
-    ida_test_data = content->ctest_data;
-    if (dae.rough()) last_change.assign(at(dae.size()), 0);
-    require(SUNNonlinSolSetConvTestFn(newton, dae.rough() ? converged : converged_but_for_rounding, this),
-            "SUNNonlinSolSetConvTestFn");
+    require(test.emplace(y, grain, dae.rough()).attach(newton), "SUNNonlinSolSetConvTestFn");
     fired.assign(at(event_functions.count()), 0);
     locate = options.locate_events;
     if (!fired.empty() && locate) {
@@ -149,61 +143,6 @@ struct Integrator::Implementation {
     double* out = data(w);
     for (std::size_t i = 0; i < self.tolerance.size(); ++i) out[i] = 1 / self.tolerance[i];
     return 0;
-  }
-
-  /// IDA's own test takes one small first change for enough where the iteration converged fast in the step before. A
-  /// power law is so steep near rest that with a Jacobian from there any change is small: the second one has to show.
-  static int converged(SUNNonlinearSolver solver, N_Vector, N_Vector change, realtype tolerance, N_Vector weight,
-                       void* user) {
-    constexpr double nothing_to_change = 1e-4, slowest_rate = 0.9;  // as in IDA
-    constexpr double certain = 0.1;  // of what is allowed: whether the next change is smaller or not
-    auto& self = *static_cast<Implementation*>(user);
-    int iteration = 0;
-    SUNNonlinSolGetCurIter(solver, &iteration);
-    const double size = N_VWrmsNorm(change, weight);
-    const bool back = iteration > 0 && self.turns_back(change, weight);
-    std::copy_n(data(change), self.last_change.size(), self.last_change.begin());
-    if (iteration == 0) {
-      self.first_change = size;
-      return size <= nothing_to_change * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
-    }
-    if (size <= self.rounding(weight)) return SUN_NLS_SUCCESS;
-    // To and fro over the solution, in the rounding of differences of velocities, say: about as far from it as this.
-    if (back && size <= certain * tolerance) return SUN_NLS_SUCCESS;
-    const double rate = std::pow(size / self.first_change, 1.0 / iteration);
-    if (rate > slowest_rate) return size <= certain * tolerance ? SUN_NLS_CONTINUE : SUN_NLS_CONV_RECVR;
-    return rate / (1 - rate) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
-  }
-
-  /// IDA takes an iteration that has come to the rounding of the unknowns, and gets no further, for one that fails. So it is
-  /// with one that gets no further where it would be done by IDA's default.
-  static int converged_but_for_rounding(SUNNonlinearSolver solver, N_Vector y, N_Vector change, realtype tolerance,
-                                        N_Vector weight, void* user) {
-    auto& self = *static_cast<Implementation*>(user);
-    const int flag = self.ida_test(solver, y, change, tolerance, weight, self.ida_test_data);
-    if (flag != SUN_NLS_CONV_RECVR) return flag;
-    return N_VWrmsNorm(change, weight) <= std::max(self.rounding(weight), no_farther) ? SUN_NLS_SUCCESS : flag;
-  }
-
-  bool turns_back(N_Vector change, N_Vector weight) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < last_change.size(); ++i) {
-      const double w = data(weight)[i];
-      sum += (w * data(change)[i]) * (w * last_change[i]);
-    }
-    return sum < 0;
-  }
-
-  /// What rounding leaves of the unknowns, as the norm of a change. (IDA holds the iterate in the vector that it returns.)
-  double rounding(N_Vector weight) const {
-    // A change comes out of a residual and two triangular solutions, sums of some tens of rounded terms.
-    constexpr double grains = 64;
-    double sum = 0;
-    for (std::size_t i = 0; i < grain.size(); ++i) {
-      const double least = data(weight)[i] * std::max(grains * std::numeric_limits<double>::epsilon() * std::abs(data(ny)[i]), grain[i]);
-      sum += least * least;
-    }
-    return std::sqrt(sum / static_cast<double>(grain.size()));
   }
 
   static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
