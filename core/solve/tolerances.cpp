@@ -54,6 +54,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   dashpot_seen_.assign(network.rates.size(), 0);
   carried_seen_ = dashpot_seen_;
   relative_seen_.assign(nodes, 0);
+  least_slide_.assign(nodes, std::numeric_limits<double>::infinity());
   gap_seen_ = place_seen_ = way_seen_ = relative_seen_;
   slip_noise_ = slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
@@ -154,10 +155,15 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
     dashpot_seen_[r] = std::max(dashpot_seen_[r], std::abs(view.rate_force[r]));
     meet(structure.rates[r], view.rate_velocity[r]);
   }
+  std::fill(least_slide_.begin(), least_slide_.end(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
     slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
     meet(structure.sliders[k], view.slider_velocity[k]);
     see_rest(k, view.slider_velocity[k]);
+    if (!(slide_seen_[k] > 0)) continue;
+    for (const NodeId node : {structure.sliders[k].a, structure.sliders[k].b}) {
+      least_slide_[at(node)] = std::min(least_slide_[at(node)], slide_seen_[k]);
+    }
   }
   for (const Gap& gap : gaps_) {
     double& seen = gap_seen_[at(gap.node)];
@@ -279,7 +285,7 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
     resolve(place_seen_[q.index], least.position);
     scale = std::max(scale, least.way * way_seen_[q.index]);
   }
-  if (q.sort == Sort::velocity) resolve(relative_seen_[q.index], least.velocity);
+  if (q.sort == Sort::velocity) resolve(std::min(relative_seen_[q.index], least_slide_[q.index]), least.velocity);
   scale = std::max(scale, foreseen_of(q));
   if (q.sort == Sort::position && sensed_[q.index]) scale = std::min(scale, block_scale_[q.index]);
   if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);

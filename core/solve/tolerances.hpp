@@ -145,6 +145,8 @@ class Tolerances {
   std::vector<double> dashpot_seen_;                  ///< of each rate branch: its largest force [N]
   std::vector<double> slide_seen_;                    ///< of each slider
   std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]
+  /// Of each node: of the sliders there that have slipped, the slowest one's fastest [m/s].
+  std::vector<double> least_slide_;
   /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
   /// and may be small beside them.
   struct Gap { NodeId node; Branch branch; };
