@@ -98,6 +98,7 @@ void Tolerances::attach(Dae& dae) {
   }
   tolerance_.assign(n, relative_);
   grain_.assign(n, 0);
+  size_.assign(n, 0);
   rounding_.assign(n, 0);
   drift_.assign(n, {});
   stop_chains_ = dae.rough() ? find_stop_chains(network_, structure) : std::vector<StopChain>{};
@@ -205,6 +206,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   }
   const Dae::View& view = dae_->view(t, y.data(), yp.data());
   see(y, view);
+  for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(std::abs(y[i]), ahead > 0 ? coming_size[i] : 0.0);
   find_slider_shares();
   find_rounding(view);
   find_difference_rounding(view);
@@ -224,6 +226,7 @@ double Tolerances::local() const { return kinks_.dense() ? dense_ : relative_; }
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
+  for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(size_[i], std::abs(y[i]));
   find_difference_rounding(view);
   // What blocks push back with may set in long after a restart.
   if (!network_.blocks.sensors.empty()) find_slider_shares();
@@ -341,7 +344,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
     }
-    tolerance_[i] = std::max(local() * slider_share(quantity_[i]), least_tolerance) * scale;
+    tolerance_[i] = std::max(local() * slider_share(quantity_[i]) * scale, least_tolerance * std::min(scale, size_[i]));
     bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
   const auto unresolved = [&](const std::vector<double>& rounding) {

@@ -130,6 +130,7 @@ class Tolerances {
   double step_ = 0;           ///< its length [s]
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
   double forget_ = 0;  ///< time at which what was foreseen no longer counts
+  std::vector<double> size_;                          ///< of each unknown: the largest magnitude since the last restart
   std::vector<Quantity> quantity_;                    ///< of each unknown
   std::vector<char> sensed_;                          ///< of each node: a block takes in its position
   std::vector<char> rested_;                          ///< of each slider: it has come to rest, if only for an instant
@@ -147,6 +148,7 @@ class Tolerances {
   std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]
   /// Of each node: of the sliders there that have slipped, the slowest one's fastest [m/s].
   std::vector<double> least_slide_;
+  std::vector<double> rate_seen_;
   /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
   /// and may be small beside them.
   struct Gap { NodeId node; Branch branch; };
