@@ -59,6 +59,8 @@ class NetworkEvents final : public EventFunctions {
   Flow flow(const Watched& law, const Dae::View& view) const;
   void find_pseudoplastic();
   const Dae::View& resolved(double t, const double* y, const double* yp);
+  const Dae::View& resolved(double t, const double* y, bool projected);
+  bool doubts(const Watched& law, const Dae::View& view) const;
   void all_at(const Dae::View& view, std::vector<double>& g) const;
   /// Fills left_, middle_ and right_.
   void look_at_step(const Integrator& integrator, double a, double b);
@@ -89,6 +91,7 @@ class NetworkEvents final : public EventFunctions {
   const Modes& modes_;
   bool rates_needed_ = false;
   std::vector<double> y_, yp_;
+  std::vector<double> stepped_flow_;  ///< of each deflection branch, as the steps have it; empty unless some law's is in doubt [m/s]
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
   std::vector<Held> held_;

@@ -15,6 +15,8 @@ namespace {
 constexpr std::size_t enough_failures = 30;
 // So many steps at one place: within so many grains of time, a few units in the last place a step.
 constexpr int enough_steps = 1000;
+// So many counts one after the other.
+constexpr int enough_counts = 20;
 constexpr double grains = 64;
 
 }  // namespace
@@ -23,6 +25,7 @@ Headway::Headway(std::size_t causes, double accuracy) : accuracy_(accuracy), cou
 
 void Headway::reset() {
   begun_ = false;
+  counts_ = 0;
   for (int cause : fired_) count_[static_cast<std::size_t>(cause)] = 0;
   fired_.clear();
 }
@@ -40,7 +43,7 @@ bool Headway::lost(double t, const std::vector<int>& causes, const State& state)
   if (deflection_.changed(state.p, accuracy_) || moved) reset();
   if (!begun_) {
     begun_ = true;
-    since_ = t;
+    since_ = first_ = t;
     velocity_.before = state.velocity;
     deflection_.before = state.p;
   }
@@ -51,6 +54,14 @@ bool Headway::lost(double t, const std::vector<int>& causes, const State& state)
     often = often || count >= enough;
   }
   return often;
+}
+
+bool Headway::without_end(double t, double instant) {
+  if (++counts_ >= enough_counts && t - first_ < instant) return true;
+  for (int cause : fired_) count_[static_cast<std::size_t>(cause)] = 0;
+  fired_.clear();
+  since_ = t;
+  return false;
 }
 
 std::vector<int> Headway::busiest() const {

@@ -24,6 +24,9 @@ class Headway {
   /// These causes (elements, say) have fired at t, and left the network in this state. True when one of them has had
   /// `enough` events while nothing has changed: whether there is something wrong depends on how long that took.
   bool lost(double t, const std::vector<int>& causes, const State& state);
+  /// It has taken long enough to be a fault of nothing: counts begin anew at t. True when nothing has changed meanwhile
+  /// for so many counts, within `instant` [s]: with such an instant after the other the run would not come to its end.
+  bool without_end(double t, double instant);
   /// Time at which the count began [s].
   double since() const { return since_; }
   /// What has fired since then, the busiest first.
@@ -47,6 +50,8 @@ class Headway {
 
   double accuracy_;
   double since_ = 0;
+  double first_ = 0;  ///< of the counts since something changed [s]
+  int counts_ = 0;
   bool begun_ = false;
   Watched velocity_, deflection_;
   std::vector<int> count_;  ///< of each cause

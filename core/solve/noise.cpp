@@ -18,6 +18,11 @@ constexpr double given_noise = 1e-13;
 
 }  // namespace
 
+double Tolerances::dilatant_noise(int branch) const {
+  const Branch& b = dae_->structure().deflections[at(branch)];
+  return dilatant_noise_.empty() || given_[at(branch)] ? 0 : dilatant_noise_[at(part_of(b))];
+}
+
 double Tolerances::force_noise(int rate) const {
   const double noise = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
   return std::max(noise, std::numeric_limits<double>::min());
@@ -28,6 +33,7 @@ void Tolerances::find_noise(const std::vector<double>& slope) {
   const Structure& structure = dae_->structure();
   // What rounding leaves of forces, dashpots make a velocity of at nodes without mass alone.
   const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.mass[at(node)] > 0; };
+  find_dilatant_noise(slope);
   const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
     const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
     const double unresolved =
@@ -43,6 +49,25 @@ void Tolerances::find_noise(const std::vector<double>& slope) {
     slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
   }
   find_slip_noise(slope);
+}
+
+/// What steps may leave of a force is a large velocity where it goes with a power of that above 1, and is near 0.
+void Tolerances::find_dilatant_noise(const std::vector<double>& slope) {
+  dilatant_noise_.clear();
+  if (!dae_->rough()) return;
+  dilatant_noise_.assign(part_.size(), 0);
+  const Structure& structure = dae_->structure();
+  std::vector<double> force(part_.size(), 0);
+  for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
+    const int unknown = dae_->deflection_unknown(static_cast<int>(j));
+    if (unknown < 0) continue;
+    double& most = force[at(part_of(structure.deflections[j]))];
+    most = std::max(most, std::abs(slope[j]) * tolerance_[at(unknown)]);
+  }
+  for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
+    double& most = dilatant_noise_[at(part)];
+    most = std::max(most, law.velocity_at(i, force[at(part)]));
+  });
 }
 
 /// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the

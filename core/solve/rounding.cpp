@@ -75,16 +75,6 @@ int Tolerances::part_of(const Branch& b) const {
   return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
 }
 
-template <class Visit>
-void Tolerances::for_each_dilatant(Visit visit) const {
-  for (const Laws<RateBatch>& laws : network_.rate_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const std::size_t r = at(laws.first) + i;
-      if (laws.batch->growth(i).exponent > 1) visit(*laws.batch, i, r, part_of(dae_->structure().rates[r]));
-    }
-  }
-}
-
 /// Of each part of the network the largest force and velocity; of each node what is around it; of each deflection branch its law.
 struct Tolerances::Loads {
   std::vector<double> force, speed;        ///< N, m/s

@@ -34,6 +34,8 @@ constexpr double soon = 0.1;
 // Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
+// What goes on without a change for this share of the run, again and again, has no end.
+constexpr double instant = 1e-6;
 // But so far that steps which resolve what happens until then are longer than the rounding of a late time.
 constexpr double grains_ahead = 1e5;
 // The same relative to the time in which the network itself changes.
@@ -278,8 +280,7 @@ class Run {
     if (!headway_.lost(t, causes, state_)) return false;
     const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), drive_.fastest());
     if (rate > 0 ? (t - headway_.since()) * rate < 1 : t - headway_.since() < lookahead * horizon(t)) return true;
-    headway_.reset();
-    return false;
+    return headway_.without_end(t, instant * settings_.stop);
   }
 
   [[noreturn]] void report_chatter(double t) const {

@@ -60,6 +60,8 @@ class Tolerances {
   double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
   /// Of the force of a rate branch that is solved for it.
   double force_noise(int rate) const;
+  /// Velocity of a branch that a dilatant dashpot in its part of the network makes of what steps may leave of forces [m/s].
+  double dilatant_noise(int branch) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
   /// Force by which a slider that sticks may seem to be above its bound for the errors that steps are allowed [N].
   double slip_noise(int slider) const { return slip_noise_[static_cast<std::size_t>(slider)]; }
@@ -109,6 +111,7 @@ class Tolerances {
   void find_balances();
   void loosen_balanced_forces(const std::vector<double>& slope);
   void find_noise(const std::vector<double>& slope);
+  void find_dilatant_noise(const std::vector<double>& slope);
   void find_slip_noise(const std::vector<double>& slope);
   void find_force_rounding(const Dae::View& view);
   void find_difference_rounding(const Dae::View& view);
@@ -118,7 +121,14 @@ class Tolerances {
   double carried_noise(std::size_t rate) const;
   /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
   template <class Visit>
-  void for_each_dilatant(Visit visit) const;
+  void for_each_dilatant(Visit visit) const {
+    for (const Laws<RateBatch>& laws : network_.rate_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        const std::size_t r = static_cast<std::size_t>(laws.first) + i;
+        if (laws.batch->growth(i).exponent > 1) visit(*laws.batch, i, r, part_of(dae_->structure().rates[r]));
+      }
+    }
+  }
 
   const Network& network_;
   Dae* dae_ = nullptr;
@@ -187,6 +197,7 @@ class Tolerances {
   Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
+  std::vector<double> dilatant_noise_;  ///< of each part [m/s]; empty where there is nothing of the sort
   std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
   std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]

@@ -51,6 +51,26 @@ TEST_CASE("headway: a change that the accuracy resolves begins a new count, one 
   }
 }
 
+TEST_CASE("headway: what goes on for count after count without a change is without end, unless it takes its time") {
+  constexpr double instant = 1e-3;
+  for (const double spacing : {0.9e-7, 1.1e-7}) {  // 20 counts take just less and just more than that
+    for (const bool moves : {false, true}) {
+      Headway headway(1, accuracy);
+      int counts = 0;
+      bool ended = false;
+      for (int n = 0; n < 20 * Headway::enough && !ended; ++n) {
+        const double t = 0.1 + spacing * n;
+        if (!headway.lost(t, {0}, state(moves && n == 7 * Headway::enough ? 1.4 : 1.3, 0.11))) continue;
+        ++counts;
+        ended = headway.without_end(t, instant);
+      }
+      CHECK_EQ(ended, spacing < 1e-7 && !moves);
+      if (ended) CHECK_EQ(counts, 20);
+      if (ended) CHECK(headway.busiest() == std::vector<int>{0});
+    }
+  }
+}
+
 TEST_CASE("headway: many elements that fire once each are no chattering") {
   constexpr int many = 10 * Headway::enough;
   Headway headway(many, accuracy);
