@@ -15,6 +15,7 @@
 #include "core/network/index.hpp"
 #include "core/solve/linear_solver.hpp"
 #include "core/solve/newton_test.hpp"
+#include "core/solve/vectors.hpp"
 
 namespace rheonet {
 
@@ -72,6 +73,7 @@ struct Integrator::Implementation {
     ny = N_VMake_Serial(n, y.data(), context);
     np = N_VMake_Serial(n, yp.data(), context);
     nw = N_VMake_Serial(n, work.data(), context);
+    for (N_Vector vector : {ny, np, nw}) quicken(vector);
     ida = IDACreate(context);
     require(IDAInit(ida, residual, 0, ny, np), "IDAInit");
     require(IDASetUserData(ida, this), "IDASetUserData");

@@ -2,9 +2,7 @@
 
 #include <klu.h>
 #include <sundials/sundials_nvector.h>
-#include <sunlinsol/sunlinsol_dense.h>
 #include <sunlinsol/sunlinsol_klu.h>
-#include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #include <algorithm>
@@ -31,6 +29,7 @@ LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vecto
     : pattern_(pattern),
       tolerance_(tolerance),
       sparse_(sparse),
+      dense_(sparse ? 0 : pattern.size),
       row_scale_(at(pattern.size), 1),
       column_scale_(at(pattern.size), 1) {
   const sunindextype n = pattern.size;
@@ -41,13 +40,16 @@ LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vecto
     SUNLinSol_KLUGetCommon(inner_)->tol = pivot_share;
   } else {
     values_.resize(at(pattern.entries()));
-    matrix_ = SUNDenseMatrix(n, n, context);
-    inner_ = SUNLinSol_Dense(like, matrix_, context);
+    matrix_ = SUNMatNewEmpty(context);
+    matrix_->ops->getid = [](SUNMatrix) { return SUNMATRIX_CUSTOM; };
+    matrix_->ops->destroy = SUNMatFreeEmpty;
   }
+  // All of it is filled in anew.
+  matrix_->ops->zero = [](SUNMatrix) { return 0; };
   outer_ = SUNLinSolNewEmpty(context);
   outer_->content = this;
   outer_->ops->gettype = [](SUNLinearSolver) { return SUNLINEARSOLVER_DIRECT; };
-  outer_->ops->initialize = [](SUNLinearSolver s) { return SUNLinSolInitialize(of(s).inner_); };
+  outer_->ops->initialize = [](SUNLinearSolver s) { return of(s).sparse_ ? SUNLinSolInitialize(of(s).inner_) : SUNLS_SUCCESS; };
   outer_->ops->setup = [](SUNLinearSolver s, SUNMatrix) { return of(s).setup(); };
   outer_->ops->solve = [](SUNLinearSolver s, SUNMatrix, N_Vector x, N_Vector b, realtype tolerance) {
     return of(s).solve(x, b, tolerance);
@@ -56,7 +58,7 @@ LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vecto
 
 LinearSolver::~LinearSolver() {
   SUNLinSolFreeEmpty(outer_);
-  SUNLinSolFree(inner_);
+  if (sparse_) SUNLinSolFree(inner_);
   SUNMatDestroy(matrix_);
 }
 
@@ -84,12 +86,14 @@ void LinearSolver::filled() {
   for (double& s : row_scale_) s = s > 0 && std::isfinite(s) ? 1 / s : 1;
   for_each_entry([&](int row, int, double& value) { value *= row_scale_[at(row)]; });
   if (sparse_) return;
-  for_each_entry([&](int row, int column, double& value) { SUNDenseMatrix_Column(matrix_, column)[row] = value; });
+  double* matrix = dense_.matrix();
+  std::fill_n(matrix, at(pattern_.size) * at(pattern_.size), 0.0);
+  for_each_entry([&](int row, int column, double value) { matrix[at(column) * at(pattern_.size) + at(row)] = value; });
 }
 
 int LinearSolver::setup() {
+  if (!sparse_) return dense_.factorise() ? SUNLS_SUCCESS : SUNLS_LUFACT_FAIL;
   const int flag = SUNLinSolSetup(inner_, matrix_);
-  if (!sparse_) return flag;
   // KLU keeps the pivots that it chose first. What was one may since have come to 0, friction's slope at its bound for one, or
   // near it: what is divided by that leaves few digits of others.
   if (flag == SUNLS_SUCCESS && pivot_growth() <= much_more * first_growth_) return flag;
@@ -108,10 +112,15 @@ double LinearSolver::pivot_growth() const {
 }
 
 int LinearSolver::solve(N_Vector x, N_Vector b, double tolerance) const {
-  double* right = N_VGetArrayPointer(b);
+  double *right = N_VGetArrayPointer(b), *left = N_VGetArrayPointer(x);
   for (std::size_t i = 0; i < row_scale_.size(); ++i) right[i] *= row_scale_[i];
-  const int flag = SUNLinSolSolve(inner_, matrix_, x, b, tolerance);
-  double* left = N_VGetArrayPointer(x);
+  int flag = SUNLS_SUCCESS;
+  if (sparse_) {
+    flag = SUNLinSolSolve(inner_, matrix_, x, b, tolerance);
+  } else {
+    std::copy_n(right, row_scale_.size(), left);
+    dense_.solve(left);
+  }
   for (std::size_t i = 0; i < column_scale_.size(); ++i) left[i] *= column_scale_[i];
   return flag;
 }

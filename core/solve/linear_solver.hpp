@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/dae/matrix.hpp"
+#include "core/solve/dense_factors.hpp"
 
 namespace rheonet {
 
@@ -40,8 +41,9 @@ class LinearSolver {
   const Pattern& pattern_;
   const std::vector<double>& tolerance_;
   SUNMatrix matrix_;
-  SUNLinearSolver inner_, outer_;
+  SUNLinearSolver inner_ = nullptr, outer_;  // the inner one is KLU
   bool sparse_;
+  DenseFactors dense_;
   std::vector<double> values_;  // of the dense matrix
   double first_growth_ = 1;     // with pivots that were chosen for that matrix
   std::vector<double> row_scale_, column_scale_;
