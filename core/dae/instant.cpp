@@ -294,41 +294,6 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
   return result;
 }
 
-/// What has no largest force takes its other end along.
-void Instant::add_carried(std::vector<NodeId>& nodes) const {
-  Sets together(structure_.kind.size());
-  const auto join = [&](const Branch& b) {
-    if (massless(b.a) && massless(b.b)) together.join(b.a, b.b);
-  };
-  for (const Branch& b : network_.rates) join(b);
-  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (std::isinf(laws.batch->steady(i).bound)) join(network_.deflections[at(laws.first) + i]);
-    }
-  }
-  std::vector<char> goes(structure_.kind.size(), 0);  // of each set, by the node that speaks for it
-  for (NodeId n : nodes) goes[at(together.find(n))] = 1;
-  nodes.clear();
-  for (NodeId n = 0; at(n) < structure_.kind.size(); ++n) {
-    if (goes[at(together.find(n))]) nodes.push_back(n);
-  }
-}
-
-void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
-  std::vector<NodeId> nodes;
-  for (int k : runaways) nodes.push_back(network_.node_order[at(k)]);
-  add_carried(nodes);
-  std::vector<char> in(structure_.kind.size(), 0);
-  for (NodeId n : nodes) in[at(n)] = 1;
-  std::vector<int> elements;
-  const auto mention = [&](const Branch& b) {
-    if (in[at(b.a)] != in[at(b.b)]) elements.push_back(b.element);
-  };
-  for (const Network::Slider& s : network_.sliders) mention(s.branch);
-  for (const Branch& b : network_.deflections) mention(b);
-  report_overload(network_, t, nodes, elements);
-}
-
 /// What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
 /// within the time looked ahead. What sticks to an end without mass, or stands, goes along.
 void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state) {

@@ -131,9 +131,9 @@ class Instant {
   }
   /// Nodes are numbered as in the equations, so that two ways to write a network give the same numbers.
   int slot(NodeId node) const { return structure_.rank[static_cast<std::size_t>(node)]; }
-  /// Adds what goes along with the nodes, and sorts them.
-  void add_carried(std::vector<NodeId>& nodes) const;
-  [[noreturn]] void report_runaway(double t, const std::vector<int>& nodes) const;
+  std::vector<char> pushed_away(int side) const;
+  /// `runaways`: slots of nodes that a convex problem leaves without a bound; told where the loads do not tell better.
+  [[noreturn]] void report_runaway(double t, const std::vector<int>& runaways) const;
 
   const Network& network_;
   const Structure& structure_;

@@ -1,0 +1,43 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/simulate.hpp"
+
+// Which nodes a convex problem left without a bound was a matter of rounding: a spring was said to be at the largest force that
+// it can take, or elements at a fraction of theirs, and others at another accuracy. The loads and the bounds tell.
+TEST_CASE("what is overloaded is told by the elements that bear the largest force they can take, at any accuracy") {
+  const auto refusal = [](const std::string& netlist, const char* accuracy) {
+    return rheonet::test::refusal(netlist + "accuracy = " + accuracy + "\n");
+  };
+  const std::string in_series = R"([elements]
+push = { type = "force", at = "end", force = { ramp = 1.37 } }
+e1 = { type = "sfm", between = ["n1", "end"], stiffness = 22.8, coulomb = 0.477, exponent = 2 }
+e2 = { type = "spring", between = ["n1", "ground"], stiffness = 40.4 }
+[simulate]
+stop = 1
+)";
+  // Of 4.28 N/s, e5 and e10 hold 0.279 N and 1.46 N: less than what leads to n3 alone.
+  const std::string meshed = R"([elements]
+e1={type="slider",between=["n0","ground"],coulomb=0.149}
+e2={type="spring",between=["n0","ground"],stiffness=3.72}
+e3={type="vfm",between=["n1","n0"],damping=16.4,stiffness=181}
+e4={type="spring",between=["n1","n0"],stiffness=23.4}
+e5={type="cfm",between=["n2","n1"],stiffness=197,coulomb=0.279,damping=7.61,exponent=0}
+e6={type="sfm",between=["n3","n2"],stiffness=176,coulomb=0.353,exponent=2}
+e7={type="sfm",between=["n3","n2"],stiffness=292,coulomb=0.441,exponent=0.5}
+e8={type="dashpot",between=["n0","n1"],damping=0.459}
+e9={type="sfm",between=["n0","ground"],stiffness=63.4,coulomb=0.345,exponent=0.5}
+e10={type="sfm",between=["n3","n0"],stiffness=12.4,coulomb=1.46,exponent=3}
+f={type="force",at="n3",force={ramp=4.28}}
+[simulate]
+stop=3
+output={points=61}
+)";
+  for (const char* accuracy : {"1e-3", "1e-6", "1e-9"}) {
+    CAPTURE(accuracy);
+    const std::string first = refusal(in_series, accuracy), second = refusal(meshed, accuracy);
+    CHECK_MESSAGE(first.find("node `end`: `e1` is at the largest force that it can take") != std::string::npos, first);
+    CHECK_MESSAGE(second.find("nodes `n2`, `n3`: `e5`, `e10` are at the largest force that they can take") != std::string::npos, second);
+  }
+}
