@@ -12,6 +12,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "core/netlist/si_units.hpp"
 
 namespace rheonet {
 
@@ -160,6 +161,7 @@ Unit power(const Unit& unit, double n) {
 
 /// A unit by its name, with no hint if it is unknown.
 Result named_unit(const std::string& name) {
+  if (const Unit* unit = si_unit(name)) return *unit;
   for (const Definition& definition : definitions)
     if (name == definition.name) {
       Result unit = parse_unit(definition.unit);
