@@ -65,6 +65,11 @@ void Bonds::solve(const std::vector<double>& left, std::vector<double>& force) c
     for (const Bond& bond : sliders_) force[bond.slider] = 0;
     return;
   }
+  if (sliders_.size() == 1 && node_.size() == 1) {  // a block that sticks by itself: there is nothing to share
+    const Bond& bond = sliders_.front();
+    force[bond.slider] = row_[at(bond.a)] >= 0 ? -left[at(bond.a)] : left[at(bond.b)];
+    return;
+  }
   std::vector<char> clamped(sliders_.size(), 0);
   const auto distribute = [&](const auto& factor) {
     Eigen::VectorXd phi(static_cast<Eigen::Index>(node_.size()));

@@ -274,12 +274,10 @@ double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
 }
 
 /// What slips may all but come to rest, or just do so, and be pulled on.
-bool NetworkEvents::any_dips(const Integrator& integrator) {
-  if (slipping_.empty()) return false;
-  const Dae::View& view = dae_.view(integrator.time(), integrator.y().data(), integrator.yp().data());
+bool NetworkEvents::any_dips(const Dae::View& end) {
   bool any = false;
   for (Slipping& one : slipping_) {
-    const double now = slope(one, view);
+    const double now = slope(one, end);
     one.dips = one.slope < 0 && now > 0;
     one.slope = now;
     any = any || one.dips;
@@ -287,13 +285,13 @@ bool NetworkEvents::any_dips(const Integrator& integrator) {
   return any;
 }
 
-std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator) {
+std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator, const Dae::View& end) {
   constexpr int refinements = 4;
   constexpr double near = 0.1;  // a parabola tells where the least value is, not how little
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
   if (!(b > a)) return first;
-  const bool dips = any_dips(integrator);
+  const bool dips = any_dips(end);
   if (!dips && !sticks()) return first;
   std::vector<char> dipping(sliders_.size(), 0);
   for (const Slipping& one : slipping_) dipping[one.watched] = one.dips;
@@ -324,6 +322,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
     const std::size_t which = i < suddens() ? events_.size() - suddens() + i : held_[i - suddens()].event;
     if (!first || middle < first->t) first = Missed{middle, static_cast<int>(which)};
   }
+  dae_.view(b, integrator.y().data(), integrator.yp().data());
   return first;
 }
 

@@ -36,9 +36,9 @@ class NetworkEvents final : public EventFunctions {
   /// Sliders stick here that may break away, friction rests, or blocks limit what they take in.
   bool sticks() const;
   /// A force may go beyond a bound, or a mass back against what it slips on, and come back within one step: the first such
-  /// instant in the last step, and the event that it is.
+  /// instant in the last step, and the event that it is. `end`: the view of the end of the step, which it is afterwards too.
   struct Missed { double t; int which; };
-  std::optional<Missed> missed(const Integrator& integrator);
+  std::optional<Missed> missed(const Integrator& integrator, const Dae::View& end);
 
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
@@ -75,7 +75,7 @@ class NetworkEvents final : public EventFunctions {
   /// its velocity changes at the end of the last step [m/s^2], and whether it had a least value within that.
   struct Slipping { int slider; std::size_t watched; double slope; bool dips; };
   double slope(const Slipping& one, const Dae::View& view) const;
-  bool any_dips(const Integrator& integrator);
+  bool any_dips(const Dae::View& end);
   /// Of the sliders and limits, then of friction at rest.
   double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;

@@ -225,13 +225,14 @@ class Run {
         restart(t, until, shrink);
         continue;
       }
-      if (const auto missed = settings_.locate_events ? system_->events.missed(system_->integrator) : std::nullopt) {
+      const Dae::View& view = view_of_step();
+      if (const auto missed = settings_.locate_events ? system_->events.missed(system_->integrator, view) : std::nullopt) {
         system_->integrator.cut(missed->t, missed->which);
         outcome = Integrator::Outcome::event;
+        view_of_step();
       }
       t = system_->integrator.time();
       if (settings_.profile) settings_.profile->step(system_->integrator);
-      const Dae::View& view = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
       accumulation_.follow(t, view);
       tolerances_.trust(true);
       tolerances_.allow(tolerance(accumulation_.local_share()), tolerance(accumulation_.dense_share()));
@@ -239,7 +240,7 @@ class Run {
       deflections_ = view.p;
       observer_.step(system_->integrator);
       if (drive_.past().any()) {
-        const Dae::View& end = system_->dae.view(t, system_->integrator.y().data(), system_->integrator.yp().data());
+        const Dae::View& end = view_of_step();
         drive_.remember(t, end.velocity, end.acceleration);
       }
       for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, deflections_, settings_.switch_times)) {
@@ -264,6 +265,12 @@ class Run {
       if (t >= until) return until;
       restart(t, until, shrink);
     }
+  }
+
+  /// At the end of the last step.
+  const Dae::View& view_of_step() {
+    const Integrator& integrator = system_->integrator;
+    return system_->dae.view(integrator.time(), integrator.y().data(), integrator.yp().data());
   }
 
   /// Of what restarts the integrator.

@@ -49,9 +49,17 @@ realtype norm_of_masked(N_Vector x, N_Vector weight, N_Vector id) {
 
 /// In blocks, so that what is summed stays in the cache.
 int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
-  constexpr sunindextype block = 64;
+  constexpr sunindextype block = 64, few = 6;
   std::array<double, block> sum;
   const sunindextype length = NV_LENGTH_S(z);
+  if (length <= few) {
+    for (sunindextype i = 0; i < length; ++i) {
+      double term = c[0] * NV_DATA_S(x[0])[i];
+      for (int k = 1; k < count; ++k) term += c[k] * NV_DATA_S(x[k])[i];
+      NV_DATA_S(z)[i] = term;
+    }
+    return 0;
+  }
   for (sunindextype begin = 0; begin < length; begin += block) {
     const sunindextype n = std::min(block, length - begin);
     for (sunindextype i = 0; i < n; ++i) sum[static_cast<std::size_t>(i)] = c[0] * NV_DATA_S(x[0])[begin + i];
