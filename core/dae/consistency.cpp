@@ -25,12 +25,8 @@ constexpr double share_that_tells = 1e-3;
 
 Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   const std::size_t n = at(dae.size());
-  values_.resize(at(dae.pattern().entries()));
-  r0_.resize(n);
-  r1_.resize(n);
-  zero_.assign(n, 0);
   kind_.assign(n, 0);
-  const auto set = [&](int unknown, std::size_t kind) {
+  const auto set = [&](int unknown, unsigned char kind) {
     if (unknown >= 0) kind_[at(unknown)] = kind;
   };
   branch_.assign(n, -1);
@@ -44,6 +40,17 @@ Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) set(dae.block_unknown(k), 4);
 }
 
+void Consistency::wake() {
+  if (!zero_.empty()) return;
+  values_.resize(at(dae_.pattern().entries()));
+  for (std::vector<double>* work : {&r0_, &r1_, &zero_}) work->assign(at(dae_.size()), 0);
+}
+
+void Consistency::rest() {
+  elimination_.release();
+  for (std::vector<double>* work : {&values_, &r0_, &r1_, &zero_}) std::vector<double>().swap(*work);
+}
+
 void Consistency::factorise(double t, const std::vector<double>& y) {
   dae_.consistency_matrix(t, y.data(), values_.data());
   eliminate(t);
@@ -54,6 +61,7 @@ void Consistency::eliminate(double t) {
 }
 
 double Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
+  wake();
   // A law with a corner takes some more than a smooth one; where all are as good as linear there is no more to gain.
   const int most_iterations = dae_.rough() ? 30 : 2;
   const std::size_t n = y.size();
@@ -133,6 +141,7 @@ void Consistency::report_rate(double t, int unknown) {
 }
 
 void Consistency::derivative(double t, const std::vector<double>& y, std::vector<double>& yp) {
+  wake();
   factorise(t, y);
   dae_.time_derivative(r1_.data());
   dae_.residual(t, y.data(), zero_.data(), r0_.data());

@@ -33,8 +33,12 @@ class Consistency {
   /// a lag [1/s]; 0 if nothing changes. What is 0 is judged by what it comes to `within` a time [s].
   double fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp);
 
+  /// Gives work space back until it is needed again: while the integrator is at work it is as much as that has itself.
+  void rest();
+
  private:
   class Projection;
+  void wake();
   void factorise(double t, const std::vector<double>& y);
   void eliminate(double t);
   [[noreturn]] void report_singular(double t);
@@ -43,9 +47,9 @@ class Consistency {
 
   Dae& dae_;
   Elimination elimination_;
-  std::vector<double> values_, r0_, r1_, zero_;
+  std::vector<double> values_, r0_, r1_, zero_;  ///< empty at rest
   static constexpr std::size_t kinds = 5;  ///< velocity, deflection, force, position, state of a block
-  std::vector<std::size_t> kind_;          ///< of each unknown
+  std::vector<unsigned char> kind_;        ///< of each unknown
   std::vector<int> branch_;                ///< of each unknown that is a deflection
 };
 

@@ -22,7 +22,9 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   idle_ = size_ == 0;
   if (idle_) size_ = 1;
 
-  for (const Structure::Loop& loop : structure.loops) add_row(ip_[at(loop.branch)], false, loop);
+  rows_.reserve(structure.closing.size() + positions_.integrated.size());
+  felt_terms_.resize(drive.past().delayed().size());
+  for (const int branch : structure.closing) add_row(ip_[at(branch)], false, closed_loop(network, structure, branch));
   for (NodeId node : positions_.integrated) {
     add_row(ix_[at(node)], true, minus_velocity(structure, node, positions_.of[at(node)].parent));
   }
@@ -61,31 +63,31 @@ Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
 }
 
 void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
-  Row r{.row = row, .position = position, .terms = add_terms(loop),
-        .delayed = position ? -1 : drive_->past().index_of(loop.branch), .now = {}};
+  const Row r{.row = row, .position = position, .terms = add_terms(loop),
+              .delayed = position ? -1 : drive_->past().index_of(loop.branch)};
   if (r.delayed >= 0) {
     const Past::Delayed& delayed = drive_->past().delayed()[at(r.delayed)];
     const Branch& b = structure_->deflections[at(loop.branch)];
     Structure::Loop now{.branch = -1, .flows = {}, .velocities = {}};
     if (delayed.free_a) now.velocities.push_back({b.a, -1});
     if (delayed.free_b) now.velocities.push_back({b.b, 1});
-    r.now = add_terms(now);
+    felt_terms_[at(r.delayed)] = add_terms(now);
   }
   rows_.push_back(r);
 }
 
 /// The Jacobian's entries while the pattern is built, each known by a ticket.
 struct Dae::Drafts {
-  struct Constant { int ticket; double value, mass; };
   PatternBuilder builder;
-  std::vector<Constant> constants;
+  std::vector<Constant> constants, masses;
   std::vector<Scatter> scatter;
 
-  void put(int row, int column, double value, double mass) {
-    if (column >= 0) constants.push_back({builder.ticket(row, column), value, mass});
+  void put(int row, int column, double value) {
+    if (column >= 0) constants.push_back({builder.ticket(row, column), value});
   }
-  void depend(int row, int column, Source source, int index, double sign) {
-    if (row >= 0 && column >= 0) scatter.push_back({builder.ticket(row, column), source, index, sign});
+  void put_mass(int row, int column, double mass) { masses.push_back({builder.ticket(row, column), mass}); }
+  void depend(int row, int column, Source source, int index, Sign sign) {
+    if (row >= 0 && column >= 0) scatter.push_back({builder.ticket(row, column), index, source, sign});
   }
 };
 
@@ -94,8 +96,8 @@ void Dae::build_pattern() {
   draft_balances(drafts);
   draft_rates(drafts);
   draft_rows(drafts);
-  if (idle_) drafts.put(0, 0, 0, 1);
-  for (const int z : iz_) drafts.put(z, z, 0, 1);
+  if (idle_) drafts.put_mass(0, 0, 1);
+  for (const int z : iz_) drafts.put_mass(z, z, 1);
   build_couplings(drafts.builder);
   find_parallels();
   for (Follower& f : followers_) {
@@ -122,7 +124,7 @@ void Dae::draft_balances(Drafts& drafts) const {
     drafts.depend(group_row(b.b), ip_[j], Source::force, index, -1);
   }
   for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (structure_->kind[n] == Kind::massive) drafts.put(iv_[n], iv_[n], 0, structure_->mass[n]);
+    if (structure_->kind[n] == Kind::massive) drafts.put_mass(iv_[n], iv_[n], structure_->mass[n]);
   }
 }
 
@@ -131,19 +133,19 @@ void Dae::draft_rates(Drafts& drafts) const {
     const Branch& b = structure_->rates[r];
     if (b.a == b.b) continue;
     const int index = static_cast<int>(r);
-    for (const auto& [node, sign] : {std::pair{b.a, 1.0}, std::pair{b.b, -1.0}}) {
-      const int row = iv_[at(node)];
+    for (const Sign sign : {Sign{1}, Sign{-1}}) {
+      const int row = iv_[at(sign > 0 ? b.a : b.b)];
       if (row < 0) continue;
       if (if_[r] >= 0) {
-        drafts.put(row, if_[r], sign, 0);
+        drafts.put(row, if_[r], sign);
       } else {
         drafts.depend(row, iv_[at(b.a)], Source::rate, index, sign);
-        drafts.depend(row, iv_[at(b.b)], Source::rate, index, -sign);
+        drafts.depend(row, iv_[at(b.b)], Source::rate, index, sign > 0 ? Sign{-1} : Sign{1});
       }
     }
     if (if_[r] >= 0) {
-      drafts.put(if_[r], iv_[at(b.a)], 1, 0);
-      drafts.put(if_[r], iv_[at(b.b)], -1, 0);
+      drafts.put(if_[r], iv_[at(b.a)], 1);
+      drafts.put(if_[r], iv_[at(b.b)], -1);
       drafts.depend(if_[r], if_[r], Source::rate, index, -1);
     }
   }
@@ -151,17 +153,19 @@ void Dae::draft_rates(Drafts& drafts) const {
 
 void Dae::draft_rows(Drafts& drafts) {
   for (const Row& row : rows_) {
-    if (row.position) drafts.put(row.row, row.row, 0, 1);
+    if (row.position) drafts.put_mass(row.row, row.row, 1);
     for (int k = row.terms.flow_begin; k < row.terms.flow_end; ++k) {
       const auto [j, sign] = flows_[at(k)];
       flow_entries_.push_back({drafts.builder.ticket(row.row, ip_[at(j)]), j, sign});
       std::size_t i = 0;
-      if (batch_of(j, i).creeps(i)) drafts.depend(row.row, ip_[at(j)], Source::creep, j, sign);
+      if (batch_of(j, i).creeps(i)) creep_entries_.push_back({drafts.builder.ticket(row.row, ip_[at(j)]), j, sign});
     }
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
-      drafts.put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign, 0);
+      drafts.put(row.row, iv_[at(velocities_[at(k)].index)], velocities_[at(k)].sign);
     }
-    for (int k = row.now.velocity_begin; k < row.now.velocity_end; ++k) {
+    if (row.delayed < 0) continue;
+    const Terms& now = felt_terms_[at(row.delayed)];
+    for (int k = now.velocity_begin; k < now.velocity_end; ++k) {
       const auto [node, sign] = velocities_[at(k)];
       if (iv_[at(node)] >= 0) felt_entries_.push_back({drafts.builder.ticket(row.row, iv_[at(node)]), row.delayed, sign});
     }
@@ -172,14 +176,21 @@ void Dae::draft_rows(Drafts& drafts) {
 void Dae::take_entries(Drafts& drafts) {
   std::vector<int> entry;
   pattern_ = drafts.builder.build(size_, entry);
-  constant_.assign(at(pattern_.entries()), 0);
-  fixed_mass_ = mass_ = constant_;
-  for (const Drafts::Constant& d : drafts.constants) {
-    constant_[at(entry[at(d.ticket)])] += d.value;
-    fixed_mass_[at(entry[at(d.ticket)])] += d.mass;
-  }
-  for (FlowEntry& f : flow_entries_) f.entry = entry[at(f.entry)];
-  for (FeltEntry& f : felt_entries_) f.entry = entry[at(f.entry)];
+  drafts.builder = {};
+  const auto take = [&](auto& list) {
+    for (auto& item : list) item.entry = entry[at(item.entry)];
+  };
+  const auto copy = [&](auto& list) {
+    take(list);
+    return std::vector(list.begin(), list.end());  // no larger than need be
+  };
+  constants_ = copy(drafts.constants);
+  masses_ = copy(drafts.masses);
+  scatter_ = copy(drafts.scatter);
+  flow_entries_ = copy(flow_entries_);
+  take(creep_entries_);
+  take(felt_entries_);
+  take(couplings_);
   for (Follower& f : followers_) {
     f.own_entry = entry[at(f.own_entry)];
     f.leader_entry = entry[at(f.leader_entry)];
@@ -187,9 +198,15 @@ void Dae::take_entries(Drafts& drafts) {
       if (pattern_.row[at(e)] == f.row) f.row_entries.push_back(e);
     }
   }
-  for (Coupling& c : couplings_) c.entry = entry[at(c.entry)];
-  for (Scatter& s : drafts.scatter) s.entry = entry[at(s.entry)];
-  scatter_ = std::move(drafts.scatter);
+  std::vector<char> with_mass(at(pattern_.entries()), 0);
+  for (const Constant& mass : masses_) with_mass[at(mass.entry)] = mass.value != 0;
+  const auto begin = [&](int column) { return with_mass.begin() + pattern_.column_start[at(column)]; };
+  differentiated_.resize(at(size_));
+  for (int i = 0; i < size_; ++i) {
+    // Deflections are; the balance at a massless node or a dashpot's force are not.
+    const bool deflection = i >= deflections_begin_ && i < deflections_end_;
+    differentiated_[at(i)] = deflection || std::any_of(begin(i), begin(i + 1), [](char mass) { return mass != 0; });
+  }
 }
 
 void Dae::enter(double t, const State& state, const Modes& modes, std::vector<double>& y) {
@@ -255,25 +272,15 @@ void Dae::update_holds() {
   for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) moving_[at(laws.first) + i] = laws.batch->holds(i) ? 0 : 1;
   }
-  mass_ = fixed_mass_;
-  for (const FlowEntry& f : flow_entries_) mass_[at(f.entry)] += f.sign * moving_[at(f.branch)];
   differential_.assign(at(size_), 0);
-  for (int e = 0; e < pattern_.entries(); ++e) {
-    if (mass_[at(e)] != 0) differential_[at(pattern_.row[at(e)])] = 1;
-  }
+  for_each_mass([&](int entry, double mass) {
+    if (mass != 0) differential_[at(pattern_.row[at(entry)])] = 1;
+  });
   for (Follower& f : followers_) {
     std::size_t i = 0;
     f.active = batch_of(f.branch, i).holds(i);
     if (f.active) differential_[at(f.row)] = 1;
   }
-}
-
-bool Dae::differentiated(int unknown) const {
-  for (int e = pattern_.column_start[at(unknown)]; e < pattern_.column_start[at(unknown) + 1]; ++e) {
-    if (fixed_mass_[at(e)] != 0) return true;
-  }
-  // Deflections are; the balance at a massless node or a dashpot's force are not.
-  return unknown >= deflections_begin_ && unknown < deflections_end_;
 }
 
 }  // namespace rheonet

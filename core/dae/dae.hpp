@@ -104,7 +104,7 @@ class Dae {
   /// No step need be short on its account, and between steps it is off by as much as the drive is from a polynomial.
   bool follows_time() const { return follows_time_; }
   /// y' of this unknown is in some equation.
-  bool differentiated(int unknown) const;
+  bool differentiated(int unknown) const { return differentiated_[at(unknown)] != 0; }
 
   /// Index of an unknown; -1 if it is none.
   int velocity_unknown(NodeId node) const { return iv_[at(node)]; }
@@ -165,13 +165,14 @@ class Dae {
   double applied_force(int index) const { return drive_->force[at(index)]; }
 
  private:
-  enum class Source : char { force, creep, rate };
-  struct Scatter { int entry; Source source; int index; double sign; };
+  /// An entry that is the slope of a deflection or rate law, or the negative of it.
+  enum class Source : char { force, rate };
+  using Sign = signed char;
+  struct Scatter { int entry, index; Source source; Sign sign; };
   /// Terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
   struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
-  /// A loop or a position; minus what a delayed branch feels (an index into Drive::felt, -1 for none), of which `now` is the
-  /// negated velocity of its free ends at present, which masses have (else no step is longer than the delay).
-  struct Row { int row; bool position; Terms terms; int delayed; Terms now; };
+  /// A loop or a position; minus what a delayed branch feels (an index into Drive::felt, -1 for none).
+  struct Row { int row; bool position; Terms terms; int delayed; };
 
   /// Branches between the same ends that are held still together have one velocity, 0, and so one sign of it between -1
   /// and 1 (Filippov: the same mixture of both directions for all of them). The first carries the equation w = 0, the
@@ -235,6 +236,8 @@ class Dae {
   void draft_rates(Drafts& drafts) const;
   void draft_rows(Drafts& drafts);
   void take_entries(Drafts& drafts);
+  template <class Visit>
+  void for_each_mass(Visit visit) const;
   // evaluate.cpp
   void gather(double t, const double* y);
   void sum_forces();
@@ -258,19 +261,26 @@ class Dae {
   int deflections_begin_ = 0, deflections_end_ = 0;  ///< those of ip_ are one after the other
   std::vector<Coupling> couplings_;
   std::vector<Row> rows_;
-  std::vector<Structure::Term> flows_, velocities_;  ///< of rows_: unknown deflections' branches, and nodes
+  /// Of each delayed branch the negated velocity of its free ends at present, which masses have (else no step is longer than
+  /// the delay).
+  std::vector<Terms> felt_terms_;
+  std::vector<Structure::Term> flows_, velocities_;  ///< of these: unknown deflections' branches, and nodes
   std::vector<int> group_row_;   ///< of each group
-  std::vector<char> differential_;
+  std::vector<char> differential_;         ///< of each row
+  std::vector<char> differentiated_;       ///< of each unknown
   Pattern pattern_;
-  std::vector<double> constant_, mass_;  ///< of each entry of the pattern
+  struct Constant { int entry; double value; };
+  std::vector<Constant> constants_;        ///< of dF/dy
+  std::vector<Constant> masses_;           ///< of dF/dy', but for flow_entries_
   struct FlowEntry { int entry, branch; double sign; };
   /// An entry of what a delayed branch feels of the present.
   struct FeltEntry { int entry, delayed; double sign; };
   std::vector<Parallel> parallels_;        ///< of two or more
   std::vector<Follower> followers_;
-  std::vector<FlowEntry> flow_entries_;    ///< coefficients of p' that vanish while their branch is held still
+  // Coefficients that vanish while their branch is held still.
+  std::vector<FlowEntry> flow_entries_;    ///< of p'
+  std::vector<FlowEntry> creep_entries_;   ///< of the slope of its creep
   std::vector<FeltEntry> felt_entries_;
-  std::vector<double> fixed_mass_;         ///< mass_ without those
   std::vector<double> moving_;             ///< of each deflection branch: 1, or 0 while it is held still
   std::vector<Scatter> scatter_;
 
@@ -283,5 +293,12 @@ class Dae {
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
   View view_;
 };
+
+/// visit(entry, coefficient in dF/dy').
+template <class Visit>
+void Dae::for_each_mass(Visit visit) const {
+  for (const Constant& mass : masses_) visit(mass.entry, mass.value);
+  for (const FlowEntry& f : flow_entries_) visit(f.entry, f.sign * moving_[at(f.branch)]);
+}
 
 }  // namespace rheonet

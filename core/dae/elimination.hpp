@@ -20,6 +20,8 @@ class Elimination {
   double scaled(int row, double right) const;
   /// Solves A x = b with the matrix last factorised; x takes the place of b.
   void solve(std::vector<double>& b) const;
+  /// Gives the memory of large factors back until the next matrix.
+  void release();
 
  private:
   struct Factor;

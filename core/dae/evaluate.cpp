@@ -101,7 +101,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     if (row.position) r[row.row] += yp[row.row];
     if (row.delayed < 0) continue;
     const double now = drive_->felt_now[at(row.delayed)];
-    r[row.row] += (now == 0 ? 0 : now * sum_of(row.now, yp)) - drive_->felt[at(row.delayed)];
+    r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - drive_->felt[at(row.delayed)];
   }
   for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - drive_->blocks().rate(k);
   for (const Follower& f : followers_) {
@@ -169,12 +169,11 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
     laws.batch->linearise(&rate_in_[k], &rate_out_[k], &rate_d_[k]);
   }
   stiffen_resting_laws();
-  for (std::size_t e = 0; e < constant_.size(); ++e) values[e] = constant_[e] + cj * mass_[e];
-  for (const Scatter& s : scatter_) {
-    const std::vector<double>& d = s.source == Source::force ? df_ : s.source == Source::creep ? dc_ : rate_d_;
-    const double weight = s.source == Source::creep ? s.sign * moving_[at(s.index)] : s.sign;
-    values[s.entry] += weight * d[at(s.index)];
-  }
+  std::fill_n(values, pattern_.entries(), 0.0);
+  for (const Constant& c : constants_) values[c.entry] += c.value;
+  for_each_mass([&](int entry, double mass) { values[entry] += cj * mass; });
+  for (const Scatter& s : scatter_) values[s.entry] += s.sign * (s.source == Source::force ? df_ : rate_d_)[at(s.index)];
+  for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving_[at(f.branch)] * dc_[at(f.branch)];
   for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * drive_->felt_now[at(f.delayed)];
   block_jacobian(values);
   share_jacobian(cj, yp, values, false);
@@ -216,9 +215,10 @@ void Dae::guess_forces(double t, double* y) {
 
 void Dae::consistency_matrix(double t, const double* y, double* values) {
   jacobian(t, 0, y, nullptr, values);
-  for (std::size_t e = 0; e < constant_.size(); ++e) {
-    if (differential_[at(pattern_.row[e])]) values[e] = mass_[e];
+  for (std::size_t e = 0; e < pattern_.row.size(); ++e) {
+    if (differential_[at(pattern_.row[e])]) values[e] = 0;
   }
+  for_each_mass([&](int entry, double mass) { values[entry] += mass; });
   share_jacobian(0, nullptr, values, true);
 }
 

@@ -89,7 +89,7 @@ class PositionFinder {
         const NodeId other = b.a == from ? b.b : b.a;
         if (reached_[at(other)] || structure_.kind[at(other)] == Kind::known) continue;
         reached_[at(other)] = 1;
-        result_.of[at(other)] = {.slider = slider, .parent = from, .sign = b.a == other ? 1.0 : -1.0};
+        result_.of[at(other)] = {.sign = b.a == other ? 1.0 : -1.0, .slider = slider, .parent = from};
         order_.push_back(other);
       }
     }
@@ -102,7 +102,7 @@ class PositionFinder {
         const Branch& b = network_.deflections[at(j)];
         const NodeId other = b.a == node ? b.b : b.a;
         if (reached_[at(other)]) continue;
-        result_.of[at(other)] = {.branch = j, .parent = node, .sign = b.a == other ? 1.0 : -1.0};
+        result_.of[at(other)] = {.sign = b.a == other ? 1.0 : -1.0, .branch = j, .parent = node};
         reach(other);
       }
     }

@@ -12,9 +12,9 @@ namespace rheonet {
 /// distance from the parent is integrated, x = x_parent + y: that distance may be small where both move far. The parent of
 /// what is near nothing is ground.
 struct Position {
+  double sign = 1;
   int branch = -1, slider = -1;
   NodeId parent = ground;
-  double sign = 1;
   bool integrated = false;
 };
 

@@ -284,6 +284,9 @@ class Consistency::Projection {
   double known_velocity_ = 0, fastest_ = 0;  ///< the latter at first, of all nodes
 };
 
-void Consistency::project(double t, std::vector<double>& y) { Projection(*this, t, y).solve(); }
+void Consistency::project(double t, std::vector<double>& y) {
+  wake();
+  Projection(*this, t, y).solve();
+}
 
 }  // namespace rheonet

@@ -140,6 +140,13 @@ Structure::Loop minus_velocity(const Structure& structure, NodeId node, NodeId a
   return express(structure, structure.rigid[at(node)], structure.rigid[at(against)], -1);
 }
 
+Structure::Loop closed_loop(const Network& network, const Structure& structure, int branch) {
+  std::size_t i = 0;
+  if (network.batch_of(branch, i).delay(i) > 0) return {.branch = branch, .flows = {{branch, 1}}, .velocities = {}};
+  const Branch& b = structure.deflections[at(branch)];
+  return express(structure, b.a, b.b, branch);
+}
+
 Structure classify(const Network& network) {
   Structure s = blank(network);
   assign_viscous_and_floating(network, s);
@@ -165,11 +172,7 @@ Structure analyse(const Network& network, const Modes& modes) {
       const Branch& b = s.deflections[at(j)];
       const bool given = b.a == b.b || (!integrate_given && s.of_time[at(b.a)] && s.of_time[at(b.b)]);
       s.driven[at(j)] = given && !laws.batch->creeps(i);
-      if (laws.batch->delay(i) > 0) {
-        s.loops.push_back({.branch = j, .flows = {{j, 1}}, .velocities = {}});
-      } else if (!s.driven[at(j)] && !in_tree[at(j)]) {
-        s.loops.push_back(express(s, b.a, b.b, j));
-      }
+      if (laws.batch->delay(i) > 0 || (!s.driven[at(j)] && !in_tree[at(j)])) s.closing.push_back(j);
     }
   }
   return s;

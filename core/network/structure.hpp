@@ -69,14 +69,17 @@ struct Structure {
   std::vector<double> mass;      ///< of each node, with what is joined to it unless it is known
   std::vector<double> own_mass;  ///< of each node by itself
   std::vector<Group> groups;     ///< sorted by depth: a parent comes before its children
-  std::vector<Loop> loops;       ///< one for each deflection branch that is not in the tree and not between known nodes
-                                 ///< with a law that does not creep
+  std::vector<int> closing;      ///< deflection branches that close a loop (`closed_loop`): those that are not in the tree and
+                                 ///< not between known nodes with a law that does not creep
   std::vector<char> driven;      ///< of each deflection branch: its deflection is a function of time alone
 };
 
 /// The velocity of a node against another one, negated, as such a sum along the tree (`branch` is -1); against ground, for a
 /// node that is not floating, just its own velocity.
 Structure::Loop minus_velocity(const Structure& structure, NodeId node, NodeId against);
+
+/// The loop that one of the branches of `closing` closes.
+Structure::Loop closed_loop(const Network& network, const Structure& structure, int branch);
 
 /// What nodes are when every slider slips: kinds, masses, motions and groups, without trees and loops. Throws
 /// SimulationError where a motion is prescribed twice.

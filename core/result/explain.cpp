@@ -288,7 +288,7 @@ class Explainer {
   void find_structure(const Dae& dae) {
     const Structure& structure = dae.structure();
     Explanation::Structure& s = result_.structure;
-    s.loops = static_cast<int>(structure.loops.size());
+    s.loops = static_cast<int>(structure.closing.size());
     s.index = s.algebraic > 0 ? 1 : 0;
     std::vector<std::string> floating, carried;
     for (const Structure::Group& group : structure.groups) {

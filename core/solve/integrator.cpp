@@ -80,7 +80,7 @@ struct Integrator::Implementation {
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
     past.sparse = n > options.dense;
-    linear = std::make_unique<LinearSolver>(dae.pattern(), past.sparse, tolerance, ny, context);
+    linear = std::make_unique<LinearSolver>(dae.pattern(), past.sparse, tolerance, context);
     require(IDASetLinearSolver(ida, linear->solver(), linear->matrix()), "IDASetLinearSolver");
     require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");

@@ -5,9 +5,11 @@
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nvector.h>
 
+#include <optional>
 #include <vector>
 
 #include "core/dae/matrix.hpp"
+#include "core/dae/sparse_factors.hpp"
 #include "core/solve/dense_factors.hpp"
 
 namespace rheonet {
@@ -19,7 +21,7 @@ namespace rheonet {
 class LinearSolver {
  public:
   /// `tolerance` (of each unknown, > 0) is read whenever there is a new matrix.
-  LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance, N_Vector like, SUNContext context);
+  LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance, SUNContext context);
   ~LinearSolver();
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
@@ -28,24 +30,22 @@ class LinearSolver {
   SUNLinearSolver solver() const { return outer_; }
 
   /// Entries of the matrix in the order of the pattern: to be filled in anew, then told.
-  double* entries();
+  double* entries() { return values_.data(); }
   void filled();
 
  private:
   static LinearSolver& of(SUNLinearSolver outer) { return *static_cast<LinearSolver*>(outer->content); }
   int setup();
-  /// Of the sparse matrix: how much larger its coefficients have become as it was factorised.
-  double pivot_growth() const;
-  int solve(N_Vector x, N_Vector b, double tolerance) const;
+  int solve(N_Vector x, N_Vector b);
 
   const Pattern& pattern_;
   const std::vector<double>& tolerance_;
+  std::optional<SparseFactors> sparse_;
+  DenseFactors dense_;  // of no unknowns if there are sparse ones
   SUNMatrix matrix_;
-  SUNLinearSolver inner_ = nullptr, outer_;  // the inner one is KLU
-  bool sparse_;
-  DenseFactors dense_;
-  std::vector<double> values_;  // of the dense matrix
-  double first_growth_ = 1;     // with pivots that were chosen for that matrix
+  SUNLinearSolver outer_;
+  std::vector<double> values_;
+  double first_growth_ = 1;  // with pivots that were chosen for that matrix
   std::vector<double> row_scale_, column_scale_;
 };
 

@@ -335,6 +335,7 @@ class Run {
     if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(settings_.accuracy)) / omega);
     system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
     if (settings_.profile) settings_.profile->restart(system_->dae);
+    system_->consistency.rest();
     system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
   }
 

@@ -69,7 +69,7 @@ void Tolerances::attach(Dae& dae) {
     return b.a == b.b || (structure.of_time[at(b.a)] && structure.of_time[at(b.b)]);
   };
   const auto stands_for = [&](int unknown, Sort sort, std::size_t index) {
-    if (unknown >= 0) quantity_[at(unknown)] = {sort, index};
+    if (unknown >= 0) quantity_[at(unknown)] = {sort, static_cast<unsigned>(index)};
   };
   given_.clear();
   slider_given_.clear();

@@ -73,7 +73,7 @@ class Tolerances {
   /// is no noise.
   static constexpr double floor_of_kind = 1e-8;
   /// What an unknown stands for: the velocity or position of a node, the deflection or force of a branch, a block's state.
-  struct Quantity { Sort sort; std::size_t index; };
+  struct Quantity { Sort sort; unsigned index; };
   double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double seen(const Quantity& q) const { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double& foreseen_of(const Quantity& q) { return foreseen_[static_cast<std::size_t>(q.sort)][q.index]; }

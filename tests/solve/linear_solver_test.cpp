@@ -17,7 +17,7 @@ TEST_CASE("a pivot that has become a small one costs no digits") {
   N_Vector x = N_VNew_Serial(2, context), b = N_VNew_Serial(2, context);
   for (const bool sparse : {true, false}) {
     CAPTURE(sparse);
-    LinearSolver linear(pattern, sparse, tolerance, x, context);
+    LinearSolver linear(pattern, sparse, tolerance, context);
     SUNLinearSolver solver = linear.solver();
     REQUIRE(SUNLinSolInitialize(solver) == SUNLS_SUCCESS);
     for (const double pivot : {1e3, 1.0, 1e-2, 1e-4, 1e-5, 1e-6, 1e-8, 1e-12, 1e-20, 0.0, 1e3}) {
