@@ -7,7 +7,7 @@
 namespace rheonet {
 
 /// What determines the velocity of a node.
-enum class Kind {
+enum class Kind : char {
   known,    ///< ground, or a prescribed motion
   massive,  ///< its momentum: m dv/dt = sum of forces
   viscous,  ///< massless, joined by dashpots to a known or massive node: its velocity follows from its force balance

@@ -40,6 +40,7 @@ Accumulation::Accumulation(const Network& network, const Structure& structure, d
   for (const Branch& b : structure.sliders) join(b);
   part_of_node_.assign(structure.kind.size(), -1);
   std::vector<int> number(structure.kind.size(), -1);
+  movers_.reserve(network.masses.size());
   for (std::size_t n = 0; n < structure.kind.size(); ++n) {
     if (structure.kind[n] == Kind::known || !(structure.own_mass[n] > 0)) continue;
     int& part = number[at(sets.find(static_cast<NodeId>(n)))];

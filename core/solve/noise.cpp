@@ -29,24 +29,28 @@ double Tolerances::force_noise(int rate) const {
 }
 
 /// A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
-void Tolerances::find_noise(const std::vector<double>& slope) {
+double Tolerances::noise_of(bool given, double flow, const Branch& b, double of_difference) const {
   const Structure& structure = dae_->structure();
   // What rounding leaves of forces, dashpots make a velocity of at nodes without mass alone.
   const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.mass[at(node)] > 0; };
+  const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
+  const double unresolved =
+      given ? given_noise * flow
+            : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_), of_rounding, of_difference});
+  // More than nothing: an event function that begins at 0 would never be seen to fall through it.
+  return std::max(unresolved, std::numeric_limits<double>::min());
+}
+
+double Tolerances::noise(int branch) const {
+  const std::size_t j = at(branch);
+  return noise_of(given_[j] != 0, flow_seen_[j], dae_->structure().deflections[j], difference_rounding_[j]);
+}
+
+void Tolerances::find_noise(const std::vector<double>& slope) {
+  const Structure& structure = dae_->structure();
   find_dilatant_noise(slope);
-  const auto noise = [&](bool given, double flow, const Branch& b, double of_difference) {
-    const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
-    const double unresolved =
-        given ? given_noise * flow
-              : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_), of_rounding, of_difference});
-    // More than nothing: an event function that begins at 0 would never be seen to fall through it.
-    return std::max(unresolved, std::numeric_limits<double>::min());
-  };
-  for (std::size_t j = 0; j < noise_.size(); ++j) {
-    noise_[j] = noise(given_[j] != 0, flow_seen_[j], structure.deflections[j], difference_rounding_[j]);
-  }
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
-    slider_noise_[k] = noise(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
+    slider_noise_[k] = noise_of(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
   }
   find_slip_noise(slope);
 }

@@ -35,27 +35,25 @@ constexpr double balance_grains = 4;
 
 Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), kinks_(network) {
   const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
-  seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0),
-           std::vector<double>(network.rates.size(), 0), std::vector<double>(nodes, 0),
-           std::vector<double>(network.blocks.blocks.size(), 0)};
+  seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0), std::vector<double>(network.rates.size(), 0),
+           std::vector<double>{}, std::vector<double>(network.blocks.blocks.size(), 0)};
   sensed_.assign(nodes, 0);
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what == Blocks::Sensor::What::position) sensed_[at(sensor.index)] = 1;
   }
-  block_scale_.assign(nodes, std::numeric_limits<double>::infinity());
+  if (!network.blocks.sensors.empty()) block_scale_.assign(nodes, std::numeric_limits<double>::infinity());
   block_force_seen_.assign(network.forces.size(), 0);
   rested_.assign(network.sliders.size(), 0);
   slid_.assign(network.sliders.size(), 0);
   slider_share_.assign(nodes, 1);
   foreseen_ = seen_;
   force_seen_.assign(deflections, 0);
-  flow_seen_ = noise_ = force_seen_;
+  flow_seen_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
   dashpot_seen_.assign(network.rates.size(), 0);
   carried_seen_ = dashpot_seen_;
   relative_seen_.assign(nodes, 0);
   least_slide_.assign(nodes, std::numeric_limits<double>::infinity());
-  gap_seen_ = place_seen_ = way_seen_ = relative_seen_;
   slip_noise_ = slider_noise_ = slide_rounding_ = slide_seen_;
   difference_rounding_ = force_seen_;
 }
@@ -89,6 +87,7 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
   for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
+  if (!dae.integrated_positions().empty()) see_positions();
   balanced_.assign(network_.deflections.size(), -1);
   any_balanced_ = any_solved_;
   for (const Structure::Group& group : structure.groups) {
@@ -107,6 +106,14 @@ void Tolerances::attach(Dae& dae) {
   find_gaps();
   balance_rounding_.attach(network_, structure);
   find_held();
+}
+
+/// Most networks have no position among their unknowns, whatever their modes.
+void Tolerances::see_positions() {
+  constexpr auto position = static_cast<std::size_t>(Sort::position);
+  for (std::vector<double>* seen : {&seen_[position], &foreseen_[position], &gap_seen_, &place_seen_, &way_seen_}) {
+    seen->resize(network_.nodes(), 0);
+  }
 }
 
 /// What sliders that stick hold together, up to where it is held by what moves as it is told to.

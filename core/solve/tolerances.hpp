@@ -57,7 +57,7 @@ class Tolerances {
   /// rounding [m/s]. Infinite as long as it has had no force.
   double unfelt(int rate) const;
   /// Velocity below which the reversal of a branch is noise [m/s].
-  double noise(int branch) const { return noise_[static_cast<std::size_t>(branch)]; }
+  double noise(int branch) const;
   /// Of the force of a rate branch that is solved for it.
   double force_noise(int rate) const;
   /// Velocity of a branch that a dilatant dashpot in its part of the network makes of what steps may leave of forces [m/s].
@@ -82,6 +82,7 @@ class Tolerances {
   /// Its size says nothing of that of others of its sort: states of blocks have units of their own, and what a block takes
   /// in may be a small movement beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
+  void see_positions();
   void find_gaps();
   void find_block_scales(double largest_force);
   void see_rest(std::size_t slider, double velocity);
@@ -110,6 +111,7 @@ class Tolerances {
   void find_longest();
   void find_balances();
   void loosen_balanced_forces(const std::vector<double>& slope);
+  double noise_of(bool given, double flow, const Branch& b, double of_difference) const;
   void find_noise(const std::vector<double>& slope);
   void find_dilatant_noise(const std::vector<double>& slope);
   void find_slip_noise(const std::vector<double>& slope);
@@ -150,7 +152,8 @@ class Tolerances {
   std::vector<double> block_scale_;                   ///< of each node: for the forces that blocks make of its position [m]
   std::vector<double> block_force_seen_;              ///< of each force of the network that a block gives [N]
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
-  std::array<std::vector<double>, sorts> seen_;       ///< largest magnitude of everything that can be an unknown
+  /// Largest magnitude of everything that can be an unknown; of positions only if some are.
+  std::array<std::vector<double>, sorts> seen_;
   std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> dashpot_seen_;                  ///< of each rate branch: its largest force [N]
@@ -198,7 +201,7 @@ class Tolerances {
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
   std::vector<double> dilatant_noise_;  ///< of each part [m/s]; empty where there is nothing of the sort
-  std::vector<double> noise_, slider_noise_, slip_noise_, tolerance_, grain_;
+  std::vector<double> slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
   std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]
 };
