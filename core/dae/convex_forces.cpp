@@ -1,8 +1,8 @@
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "core/dae/convex.hpp"
+#include "core/dae/symmetric.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
@@ -58,11 +58,7 @@ void ConvexNetwork::find_bond_forces() {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
-  if (rows > 0) {
-    Eigen::SparseMatrix<double> matrix(rows, rows);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    phi = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(phi);
-  }
+  solve_symmetric(entries, phi);  // every cluster has its reference: nothing is left open
   const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (branches_[k].stuck) bond_force_[k] = potential(branches_[k].a) - potential(branches_[k].b);

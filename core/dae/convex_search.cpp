@@ -1,9 +1,9 @@
 // Steps of Newton's method, and the way along them.
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "core/dae/convex.hpp"
+#include "core/dae/symmetric.hpp"
 
 namespace rheonet {
 
@@ -47,12 +47,8 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
     const int column = column_[at(cluster_[k])];
     if (column >= 0 && inertia_[k] > 0) entries.emplace_back(column, column, inertia_[k]);
   }
-  Eigen::SparseMatrix<double> matrix(columns_, columns_);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-  if (factor.info() != Eigen::Success) return false;
-  const Eigen::Map<const Eigen::VectorXd> g(gradient.data(), columns_);
-  const Eigen::VectorXd step = factor.solve(-g);
+  Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(gradient.data(), columns_);
+  if (!solve_symmetric(entries, step)) return false;
   d.assign(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];

@@ -79,6 +79,10 @@ void Tolerances::find_dilatant_noise(const std::vector<double>& slope) {
 void Tolerances::find_slip_noise(const std::vector<double>& slope) {
   if (slip_noise_.empty()) return;
   const Structure& structure = dae_->structure();
+  if (std::none_of(structure.stuck.begin(), structure.stuck.end(), [](char stuck) { return stuck != 0; })) {
+    std::fill(slip_noise_.begin(), slip_noise_.end(), 0.0);
+    return;
+  }
   held_noise_.assign(structure.kind.size(), 0);
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
