@@ -14,6 +14,7 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/network/network.hpp"
@@ -84,18 +85,19 @@ class Certification {
       : scene_(scene), settings_(settings), shift_(scene.accuracy * (scene.stop - scene.start)) {}
 
   Certificate go() {
-    const double first = std::max(scene_.accuracy, factor * tightest);
-    RunSettings silent = settings_;
-    silent.progress = {};
-    auto beside = std::async(std::launch::async, [&] { return attempt(silent, first); });
-    std::shared_ptr<Attempt> tighter = measuring_run(first / factor), measured = beside.get();
-    count(*measured);
-    count(*tighter);
+    auto [measured, tighter] = both(std::max(scene_.accuracy, factor * tightest));
     while (!tighter->failure) {
       if (!measured->failure && measure(measured, *tighter)) break;
-      if (!has_tighter(tighter->tolerance)) break;
-      measured = std::exchange(tighter, measuring_run(tighter->tolerance / factor));
-      count(*tighter);
+      const double next = tighter->tolerance / factor;
+      if (next > (1 - rounding) * tightest) {
+        measured = std::exchange(tighter, measuring_run(next));
+        count(*tighter);
+      } else if (tighter->tolerance > (1 + rounding) * tightest) {
+        // No room for one that is so much tighter than this; but for one that is than another.
+        std::tie(measured, tighter) = both(factor * tightest);
+      } else {
+        break;
+      }
     }
     if (!kept_) kept_ = measured;
     kept_->hand_over(settings_);
@@ -136,13 +138,22 @@ class Certification {
     return result;
   }
 
+  /// A run to this tolerance, and one that it is measured by, side by side.
+  std::pair<std::shared_ptr<Attempt>, std::shared_ptr<Attempt>> both(double tolerance) {
+    RunSettings silent = settings_;
+    silent.progress = {};
+    auto beside = std::async(std::launch::async, [&] { return attempt(silent, tolerance); });
+    std::shared_ptr<Attempt> tighter = measuring_run(tolerance / factor), measured = beside.get();
+    count(*measured);
+    count(*tighter);
+    return {measured, tighter};
+  }
+
   void count(const Attempt& done) {
     result_.runs += done.other ? 2 : 1;
     result_.cpu_seconds += done.yardstick.course.summary.cpu_seconds;
     if (done.other) result_.cpu_seconds += done.other->course.summary.cpu_seconds;
   }
-
-  static bool has_tighter(double tolerance) { return tolerance / factor > (1 - rounding) * tightest; }
 
   /// Whether the run is as accurate as it should be.
   bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {

@@ -50,10 +50,12 @@ std::string reason(const Certificate& certificate) {
   const std::vector<Round>& rounds = certificate.rounds;
   if (!certificate.obstacle.empty()) return "a tighter run does not come to its end: " + certificate.obstacle;
   if (rounds.size() == 1) return "double precision leaves no room for runs tight enough to know, or to do better";
-  const double before = rounds[rounds.size() - 2].error.relative(), last = rounds.back().error.relative();
-  if (last > Certificate::own_error * before)
-    return "tightening the tolerance a hundred times gains little: differences as small as rounding grow in this scene, as "
-           "in chaos, or where what happens hangs on the last digit of a value";
+  const Round &before = rounds[rounds.size() - 2], &last = rounds.back();
+  if (last.error.relative() > Certificate::own_error * before.error.relative())
+    return fmt::format(
+        "tightening the tolerance {:.0f} times gains little: differences as small as rounding grow in this scene, as in chaos, or "
+        "where what happens hangs on the last digit of a value",
+        before.tolerance / last.tolerance);
   return "each run is more accurate than the one before, but double precision leaves no room for a tighter one";
 }
 
