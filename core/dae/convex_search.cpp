@@ -19,6 +19,8 @@ constexpr double short_of_break = 1e-14;
 constexpr double slope_rounding = 1e-12;
 // Of the slope where the search begins: less is the minimum, as the next direction takes what is left.
 constexpr double flat_enough = 1e-10;
+// So many times a step.
+constexpr double far_off = 1e3;
 constexpr int most_sections = 100;  // of a stretch; every third halves it: ten digits at least
 
 }  // namespace
@@ -109,6 +111,10 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
       return Outcome::solved;
     }
     high *= 1 - short_of_break;
+    // One that is far off, where two ends move all but alike, is none to begin a search from.
+    for (double near = std::max(1.0, 2 * low); high > far_off * near; near *= 2) {
+      if (!(slope_along(d, near) < 0)) high = near;
+    }
   } else {
     for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
       // The last digits of the whole step may be rounding.

@@ -136,7 +136,7 @@ void Instant::check_load(double t, double then, const State& state, const std::v
   drive_.sense(t, state);
   drive_.evaluate(then);
   const std::optional<Jump> jump = find_jump(std::vector<double>(structure_.kind.size(), 0), state, slider_force);
-  if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways());
+  if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways(), state);
 }
 
 /// A time in which neither the drive nor the network itself changes its course, unless that is less than can be told [s].

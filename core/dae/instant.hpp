@@ -131,9 +131,13 @@ class Instant {
   }
   /// Nodes are numbered as in the equations, so that two ways to write a network give the same numbers.
   int slot(NodeId node) const { return structure_.rank[static_cast<std::size_t>(node)]; }
-  std::vector<char> pushed_away(int side) const;
+  struct Bounded { Branch branch; double bound; };
+  std::vector<Bounded> bounded() const;
+  std::vector<double> pushes(const State& state) const;
+  std::vector<char> pushed_away(const std::vector<double>& push, int side, double share) const;
+  std::vector<char> carried(const std::vector<int>& runaways) const;
   /// `runaways`: slots of nodes that a convex problem leaves without a bound; told where the loads do not tell better.
-  [[noreturn]] void report_runaway(double t, const std::vector<int>& runaways) const;
+  [[noreturn]] void report_runaway(double t, const std::vector<int>& runaways, const State& state) const;
 
   const Network& network_;
   const Structure& structure_;

@@ -193,7 +193,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
   const std::optional<Jump> found = find_jump(dx, state, force);
   if (!found) return false;
   const auto& [problem, outcome, slider_branch] = *found;
-  if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
+  if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways(), state);
   if (outcome != ConvexNetwork::Outcome::solved) {
     report_unbalanced(t);
   }

@@ -73,7 +73,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
 
   ConvexNetwork& problem = onset.problem;
   if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
-    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways());
+    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways(), state);
     report_undecided(network_, at_time(*network_.scene, t));
   }
   for (std::size_t n = 0; n < nodes; ++n) {

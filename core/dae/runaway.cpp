@@ -2,7 +2,10 @@
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "core/dae/instant.hpp"
 #include "core/network/index.hpp"
@@ -13,8 +16,9 @@ namespace rheonet {
 
 namespace {
 
-// A load within so much of what the elements can take is beyond it: friction comes to its bound in the limit only.
-constexpr double nearly = 1e-6;
+// A load within such a share of what elements can take is beyond it, the least share that there is one for: friction comes to
+// its bound in the limit only, and what follows it gives up before.
+constexpr std::array shares = {1e-9, 1e-6, 1e-4, 1e-2};
 // What is left of a way that is full.
 constexpr double flow_rounding = 1e-12;
 
@@ -74,61 +78,103 @@ class ForceFlow {
 
 }  // namespace
 
-/// The nodes that the loads push away to this side: those beyond the elements that bear the largest force they can take.
-std::vector<char> Instant::pushed_away(int side) const {
-  const std::size_t count = structure_.kind.size();
-  std::vector<double> load(count, 0);
-  double all = 0;
-  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
-    const Network::Force& f = network_.forces[k];
-    all += std::abs(drive_.force[k]);
-    if (f.a >= 0) load[at(f.a)] += side * drive_.force[k];
-    if (f.b >= 0) load[at(f.b)] -= side * drive_.force[k];
-  }
-  ForceFlow flow(count);
-  const double any = 2 * all;
-  const auto link = [&](const Branch& b, double most) {
-    if (b.a != b.b) flow.link(at(b.a), at(b.b), std::min(most, any));
+/// Force that each node is pushed with, by loads and by laws that answer later [N].
+std::vector<double> Instant::pushes(const State& state) const {
+  std::vector<double> push(structure_.kind.size(), 0);
+  const auto add = [&](NodeId node, double f) {
+    if (node >= 0) push[at(node)] += f;
   };
-  for (const Branch& b : network_.rates) link(b, any);
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    add(network_.forces[k].a, drive_.force[k]);
+    add(network_.forces[k].b, -drive_.force[k]);
+  }
+  std::vector<double> f(state.p.size()), creep(f);
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    laws.batch->evaluate(&state.p[at(laws.first)], &f[at(laws.first)], &creep[at(laws.first)]);
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const double bound = laws.batch->steady(i).bound;
-      link(network_.deflections[at(laws.first) + i], std::isinf(bound) ? any : (1 - nearly) * bound);
+      const std::size_t j = at(laws.first) + i;
+      if (!(laws.batch->delay(i) > 0)) continue;
+      add(network_.deflections[j].a, -f[j]);
+      add(network_.deflections[j].b, f[j]);
     }
   }
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    link(network_.sliders[k].branch, (1 - nearly) * std::max(bound(k, 1), bound(k, -1)));
+  return push;
+}
+
+/// The nodes that are pushed away to one side: those beyond the elements that bear the largest force they can take, but for a
+/// share of it.
+std::vector<char> Instant::pushed_away(const std::vector<double>& push, int side, double share) const {
+  double any = 0;
+  for (const double f : push) any += 2 * std::abs(f);
+  ForceFlow flow(push.size());
+  for (const Bounded& b : bounded()) {
+    if (b.branch.a != b.branch.b) flow.link(at(b.branch.a), at(b.branch.b), std::min((1 - share) * b.bound, any));
   }
-  for (std::size_t n = 0; n < count; ++n) {
+  for (std::size_t n = 0; n < push.size(); ++n) {
     if (!massless(static_cast<NodeId>(n))) {
       flow.take(n, any);
-    } else if (load[n] > 0) {
-      flow.push(n, load[n]);
-    } else if (load[n] < 0) {
-      flow.take(n, -load[n]);
+    } else if (side * push[n] > 0) {
+      flow.push(n, side * push[n]);
+    } else {
+      flow.take(n, -side * push[n]);
     }
   }
   return flow.overloaded();
 }
 
-void Instant::report_runaway(double t, const std::vector<int>& runaways) const {
-  std::vector<char> in = pushed_away(1);
-  const std::vector<char> others = pushed_away(-1);
-  for (std::size_t n = 0; n < in.size(); ++n) in[n] = in[n] || others[n];
-  if (std::find(in.begin(), in.end(), 1) == in.end()) {
-    for (const int k : runaways) in[at(network_.node_order[at(k)])] = 1;
+/// What can hold something at once, and the largest force that it can take [N].
+std::vector<Instant::Bounded> Instant::bounded() const {
+  std::vector<Bounded> result;
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    result.push_back({network_.sliders[k].branch, std::max(bound(k, 1), bound(k, -1))});
   }
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->delay(i) > 0) continue;
+      result.push_back({network_.deflections[at(laws.first) + i], laws.batch->steady(i).bound});
+    }
+  }
+  for (const Branch& b : network_.rates) result.push_back({b, std::numeric_limits<double>::infinity()});
+  return result;
+}
+
+/// What has no largest force takes its other end along, or is held by that: there a node runs away by rounding only.
+std::vector<char> Instant::carried(const std::vector<int>& runaways) const {
+  const std::size_t count = structure_.kind.size();
+  Sets together(count);
+  for (const Bounded& b : bounded()) {
+    if (std::isinf(b.bound)) together.join(b.branch.a, b.branch.b);
+  }
+  std::vector<char> held(count, 0), goes(count, 0), all(count, 0);  // the first two of each set, by the node that speaks for it
+  for (NodeId n = 0; at(n) < count; ++n) {
+    if (!massless(n)) held[at(together.find(n))] = 1;
+  }
+  for (const int k : runaways) goes[at(together.find(network_.node_order[at(k)]))] = 1;
+  for (NodeId n = 0; at(n) < count; ++n) all[at(n)] = goes[at(together.find(n))] && !held[at(together.find(n))];
+  if (std::find(all.begin(), all.end(), 1) == all.end()) {
+    for (const int k : runaways) all[at(network_.node_order[at(k)])] = 1;
+  }
+  return all;
+}
+
+void Instant::report_runaway(double t, const std::vector<int>& runaways, const State& state) const {
+  const std::vector<double> push = pushes(state);
+  std::array<std::vector<char>, 2> sides;
+  const auto found = [](const std::vector<char>& set) { return std::find(set.begin(), set.end(), 1) != set.end(); };
+  for (std::size_t k = 0; k < shares.size() && !found(sides[0]) && !found(sides[1]); ++k) {
+    sides = {pushed_away(push, 1, shares[k]), pushed_away(push, -1, shares[k])};
+  }
+  if (!found(sides[0]) && !found(sides[1])) sides[0] = carried(runaways);
+  const auto leaves = [](const std::vector<char>& set, const Branch& b) { return set[at(b.a)] != set[at(b.b)]; };
   std::vector<NodeId> nodes;
-  for (std::size_t n = 0; n < in.size(); ++n) {
-    if (in[n]) nodes.push_back(static_cast<NodeId>(n));
+  for (std::size_t n = 0; n < push.size(); ++n) {
+    if (sides[0][n] || sides[1][n]) nodes.push_back(static_cast<NodeId>(n));
   }
   std::vector<int> elements;
-  const auto mention = [&](const Branch& b) {
-    if (in[at(b.a)] != in[at(b.b)]) elements.push_back(b.element);
-  };
-  for (const Network::Slider& s : network_.sliders) mention(s.branch);
-  for (const Branch& b : network_.deflections) mention(b);
+  for (const Bounded& b : bounded()) {
+    if (std::isinf(b.bound)) continue;
+    if (leaves(sides[0], b.branch) || leaves(sides[1], b.branch)) elements.push_back(b.branch.element);
+  }
   report_overload(network_, t, nodes, elements);
 }
 

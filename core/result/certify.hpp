@@ -47,7 +47,8 @@ struct Certificate {
 /// made. Rows, events and calls of `row` are those of one run, which another, to a tolerance a hundred times tighter, has
 /// shown to be as accurate as that; they go on at once, `progress` being told of the tighter. Where it is not, the tighter
 /// run takes its place, and is measured by one tighter still, down to the limit of double precision; at last the tightest one
-/// there can be measures one a hundred times looser. If none ever is, the rows are those of the most accurate run. `tolerance` and `state` of the settings are not used.
+/// there can be measures one a hundred times looser. If none ever is, the rows are those of the most accurate run. `tolerance`
+/// and `state` of the settings are not used.
 ///
 /// Rows are held in memory until they are known to be good. Throws SimulationError as `run` does where the scene itself
 /// cannot be simulated; the rows up to there have then been written.

@@ -164,7 +164,7 @@ class Run {
     system_->consistency.derivative(t, y_, yp_);
     const Dae::View& view = dae.view(t, y_.data(), yp_.data());
     drive_.remember(t, view.velocity, view.acceleration);
-    for (const std::string& note : check_ties(dae, t)) note_once(note);
+    for (const std::string& note : check_ties(dae, t, [this] { tell_overload(); })) note_once(note);
     for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
     }

@@ -16,12 +16,13 @@ constexpr double tie_rounding = 1e-9;
 
 }  // namespace
 
-std::vector<std::string> check_ties(const Dae& dae, double t) {
+std::vector<std::string> check_ties(const Dae& dae, double t, const std::function<void()>& overloaded) {
   const Network& network = dae.network();
   std::vector<std::string> notes;
   for (const Structure::Tie& tie : dae.structure().ties) {
     const Dae::Balance balance = dae.balance(tie);
     if (std::abs(balance.sum) > tie_rounding * balance.magnitude || dae.load_changes(tie)) {
+      overloaded();
       report_overload(network, t, tie.nodes, tie.elements);
     }
     std::vector<std::string> names;

@@ -161,7 +161,6 @@ class Tolerances {
   std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]
   /// Of each node: of the sliders there that have slipped, the slowest one's fastest [m/s].
   std::vector<double> least_slide_;
-  std::vector<double> rate_seen_;
   /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
   /// and may be small beside them.
   struct Gap { NodeId node; Branch branch; };

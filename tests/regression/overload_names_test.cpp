@@ -34,10 +34,42 @@ f={type="force",at="n3",force={ramp=4.28}}
 stop=3
 output={points=61}
 )";
+  const std::string between_nodes = R"([elements]
+f = { type = "force", between = ["x", "y"], force = { step = 3, time = 1 } }
+s1 = { type = "slider", between = ["x", "y"], coulomb = 1 }
+s2 = { type = "slider", between = ["y", "ground"], coulomb = 1.2 }
+s3 = { type = "slider", between = ["x", "ground"], coulomb = 1.2 }
+[simulate]
+stop = 2
+)";
+  // What is left of steps lets the stronger slider slip first, at one of these accuracies.
+  const std::string wild = R"([elements]
+e1 = { type = "slider", between = ["n0", "ground"], coulomb = 1.71 }
+e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 22.1, coulomb = 0.253, damping = 1.5, exponent = 2 }
+f = { type = "force", at = "n1", force = { table = [[0, 0], [0.5, 2.84], [1.1, -2.84], [2, 1.42]] } }
+[simulate]
+stop = 2.5
+)";
+  // The law with a delay holds nothing at once: what it bears it was told before.
+  const std::string delayed = R"([elements]
+e1 = { type = "cfm", between = ["n0", "ground"], stiffness = 5.31, coulomb = 0.637, damping = 1.14, exponent = 2 }
+e2 = { type = "vfm", between = ["n1", "n0"], damping = 1.84, stiffness = 126 }
+e3 = { type = "vfm", between = ["n1", "ground"], damping = 0.229, stiffness = 5.14, delay = 0.05 }
+e4 = { type = "slider", between = ["n1", "ground"], coulomb = 0.174 }
+e5 = { type = "cfm", between = ["n1", "ground"], stiffness = 31.3, coulomb = 0.225, damping = 1.76, exponent = 2 }
+f = { type = "force", at = "n1", force = { ramp = 4.24 } }
+[simulate]
+stop = 2.5
+)";
+  const std::string late = refusal(delayed, "1e-6");
+  CHECK_MESSAGE(late.find("nodes `n0`, `n1`: `e4`, `e1`, `e5` are at the largest") != std::string::npos, late);
   for (const char* accuracy : {"1e-3", "1e-6", "1e-9"}) {
     CAPTURE(accuracy);
     const std::string first = refusal(in_series, accuracy), second = refusal(meshed, accuracy);
     CHECK_MESSAGE(first.find("node `end`: `e1` is at the largest force that it can take") != std::string::npos, first);
+    const std::string third = refusal(between_nodes, accuracy), fourth = refusal(wild, accuracy);
+    CHECK_MESSAGE(third.find("nodes `x`, `y`: `s1`, `s2`, `s3` are at the largest force") != std::string::npos, third);
+    CHECK_MESSAGE(fourth.find("node `n1`: `e2` is at the largest force that it can take") != std::string::npos, fourth);
     CHECK_MESSAGE(second.find("nodes `n2`, `n3`: `e5`, `e10` are at the largest force that they can take") != std::string::npos, second);
   }
 }
