@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/dae/instant.hpp"
 #include "core/network/index.hpp"
@@ -59,7 +60,7 @@ std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vect
   // What has just come to rest has its full force still, and slips on if friction beside it would rest.
   for (const int k : stopped) {
     const Branch& b = network_.sliders[at(k)].branch;
-    const auto ends = [&](const Branch& of) { return std::minmax(firm.find(of.a), firm.find(of.b)); };
+    const auto ends = [&](const Branch& of) -> std::pair<NodeId, NodeId> { return std::minmax(firm.find(of.a), firm.find(of.b)); };
     const bool beside = std::any_of(change.standing.begin(), change.standing.end(), [&](const Standing& one) {
       return ends(network_.deflections[at(one.branch)]) == ends(b);
     });
