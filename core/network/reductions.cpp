@@ -12,6 +12,7 @@ const std::vector<ReductionWords>& reductions() {
       {Reduction::positions, "positions", "positions that nobody asks for are not integrated"},
       {Reduction::parts, "parts", "independent parts are integrated each with steps of its own, on as many cores as there are"},
       {Reduction::unasked, "unasked", "independent parts that no record or claim needs, and that nothing can go wrong in, are not integrated"},
+      {Reduction::reach, "reach", "masses at rest so far from all that moves that nothing comes to them before the stop are not integrated"},
   };
   return all;
 }

@@ -9,7 +9,7 @@ namespace rheonet {
 
 /// What is made of a scene before it is simulated so that less is left to simulate. None changes what is recorded beyond the
 /// accuracy asked for; each can be switched off by its name (Scene::keep).
-enum class Reduction { chains, bundles, given, positions, parts, unasked };
+enum class Reduction { chains, bundles, given, positions, parts, unasked, reach };
 
 struct ReductionWords {
   Reduction reduction;

@@ -12,9 +12,117 @@ namespace rheonet {
 
 namespace {
 
-/// One of the scenes, and the numbers that things of the whole have in it; -1: none.
-struct Numbers {
-  std::vector<int> node, element, assembly, block;
+/// Takes some of the nodes and elements of a scene, and what belongs to these.
+class Taker {
+ public:
+  /// node(k), element(e): whether it is taken; ground always is.
+  template <class Node, class Element>
+  Taker(const Scene& whole, Node node, Element element)
+      : whole_(whole), node_(whole.nodes.size(), -1), element_(whole.elements.size(), -1) {
+    take_settings();
+    for (std::size_t k = 0; k < whole.nodes.size(); ++k) {
+      if (k != ground && !node(k)) continue;
+      node_[k] = static_cast<int>(scene_.nodes.size());
+      scene_.nodes.push_back(whole.nodes[k]);
+    }
+    for (std::size_t e = 0; e < whole.elements.size(); ++e) {
+      if (!element(e)) continue;
+      element_[e] = static_cast<int>(scene_.elements.size());
+      scene_.elements.push_back(whole.elements[e]);
+      scene_.elements.back().a = node_[at(whole.elements[e].a)];
+      if (!whole.elements[e].at) scene_.elements.back().b = node_[at(whole.elements[e].b)];
+    }
+    take_assemblies();
+    take_blocks();
+  }
+
+  Scene& scene() { return scene_; }
+
+  /// What there is here of a record of the whole.
+  std::optional<Record> taken(const Record& whole) const {
+    Record record = whole;
+    record.index = number(whole);
+    if (record.index < 0) return {};
+    if (record.subject == Record::Subject::assembly) {
+      const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
+      const bool whole_ends = assembly.a >= 0 && assembly.b >= 0;
+      if (record.channel == Record::Channel::force ? assembly.force.empty() : !whole_ends) return {};
+    }
+    return record;
+  }
+
+ private:
+  void take_settings() {
+    scene_.title = whole_.title;
+    scene_.domain = whole_.domain;
+    scene_.without = whole_.without;
+    scene_.keep = whole_.keep;
+    scene_.start_from = whole_.start_from;
+    scene_.start = whole_.start;
+    scene_.stop = whole_.stop;
+    scene_.accuracy = whole_.accuracy;
+    scene_.output_every = whole_.output_every;
+    scene_.output_intervals = whole_.output_intervals;
+    scene_.output_events = whole_.output_events;
+  }
+
+  void take_assemblies() {
+    assembly_.assign(whole_.assemblies.size(), -1);
+    for (std::size_t k = 0; k < whole_.assemblies.size(); ++k) {
+      SceneAssembly assembly = whole_.assemblies[k];
+      assembly.a = node_[at(assembly.a)];
+      assembly.b = node_[at(assembly.b)];
+      std::erase_if(assembly.force, [&](SceneAssembly::Term& term) { return (term.element = element_[at(term.element)]) < 0; });
+      if (assembly.force.empty() && (assembly.a < 0 || assembly.b < 0)) continue;
+      assembly_[k] = static_cast<int>(scene_.assemblies.size());
+      scene_.assemblies.push_back(std::move(assembly));
+    }
+  }
+
+  void take_blocks() {
+    block_.assign(whole_.blocks.size(), -1);
+    int count = 0;
+    for (std::size_t k = 0; k < whole_.blocks.size(); ++k) {
+      if (element_[at(whole_.blocks[k].element)] >= 0) block_[k] = count++;
+    }
+    for (std::size_t k = 0; k < whole_.blocks.size(); ++k) {
+      if (block_[k] < 0) continue;
+      SceneBlock block = whole_.blocks[k];
+      block.element = element_[at(block.element)];
+      for (SceneBlock::Input& input : block.inputs) {
+        if (input.from_block) {
+          input.index = block_[at(input.index)];
+          continue;
+        }
+        Record sensed = whole_.sensed[at(input.index)];
+        sensed.index = number(sensed);
+        input.index = static_cast<int>(scene_.sensed.size());
+        scene_.sensed.push_back(std::move(sensed));
+      }
+      scene_.blocks.push_back(std::move(block));
+    }
+    for (const SceneFeed& feed : whole_.feeds) {
+      if (element_[at(feed.element)] >= 0) scene_.feeds.push_back({element_[at(feed.element)], block_[at(feed.block)], feed.sign});
+    }
+  }
+
+  int number(const Record& record) const {
+    switch (record.subject) {
+      case Record::Subject::node:
+        return node_[at(record.index)];
+      case Record::Subject::element:
+        return element_[at(record.index)];
+      case Record::Subject::assembly:
+        return assembly_[at(record.index)];
+      case Record::Subject::block:
+        break;
+    }
+    return block_[at(record.index)];
+  }
+
+  const Scene& whole_;
+  Scene scene_;
+  std::vector<int> node_, element_, assembly_, block_;  ///< the numbers that those of the whole have here; -1: none
 };
 
 class Cutter {
@@ -52,114 +160,21 @@ class Cutter {
   Role role(std::size_t e) const { return components()[at(scene_.elements[e].declaration)]->role; }
 
   Excerpt excerpt(int job) {
+    Taker taker(scene_, [&](std::size_t node) { return of_node_[node].contains(job); },
+                [&](std::size_t element) { return of_element_[element].contains(job); });
     Excerpt result;
-    Scene& s = result.scene;
-    s.title = scene_.title;
-    s.domain = scene_.domain;
-    s.without = scene_.without;
-    s.keep = scene_.keep;
-    s.start_from = scene_.start_from;
-    s.start = scene_.start;
-    s.stop = scene_.stop;
-    s.accuracy = scene_.accuracy;
-    s.output_every = scene_.output_every;
-    s.output_intervals = scene_.output_intervals;
-    s.output_events = scene_.output_events;
-    Numbers n;
-    n.node.assign(scene_.nodes.size(), -1);
-    n.element.assign(scene_.elements.size(), -1);
-    for (std::size_t k = 0; k < scene_.nodes.size(); ++k) {
-      if (k != ground && !of_node_[k].contains(job)) continue;
-      n.node[k] = static_cast<int>(s.nodes.size());
-      s.nodes.push_back(scene_.nodes[k]);
-    }
-    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
-      if (!of_element_[e].contains(job)) continue;
-      n.element[e] = static_cast<int>(s.elements.size());
-      s.elements.push_back(scene_.elements[e]);
-      s.elements.back().a = n.node[at(scene_.elements[e].a)];
-      if (!scene_.elements[e].at) s.elements.back().b = n.node[at(scene_.elements[e].b)];
-    }
-    take_assemblies(s, n);
-    take_blocks(s, n);
-    take_records(result, n);
+    take_records(result, taker);
+    result.scene = std::move(taker.scene());
     return result;
-  }
-
-  void take_assemblies(Scene& s, Numbers& n) const {
-    n.assembly.assign(scene_.assemblies.size(), -1);
-    for (std::size_t k = 0; k < scene_.assemblies.size(); ++k) {
-      SceneAssembly assembly = scene_.assemblies[k];
-      assembly.a = n.node[at(assembly.a)];
-      assembly.b = n.node[at(assembly.b)];
-      std::erase_if(assembly.force, [&](SceneAssembly::Term& term) { return (term.element = n.element[at(term.element)]) < 0; });
-      if (assembly.force.empty() && (assembly.a < 0 || assembly.b < 0)) continue;
-      n.assembly[k] = static_cast<int>(s.assemblies.size());
-      s.assemblies.push_back(std::move(assembly));
-    }
-  }
-
-  void take_blocks(Scene& s, Numbers& n) const {
-    n.block.assign(scene_.blocks.size(), -1);
-    int count = 0;
-    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
-      if (n.element[at(scene_.blocks[k].element)] >= 0) n.block[k] = count++;
-    }
-    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
-      if (n.block[k] < 0) continue;
-      SceneBlock block = scene_.blocks[k];
-      block.element = n.element[at(block.element)];
-      for (SceneBlock::Input& input : block.inputs) {
-        if (input.from_block) {
-          input.index = n.block[at(input.index)];
-          continue;
-        }
-        Record sensed = scene_.sensed[at(input.index)];
-        sensed.index = number(sensed, n);
-        input.index = static_cast<int>(s.sensed.size());
-        s.sensed.push_back(std::move(sensed));
-      }
-      s.blocks.push_back(std::move(block));
-    }
-    for (const SceneFeed& feed : scene_.feeds) {
-      if (n.element[at(feed.element)] >= 0) s.feeds.push_back({n.element[at(feed.element)], n.block[at(feed.block)], feed.sign});
-    }
-  }
-
-  static int number(const Record& record, const Numbers& n) {
-    switch (record.subject) {
-      case Record::Subject::node:
-        return n.node[at(record.index)];
-      case Record::Subject::element:
-        return n.element[at(record.index)];
-      case Record::Subject::assembly:
-        return n.assembly[at(record.index)];
-      case Record::Subject::block:
-        break;
-    }
-    return n.block[at(record.index)];
-  }
-
-  /// What this job has of a record.
-  std::optional<Record> taken(const Record& whole, const Scene& s, const Numbers& n) const {
-    Record record = whole;
-    record.index = number(whole, n);
-    if (record.index < 0) return {};
-    if (record.subject == Record::Subject::assembly) {
-      const SceneAssembly& assembly = s.assemblies[at(record.index)];
-      const bool whole_ends = assembly.a >= 0 && assembly.b >= 0;
-      if (record.channel == Record::Channel::force ? assembly.force.empty() : !whole_ends) return {};
-    }
-    return record;
   }
 
   /// A force may be a sum over jobs; all else is taken from the first job that has it.
   bool sums(const Record& record) const { return record.channel == Record::Channel::force; }
 
-  void take_records(Excerpt& result, const Numbers& n) {
-    Scene& s = result.scene;
+  void take_records(Excerpt& result, Taker& taker) {
+    Scene& s = taker.scene();
     for (std::size_t k = 0; k < scene_.records.size(); ++k) {
-      const auto record = taken(scene_.records[k], s, n);
+      const auto record = taker.taken(scene_.records[k]);
       if (!record || (!sums(*record) && recorded_.contains(k))) continue;
       recorded_.insert(k);
       result.records.push_back(k);
@@ -169,12 +184,12 @@ class Cutter {
     const auto claim_record = [&](int whole) {
       int& mine = claimed[at(whole)];
       if (mine >= 0) return mine;
-      s.claimed.push_back(*taken(scene_.claimed[at(whole)], s, n));
+      s.claimed.push_back(*taker.taken(scene_.claimed[at(whole)]));
       return mine = static_cast<int>(s.claimed.size()) - 1;
     };
     for (std::size_t k = 0; k < scene_.claims.size(); ++k) {
       const Claim& claim = scene_.claims[k];
-      const bool here = taken(scene_.claimed[at(claim.record)], s, n) && (claim.per < 0 || taken(scene_.claimed[at(claim.per)], s, n));
+      const bool here = taker.taken(scene_.claimed[at(claim.record)]) && (claim.per < 0 || taker.taken(scene_.claimed[at(claim.per)]));
       if (!here || !claimed_.insert(k).second) continue;
       Claim mine = claim;
       mine.record = claim_record(claim.record);
@@ -194,6 +209,15 @@ class Cutter {
 
 std::vector<Excerpt> cut(const Scene& scene, const Parts& parts, const std::vector<int>& job_of, int jobs, int unasked) {
   return Cutter(scene, parts, job_of, jobs, unasked).cut();
+}
+
+Scene cut_out(const Scene& scene, const std::vector<char>& nodes, const std::vector<char>& elements) {
+  Taker taker(scene, [&](std::size_t node) { return nodes[node] != 0; }, [&](std::size_t element) { return elements[element] != 0; });
+  Scene& s = taker.scene();
+  for (const Record& record : scene.records) s.records.push_back(*taker.taken(record));
+  for (const Record& record : scene.claimed) s.claimed.push_back(*taker.taken(record));
+  s.claims = scene.claims;
+  return std::move(s);
 }
 
 }  // namespace rheonet

@@ -13,4 +13,8 @@ namespace rheonet {
 /// these are sums of what each job has of them.
 std::vector<Excerpt> cut(const Scene& scene, const Parts& parts, const std::vector<int>& job_of, int jobs, int unasked);
 
+/// The marked nodes and elements of a scene, with all of its records and claims, which need no others. Ends of marked elements are
+/// marked; ground always stays.
+Scene cut_out(const Scene& scene, const std::vector<char>& nodes, const std::vector<char>& elements);
+
 }  // namespace rheonet

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "core/network/effects.hpp"
@@ -15,12 +16,15 @@
 #include "core/network/merge.hpp"
 #include "core/network/network.hpp"
 #include "core/network/parts.hpp"
+#include "core/network/reach.hpp"
 #include "core/network/reductions.hpp"
 #include "core/network/resolved.hpp"
 #include "core/result/channels.hpp"
 #include "core/result/cpu_time.hpp"
 #include "core/result/division.hpp"
+#include "core/result/excerpt.hpp"
 #include "core/result/grouped.hpp"
+#include "core/result/possible_events.hpp"
 #include "core/result/run.hpp"
 #include "core/solve/simulation.hpp"
 
@@ -35,11 +39,13 @@ constexpr std::size_t least_steps = 4;
 class Explainer {
  public:
   explicit Explainer(const Scene& whole)
-      : whole_(whole), asked_(divide(whole, {.apart = false})), unmerged_(asked_.excerpts.empty() ? whole : asked_.excerpts.front().scene),
-        merging_(merge(unmerged_)), scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
+      : whole_(whole), reach_(find_reach(whole)), cut_out_(reach_ ? cut_out(whole, reach_->node, reach_->element) : Scene{}),
+        near_(reach_ ? cut_out_ : whole), asked_(divide(near_, {.apart = false})),
+        unmerged_(asked_.excerpts.empty() ? near_ : asked_.excerpts.front().scene), merging_(merge(unmerged_)), scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
 
   Explanation explain() {
     find_effects();
+    find_beyond();
     find_merged();
     find_limits();
     find_pairs();
@@ -51,10 +57,11 @@ class Explainer {
     const SimulationStatistics statistics = check_start(network_, needed_positions(network_), settings, observed);
     result_.notes = network_.notes;
     result_.notes.insert(result_.notes.end(), statistics.notes.begin(), statistics.notes.end());
-    find_events();
+    PossibleEvents possible = possible_events(network_);
+    result_.events = std::move(possible.events);
+    result_.cost.known_instants = possible.known_instants;
     predict();
     result_.left_out = omissions_.take();
-    result_.events = events_.take();
     return std::move(result_);
   }
 
@@ -85,12 +92,23 @@ class Explainer {
   }
 
   void find_parts_of_it() {
-    result_.structure.parts = find_parts(whole_).count;
-    const Division division = divide(whole_, {.apart = !whole_.output_events});
+    result_.structure.parts = find_parts(near_).count;
+    const Division division = divide(near_, {.apart = !near_.output_events});
     result_.structure.integrations = static_cast<int>(std::max<std::size_t>(division.excerpts.size(), 1));
     for (const std::string& name : division.left_out) {
       leave_out({.reduction = name_of(Reduction::unasked), .what = "element", .reason = "nothing that is recorded or claimed depends on its part of the network"},
                 name);
+    }
+  }
+
+  void find_beyond() {
+    if (!reach_) return;
+    const std::string reason = fmt::format(
+        "nothing comes there before the stop: it is more than {} elements away from all that moves, starts or is recorded", reach_->farthest);
+    for (std::size_t e = 0; e < whole_.elements.size(); ++e) {
+      if (reach_->element[e]) continue;
+      const std::string& type = components()[at(whole_.elements[e].declaration)]->declaration.type;
+      leave_out({.reduction = name_of(Reduction::reach), .what = type, .reason = reason}, whole_.elements[e].name);
     }
   }
 
@@ -320,46 +338,6 @@ class Explainer {
     cost.fastest_drive = dae.drive().fastest();
   }
 
-  void find_events() {
-    for (const Network::Slider& slider : network_.sliders) add_slider(slider.law, slider.branch.element);
-    for (const Pair& pair : network_.pairs) add_event("stick, slip, reversal", pair.slider);
-    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        if (laws.batch->events(i) == 0 || laws.component == nullptr) continue;
-        std::string kinds = "reversal";
-        if (laws.batch->can_hold(i)) kinds += ", stop, start";
-        if (laws.batch->events(i) > 1) kinds += ", yield, release";
-        add_event(kinds, network_.deflections[at(laws.first) + i].element);
-      }
-    }
-    for (const Blocks::Block& block : network_.blocks.blocks) {
-      if (block.law.limits()) add_event("limit, release", block.element);
-    }
-    for (const Network::Motion& motion : network_.motions) add_breaks(motion.signal, motion.element, motion.block);
-    for (const Network::Force& force : network_.forces) add_breaks(force.signal, force.element, force.block);
-    for (const Blocks::Block& block : network_.blocks.blocks) {
-      if (block.generates) add_breaks(block.signal, block.element, -1);
-    }
-  }
-
-  void add_event(const std::string& kinds, int e) { events_.add(kinds, {.kinds = kinds}, element(e)); }
-
-  void add_slider(const Slip& law, int e) {
-    if (!std::isfinite(law.breakaway)) return;  // a rigid link never slips
-    add_event(law.breakaway > law.coulomb ? "stick, slip, breakaway, reversal" : "stick, slip, reversal", e);
-  }
-
-  /// Instants at which a signal jumps or has a corner are known; so many are counted.
-  void add_breaks(const Signal& signal, int e, int block) {
-    if (block >= 0) return;
-    constexpr long most = 1000000;
-    long count = 0;
-    const double length = scene_.stop - scene_.start;
-    for (double t = signal.piece(0).end; t < length && count < most; t = signal.piece(t).end) ++count;
-    result_.cost.known_instants += count;
-    if (count > 0) add_event("jumps or corners at known times", e);
-  }
-
   /// Begins the run, and supposes that it goes on as in the second half of what has been tried.
   void predict() {
     Explanation::Cost& cost = result_.cost;
@@ -373,7 +351,7 @@ class Explainer {
       enough = spent > tried_seconds && fractions.size() >= least_steps;
     };
     try {
-      run(whole_, {.interrupt = &enough, .progress = tried});
+      run(near_, {.interrupt = &enough, .progress = tried});
     } catch (const SimulationError& error) {
       if (!enough) result_.notes.push_back(std::string("the run will not come to its end: ") + error.what());
     }
@@ -388,6 +366,9 @@ class Explainer {
   }
 
   const Scene& whole_;
+  const std::optional<Reach> reach_;
+  const Scene cut_out_;
+  const Scene& near_;      ///< what is reached of it before the stop
   const Division asked_;
   const Scene& unmerged_;  ///< what is asked for of it
   const std::optional<Merging> merging_;
@@ -395,7 +376,6 @@ class Explainer {
   const Network network_;
   Explanation result_;
   Grouped<Explanation::Omission> omissions_;
-  Grouped<Explanation::Events> events_;
 };
 
 }  // namespace

@@ -12,12 +12,14 @@
 #include <utility>
 
 #include "core/network/network.hpp"
+#include "core/network/reach.hpp"
 #include "core/result/certify.hpp"
 #include "core/result/channels.hpp"
 #include "core/result/claims.hpp"
 #include "core/result/cpu_time.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
+#include "core/result/excerpt.hpp"
 #include "core/result/in_parts.hpp"
 #include "core/result/manner.hpp"
 #include "core/result/merged.hpp"
@@ -244,9 +246,31 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
 
 }  // namespace
 
-Summary run(const Scene& scene, const RunSettings& settings) {
+namespace {
+
+Summary run_near(const Scene& scene, const RunSettings& settings) {
   if (const std::optional<Merging> merging = merge(scene)) return run_merged(scene, *merging, settings, run_divided);
   return run_divided(scene, settings);
+}
+
+/// What nothing reaches is left out before anything else is looked at.
+Summary run_within_reach(const Scene& scene, const Reach& reach, const RunSettings& settings) {
+  Summary summary = run_near(cut_out(scene, reach.node, reach.element), settings);
+  summary.notes.push_back(fmt::format("not integrated, since nothing comes as far before the stop: {} elements, more than {} away from all that "
+                                      "moves, starts or is recorded",
+                                      reach.beyond, reach.farthest));
+  return summary;
+}
+
+}  // namespace
+
+Summary run(const Scene& scene, const RunSettings& settings) {
+  const auto wall = std::chrono::steady_clock::now();
+  const std::optional<Reach> reach = find_reach(scene);
+  if (!reach) return run_near(scene, settings);
+  Summary summary = run_within_reach(scene, *reach, settings);
+  summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  return summary;
 }
 
 Summary run_divided(const Scene& scene, const RunSettings& settings) {

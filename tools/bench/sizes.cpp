@@ -2,7 +2,7 @@
 //
 //   bench_sizes [-o FILE.csv] [--quick | --large] [--limit SECONDS] [SCENE ...]
 //
-// Scenes: ladder, hand-ladder, iwan, hand-iwan, couette, tree, grid, written-out. --large goes up to a million masses, and to the grid
+// Scenes: ladder, whole-ladder (with what nothing reaches), hand-ladder, iwan, hand-iwan, couette, tree, grid, written-out. --large goes up to a million masses, and to the grid
 // of 100 x 100; --quick takes the two smallest of each.
 
 #include <cstring>
@@ -23,10 +23,12 @@ struct Family {
   std::string (*netlist)(int size);  ///< nullptr: written by hand
   hand::Run (*by_hand)(int size, double tolerance, const std::vector<double>& times);
   double stop;  ///< of what is written by hand [s]
+  std::vector<std::string> keep = {};  ///< reductions that are not made
 };
 
 const Family families[] = {
     {"ladder", {10, 100, 1000, 10000}, {100000, 1000000}, ladder, nullptr, 0},
+    {"whole-ladder", {10, 100, 1000, 10000}, {100000, 1000000}, ladder, nullptr, 0, {"reach"}},
     {"hand-ladder", {10, 100, 1000, 10000}, {100000, 1000000}, nullptr, hand::ladder, 0.1},
     {"iwan", {1, 10, 100, 1000, 10000, 100000}, {}, iwan, nullptr, 0},
     {"hand-iwan", {1, 10, 100}, {1000}, nullptr, hand::iwan, 3},
@@ -37,9 +39,10 @@ const Family families[] = {
 };
 
 /// Reading [s], simulating [s], unknowns, steps, events, starts.
-std::vector<double> simulated(const std::string& netlist) {
+std::vector<double> simulated(const std::string& netlist, const std::vector<std::string>& keep) {
   const double begin = cpu_seconds();
-  const Scene scene = read(netlist);
+  Scene scene = read(netlist);
+  scene.keep = keep;
   const double read = cpu_seconds();
   const Summary summary = run(scene, {.account = false});  // as the programs by hand
   return {read - begin, cpu_seconds() - read, static_cast<double>(summary.unknowns), static_cast<double>(summary.steps),
@@ -63,7 +66,7 @@ void measure(const Family& family, std::FILE* csv, Extent extent, unsigned limit
   if (extent == Extent::quick) sizes.resize(std::min<std::size_t>(sizes.size(), 2));
   std::vector<double> x, seconds;
   for (const int size : sizes) {
-    const Outcome outcome = alone(limit, [&] { return family.netlist ? simulated(family.netlist(size)) : done_by_hand(family, size); });
+    const Outcome outcome = alone(limit, [&] { return family.netlist ? simulated(family.netlist(size), family.keep) : done_by_hand(family, size); });
     const auto& v = outcome.values;
     if (v.size() < 6) {
       table.row({std::to_string(size), "-", fmt::format("not in {} s", limit), "-", "-", "-", "-", "-", whole(outcome.megabytes)});

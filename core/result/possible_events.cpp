@@ -1,0 +1,72 @@
+#include "core/result/possible_events.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include "core/network/index.hpp"
+#include "core/result/grouped.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Known instants are counted up to here.
+constexpr long most_instants = 1000000;
+
+class Search {
+ public:
+  explicit Search(const Network& network) : network_(network) {}
+
+  PossibleEvents find() {
+    for (const Network::Slider& slider : network_.sliders) add_slider(slider.law, slider.branch.element);
+    for (const Pair& pair : network_.pairs) add("stick, slip, reversal", pair.slider);
+    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        if (laws.batch->events(i) == 0 || laws.component == nullptr) continue;
+        std::string kinds = "reversal";
+        if (laws.batch->can_hold(i)) kinds += ", stop, start";
+        if (laws.batch->events(i) > 1) kinds += ", yield, release";
+        add(kinds, network_.deflections[at(laws.first) + i].element);
+      }
+    }
+    for (const Blocks::Block& block : network_.blocks.blocks) {
+      if (block.law.limits()) add("limit, release", block.element);
+    }
+    for (const Network::Motion& motion : network_.motions) add_breaks(motion.signal, motion.element, motion.block);
+    for (const Network::Force& force : network_.forces) add_breaks(force.signal, force.element, force.block);
+    for (const Blocks::Block& block : network_.blocks.blocks) {
+      if (block.generates) add_breaks(block.signal, block.element, -1);
+    }
+    result_.events = grouped_.take();
+    return std::move(result_);
+  }
+
+ private:
+  void add(const std::string& kinds, int e) { grouped_.add(kinds, {.kinds = kinds}, network_.scene->elements[at(e)].name); }
+
+  void add_slider(const Slip& law, int e) {
+    if (!std::isfinite(law.breakaway)) return;  // a rigid link never slips
+    add(law.breakaway > law.coulomb ? "stick, slip, breakaway, reversal" : "stick, slip, reversal", e);
+  }
+
+  /// Instants at which a signal jumps or has a corner are known; so many are counted.
+  void add_breaks(const Signal& signal, int e, int block) {
+    if (block >= 0) return;
+    long count = 0;
+    const double length = network_.scene->stop - network_.scene->start;
+    for (double t = signal.piece(0).end; t < length && count < most_instants; t = signal.piece(t).end) ++count;
+    result_.known_instants += count;
+    if (count > 0) add("jumps or corners at known times", e);
+  }
+
+  const Network& network_;
+  PossibleEvents result_;
+  Grouped<Explanation::Events> grouped_;
+};
+
+}  // namespace
+
+PossibleEvents possible_events(const Network& network) { return Search(network).find(); }
+
+}  // namespace rheonet

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "core/network/network.hpp"
+#include "core/result/explain.hpp"
+
+namespace rheonet {
+
+/// What may happen in a network at once: of its laws, and of what drives it.
+struct PossibleEvents {
+  std::vector<Explanation::Events> events = {};
+  long known_instants = 0;  ///< jumps and corners of signals until the stop
+};
+
+PossibleEvents possible_events(const Network& network);
+
+}  // namespace rheonet
