@@ -2,7 +2,8 @@
 //
 //   bench_sizes [-o FILE.csv] [--quick | --large] [--limit SECONDS] [SCENE ...]
 //
-// Scenes: ladder, whole-ladder (with what nothing reaches), hand-ladder, iwan, hand-iwan, couette, tree, grid, written-out. --large goes up to a million masses, and to the grid
+// Scenes: ladder, whole-ladder (with what nothing reaches), hand-ladder, iwan, hand-iwan, couette, tree, grid, written-out. --large
+// goes up to a million masses, and to the grid
 // of 100 x 100; --quick takes the two smallest of each.
 
 #include <cstring>
