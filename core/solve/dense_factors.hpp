@@ -1,30 +1,59 @@
 #pragma once
 
-#include <Eigen/LU>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 namespace rheonet {
 
-/// A dense matrix in triangular factors, with pivots from each column: for a few unknowns.
+/// A dense matrix in triangular factors, with pivots from each column: for a few unknowns, for which a library's calls cost more
+/// than the elimination does.
 class DenseFactors {
  public:
-  explicit DenseFactors(int size) : matrix_(size, size) {}
+  explicit DenseFactors(int size) : size_(static_cast<std::size_t>(size)), matrix_(size_ * size_), pivot_(size_) {}
 
   /// The matrix by columns, all of it to be filled in before it is factorised.
   double* matrix() { return matrix_.data(); }
+
   /// False if it is singular.
   [[nodiscard]] bool factorise() {
-    factors_.compute(matrix_);
-    return (factors_.matrixLU().diagonal().array() != 0).all();
+    for (std::size_t k = 0; k < size_; ++k) {
+      double* of_pivot = column(k);
+      std::size_t p = k;
+      for (std::size_t i = k + 1; i < size_; ++i) {
+        if (std::abs(of_pivot[i]) > std::abs(of_pivot[p])) p = i;
+      }
+      if (of_pivot[p] == 0) return false;
+      pivot_[k] = p;
+      for (std::size_t j = 0; j < size_ && p != k; ++j) std::swap(column(j)[k], column(j)[p]);
+      for (std::size_t i = k + 1; i < size_; ++i) of_pivot[i] /= of_pivot[k];
+      for (std::size_t j = k + 1; j < size_; ++j) {
+        for (std::size_t i = k + 1; i < size_; ++i) column(j)[i] -= of_pivot[i] * column(j)[k];
+      }
+    }
+    return true;
   }
+
   /// In place.
-  void solve(double* right) const {
-    Eigen::Map<Eigen::VectorXd> x(right, matrix_.rows());
-    x = factors_.solve(x);
+  void solve(double* x) const {
+    for (std::size_t k = 0; k < size_; ++k) {
+      std::swap(x[k], x[pivot_[k]]);
+      for (std::size_t i = k + 1; i < size_; ++i) x[i] -= column(k)[i] * x[k];
+    }
+    for (std::size_t k = size_; k-- > 0;) {
+      x[k] /= column(k)[k];
+      for (std::size_t i = 0; i < k; ++i) x[i] -= column(k)[i] * x[k];
+    }
   }
 
  private:
-  Eigen::MatrixXd matrix_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+  double* column(std::size_t k) { return matrix_.data() + k * size_; }
+  const double* column(std::size_t k) const { return matrix_.data() + k * size_; }
+
+  std::size_t size_;
+  std::vector<double> matrix_;
+  std::vector<std::size_t> pivot_;  ///< of each column: the row that took its place, after those of the columns before
 };
 
 }  // namespace rheonet

@@ -2,19 +2,17 @@
 
 #include <ida/ida.h>
 #include <nvector/nvector_serial.h>
-#include <sunnonlinsol/sunnonlinsol_newton.h>
+#include <sundials/sundials_nonlinearsolver.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "core/network/index.hpp"
-#include "core/solve/linear_solver.hpp"
-#include "core/solve/newton_test.hpp"
+#include "core/solve/newton.hpp"
 #include "core/solve/vectors.hpp"
 
 namespace rheonet {
@@ -33,23 +31,17 @@ constexpr double iteration_share = 0.02;
 // of what they may be; below 1.3 they change so often that the order does not rise.)
 constexpr double growth = 1.5;
 
-// A step whose length is another one by this share gets a Jacobian of its own. (By IDA's default of 0.25 one that has become
-// longer by half goes on with the old one, and takes twice the iterations; a Jacobian costs less than one of them.)
-constexpr double stale = 0.01;
-
 }  // namespace
 
 struct Integrator::Implementation {
   Dae& dae;
   EventFunctions& event_functions;
   const std::vector<double>& tolerance;
-  const std::vector<double>& grain;
   SUNContext context = nullptr;
   std::vector<double> y, yp, work;
   N_Vector ny = nullptr, np = nullptr, nw = nullptr;
-  std::unique_ptr<LinearSolver> linear;
-  SUNNonlinearSolver newton = nullptr;
-  std::optional<NewtonTest> test;
+  Newton newton;
+  SUNNonlinearSolver solver = nullptr;  // how IDA comes to that
   void* ida = nullptr;
   double time = 0, previous = 0, stop = 0;
   /// IDA adds up the lengths of its steps, and rounds each sum. Where a step is a small part of the time that it has come to,
@@ -67,7 +59,7 @@ struct Integrator::Implementation {
 
   Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
                  const Options& options)
-      : dae(d), event_functions(e), tolerance(tol), grain(least), y(at(d.size()), 0), yp(y), work(y) {
+      : dae(d), event_functions(e), tolerance(tol), y(at(d.size()), 0), yp(y), work(y), newton(d, d.size() > options.dense, tol, least) {
     const sunindextype n = dae.size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     ny = N_VMake_Serial(n, y.data(), context);
@@ -80,13 +72,9 @@ struct Integrator::Implementation {
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
     past.sparse = n > options.dense;
-    linear = std::make_unique<LinearSolver>(dae.pattern(), past.sparse, tolerance, context);
-    require(IDASetLinearSolver(ida, linear->solver(), linear->matrix()), "IDASetLinearSolver");
-    require(IDASetJacFn(ida, jacobian), "IDASetJacFn");
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
     require(IDASetEtaFixedStepBounds(ida, 1, growth), "IDASetEtaFixedStepBounds");
-    require(IDASetDeltaCjLSetup(ida, stale), "IDASetDeltaCjLSetup");
     if (!dae.rough()) require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
     // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
     // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
@@ -95,9 +83,12 @@ struct Integrator::Implementation {
       require(IDASetId(ida, nw), "IDASetId");
       require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
     }
-    newton = SUNNonlinSol_Newton(ny, context);
-    require(IDASetNonlinearSolver(ida, newton), "IDASetNonlinearSolver");
-    require(test.emplace(y, grain, dae.rough()).attach(newton), "SUNNonlinSolSetConvTestFn");
+    solver = SUNNonlinSolNewEmpty(context);
+    solver->content = this;
+    solver->ops->gettype = [](SUNNonlinearSolver) { return SUNNONLINEARSOLVER_ROOTFIND; };
+    solver->ops->setsysfn = [](SUNNonlinearSolver, SUNNonlinSolSysFn) { return SUN_NLS_SUCCESS; };
+    solver->ops->solve = solve;
+    require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
     fired.assign(at(event_functions.count()), 0);
     locate = options.locate_events;
     if (!fired.empty() && locate) {
@@ -110,8 +101,7 @@ struct Integrator::Implementation {
 
   ~Implementation() {
     IDAFree(&ida);
-    SUNNonlinSolFree(newton);
-    linear.reset();
+    SUNNonlinSolFreeEmpty(solver);
     N_VDestroy(nw);
     N_VDestroy(np);
     N_VDestroy(ny);
@@ -120,24 +110,18 @@ struct Integrator::Implementation {
 
   static double* data(N_Vector v) { return N_VGetArrayPointer(v); }
 
-  static int residual(double t, N_Vector y, N_Vector yp, N_Vector r, void* user) {
-    auto& self = *static_cast<Implementation*>(user);
-    self.dae.residual(t + self.lost, data(y), data(yp), data(r));
-    const double* values = data(r);
-    const sunindextype n = N_VGetLength(r);
-    // A trial value out of a law's range: IDA tries a smaller step.
-    for (sunindextype i = 0; i < n; ++i) {
-      if (!std::isfinite(values[i])) return 1;
-    }
-    return 0;
-  }
+  /// IDA wants a residual of its own; it comes to `newton` only.
+  static int residual(double, N_Vector, N_Vector, N_Vector, void*) { return -1; }
 
-  static int jacobian(double t, double cj, N_Vector y, N_Vector yp, N_Vector, SUNMatrix, void* user, N_Vector, N_Vector,
-                      N_Vector) {
-    auto& self = *static_cast<Implementation*>(user);
-    self.dae.jacobian(t + self.lost, cj, data(y), data(yp), self.linear->entries());
-    self.linear->filled();
-    return 0;
+  static int solve(SUNNonlinearSolver solver, N_Vector, N_Vector correction, N_Vector weight, double enough, booleantype, void*) {
+    auto& self = *static_cast<Implementation*>(solver->content);
+    double t = 0, cj = 0;
+    N_Vector predicted_y, predicted_yp, y, yp, r;
+    void* user;
+    require(IDAGetNonlinearSystemData(self.ida, &t, &predicted_y, &predicted_yp, &y, &yp, &r, &cj, &user), "IDAGetNonlinearSystemData");
+    const Newton::Step step{t + self.lost, cj, data(predicted_y), data(predicted_yp), data(y), data(yp)};
+    // Where it does not converge, or comes to a trial value out of a law's range, IDA tries a smaller step.
+    return self.newton.solve(step, data(correction), data(weight), enough) ? SUN_NLS_SUCCESS : SUN_NLS_CONV_RECVR;
   }
 
   static int weights(N_Vector, N_Vector w, void* user) {
@@ -199,15 +183,15 @@ struct Integrator::Implementation {
   Failures failures() const {
     Failures f;
     IDAGetNumErrTestFails(ida, &f.error_tests);
-    IDAGetNumNonlinSolvConvFails(ida, &f.convergence);
+    f.convergence = newton.counts().failures;
     return f;
   }
 
   Statistics present() const {
     Statistics s;
     IDAGetNumSteps(ida, &s.steps);
-    IDAGetNumResEvals(ida, &s.residuals);
-    IDAGetNumJacEvals(ida, &s.jacobians);
+    s.residuals = newton.counts().residuals;
+    s.jacobians = newton.counts().jacobians;
     const Failures f = failures();
     s.rejected = f.error_tests + f.convergence;
     return s;
@@ -250,6 +234,7 @@ void Integrator::restart(double t, const std::vector<double>& y, const std::vect
   require(IDAReInit(s.ida, t, s.ny, s.np), "IDAReInit");
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
   require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
+  s.newton.restart();
   s.started = true;
   s.rejected = 0;
 }

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <sundials/sundials_context.h>
-#include <sundials/sundials_linearsolver.h>
-#include <sundials/sundials_matrix.h>
-#include <sundials/sundials_nvector.h>
-
 #include <optional>
 #include <vector>
 
@@ -14,36 +9,29 @@
 
 namespace rheonet {
 
-/// The direct solver of linear equations that the integrator calls: KLU, or dense elimination for a few unknowns. Newtons
+/// The direct solver of the linear equations of an integrator's step: KLU, or dense elimination for a few unknowns. Newtons
 /// stand beside metres a second in the matrix: so that pivots can be compared, and so that they are the same in whatever
 /// units, each unknown counts in multiples of its tolerance, and each equation is divided by the sum of its coefficients. An
 /// equation for a single unknown is then the pivot of that: what rests has a velocity of 0 exactly.
 class LinearSolver {
  public:
   /// `tolerance` (of each unknown, > 0) is read whenever there is a new matrix.
-  LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance, SUNContext context);
-  ~LinearSolver();
-  LinearSolver(const LinearSolver&) = delete;
-  LinearSolver& operator=(const LinearSolver&) = delete;
+  LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance);
 
-  SUNMatrix matrix() const { return matrix_; }
-  SUNLinearSolver solver() const { return outer_; }
-
-  /// Entries of the matrix in the order of the pattern: to be filled in anew, then told.
+  /// Entries of the matrix in the order of the pattern: to be filled in anew before it is factorised.
   double* entries() { return values_.data(); }
-  void filled();
+  /// False if it is singular.
+  [[nodiscard]] bool factorise();
+  /// In place.
+  void solve(double* right);
 
  private:
-  static LinearSolver& of(SUNLinearSolver outer) { return *static_cast<LinearSolver*>(outer->content); }
-  int setup();
-  int solve(N_Vector x, N_Vector b);
+  void scale();
 
   const Pattern& pattern_;
   const std::vector<double>& tolerance_;
   std::optional<SparseFactors> sparse_;
   DenseFactors dense_;  // of no unknowns if there are sparse ones
-  SUNMatrix matrix_;
-  SUNLinearSolver outer_;
   std::vector<double> values_;
   double first_growth_ = 1;  // with pivots that were chosen for that matrix
   std::vector<double> row_scale_, column_scale_;

@@ -1,0 +1,154 @@
+#include "core/solve/newton.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/network/index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// A step whose coefficient cj is another one by this share gets a Jacobian of its own. (By IDA's default of 0.25 one that has
+// become longer by half goes on with the old one, and takes twice the iterations; a Jacobian costs less than one of them.)
+constexpr double stale_share = 0.01;
+
+// As in IDA: so many iterations at most; an iteration that is no faster does not converge; and as long as nothing shows how
+// fast it is so much is taken to be left of a change, with a new Jacobian and with an old one.
+constexpr int most_iterations = 4;
+constexpr double slowest_rate = 0.9, left_if_new = 20, left_if_old = 100;
+
+}  // namespace
+
+Newton::Newton(Dae& dae, bool sparse, const std::vector<double>& tolerance, const std::vector<double>& grain)
+    : dae_(dae),
+      grain_(grain),
+      linear_(dae.pattern(), sparse, tolerance),
+      change_(at(dae.size()), 0),
+      last_change_(dae.rough() ? change_.size() : 0, 0) {}
+
+void Newton::restart() {
+  jacobian_cj_ = last_cj_ = 0;
+  counts_ = {};
+}
+
+bool Newton::stale(double cj) const {
+  constexpr double least = (1 - stale_share) / (1 + stale_share);
+  const double ratio = cj / jacobian_cj_;
+  return jacobian_cj_ == 0 || ratio < least || ratio > 1 / least;
+}
+
+/// The negative residual with this correction. False where it is beyond a law's range.
+bool Newton::evaluate(const Step& step, const double* correction) {
+  ++counts_.residuals;
+  for (std::size_t i = 0; i < change_.size(); ++i) {
+    step.y[i] = step.predicted_y[i] + correction[i];
+    step.yp[i] = step.predicted_yp[i] + step.cj * correction[i];
+  }
+  dae_.residual(step.t, step.y, step.yp, change_.data());
+  bool finite = true;
+  for (double& r : change_) {
+    finite = finite && std::isfinite(r);
+    r = -r;
+  }
+  return finite;
+}
+
+bool Newton::renew(const Step& step) {
+  ++counts_.jacobians;
+  dae_.jacobian(step.t, step.cj, step.y, step.yp, linear_.entries());
+  jacobian_cj_ = step.cj;
+  foreseen_ = left_if_new;
+  return linear_.factorise();
+}
+
+bool Newton::solve(const Step& step, double* correction, const double* weight, double enough) {
+  if (step.cj != last_cj_) foreseen_ = left_if_old;
+  last_cj_ = step.cj;
+  for (bool anew = stale(step.cj);; anew = true) {
+    std::fill_n(correction, change_.size(), 0.0);
+    const bool ready = evaluate(step, correction) && (!anew || renew(step));
+    if (ready && iterate(step, correction, weight, enough) == Verdict::converged) return true;
+    ++counts_.failures;
+    if (anew || !ready) break;
+  }
+  return false;
+}
+
+/// From the residual of the correction on.
+Newton::Verdict Newton::iterate(const Step& step, double* correction, const double* weight, double enough) {
+  // A Jacobian of another cj makes changes too large or too small: half of that is taken back (as in IDA).
+  const double scale = 2 / (1 + step.cj / jacobian_cj_);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    if (iteration > 0 && !evaluate(step, correction)) break;
+    linear_.solve(change_.data());
+    for (std::size_t i = 0; i < change_.size(); ++i) correction[i] += change_[i] *= scale;
+    const Verdict verdict = judge(step, iteration, weight, enough);
+    if (verdict != Verdict::go_on) return verdict;
+  }
+  return Verdict::hopeless;
+}
+
+Newton::Verdict Newton::judge(const Step& step, int iteration, const double* weight, double enough) {
+  const double size = norm(weight);
+  if (iteration == 0) first_change_ = size;
+  return dae_.rough() ? rough(step, iteration, size, weight, enough) : smooth(step, iteration, size, weight, enough);
+}
+
+/// IDA's test. But what has come to the rounding of the unknowns, and gets no further, has not failed; nor has what gets no
+/// further where it would be done by IDA's default.
+Newton::Verdict Newton::smooth(const Step& step, int iteration, double size, const double* weight, double enough) {
+  constexpr double nothing_to_change = 1e-8, no_farther = 0.1;
+  if (iteration == 0) {
+    if (size <= nothing_to_change * enough) return Verdict::converged;
+  } else {
+    const double rate = iteration == 1 ? size / first_change_ : std::pow(size / first_change_, 1.0 / iteration);
+    if (rate > slowest_rate) return size <= std::max(rounding(step, weight), no_farther) ? Verdict::converged : Verdict::hopeless;
+    foreseen_ = rate / (1 - rate);
+  }
+  return foreseen_ * size <= enough ? Verdict::converged : Verdict::go_on;
+}
+
+/// IDA's own test takes one small first change for enough where the iteration converged fast in the step before. A power law
+/// is so steep near rest that with a Jacobian from there any change is small: the second one has to show.
+Newton::Verdict Newton::rough(const Step& step, int iteration, double size, const double* weight, double enough) {
+  constexpr double nothing_to_change = 1e-4;
+  constexpr double certain = 0.1;  // of what is allowed: whether the next change is smaller or not
+  const bool back = iteration > 0 && turns_back(weight);
+  last_change_ = change_;
+  if (iteration == 0) return size <= nothing_to_change * enough ? Verdict::converged : Verdict::go_on;
+  if (size <= rounding(step, weight)) return Verdict::converged;
+  // To and fro over the solution, in the rounding of differences of velocities, say: about as far from it as this.
+  if (back && size <= certain * enough) return Verdict::converged;
+  const double rate = std::pow(size / first_change_, 1.0 / iteration);
+  if (rate > slowest_rate) return size <= certain * enough ? Verdict::go_on : Verdict::hopeless;
+  return rate / (1 - rate) * size <= enough ? Verdict::converged : Verdict::go_on;
+}
+
+double Newton::norm(const double* weight) const {
+  const auto size = static_cast<Eigen::Index>(change_.size());
+  using Values = Eigen::Map<const Eigen::ArrayXd>;
+  return std::sqrt((Values(change_.data(), size) * Values(weight, size)).square().sum() / static_cast<double>(size));
+}
+
+bool Newton::turns_back(const double* weight) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < last_change_.size(); ++i) sum += (weight[i] * change_[i]) * (weight[i] * last_change_[i]);
+  return sum < 0;
+}
+
+/// What rounding leaves of the unknowns, as the norm of a change.
+double Newton::rounding(const Step& step, const double* weight) const {
+  // A change comes out of a residual and two triangular solutions, sums of some tens of rounded terms.
+  constexpr double grains = 64 * std::numeric_limits<double>::epsilon();
+  double sum = 0;
+  for (std::size_t i = 0; i < grain_.size(); ++i) {
+    const double least = weight[i] * std::max(grains * std::abs(step.y[i]), grain_[i]);
+    sum += least * least;
+  }
+  return std::sqrt(sum / static_cast<double>(grain_.size()));
+}
+
+}  // namespace rheonet
