@@ -13,6 +13,7 @@ double Dae::known_position(NodeId node) const {
 
 /// Velocities, deflections, and what the rate laws are evaluated with.
 void Dae::gather(double t, const double* y) {
+  viewed_ = {};
   drive_->evaluate(t);
   for (std::size_t n = 0; n < v_.size(); ++n) {
     if (iv_[n] >= 0) v_[n] = y[iv_[n]];

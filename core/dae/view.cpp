@@ -77,6 +77,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       position = parent + x.sign * slider_shift_[at(x.slider)];
     }
   }
+  viewed_ = {t, y, yp};
   return view_;
 }
 

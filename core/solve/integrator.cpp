@@ -48,7 +48,8 @@ struct Integrator::Implementation {
   /// and one like the next, that goes astray by half a rounding of the time in every step. What has been lost is kept here,
   /// and time is the sum of both [s].
   double lost = 0;
-  double reached = 0;  ///< by IDA's sum [s]
+  double lost_by_step = 0;  ///< with the step that is under way, once it has been attempted [s]
+  double reached = 0;       ///< by IDA's sum [s]
   std::vector<int> fired;
   std::vector<double> functions;  // of events, where they are not located
   bool locate = true;
@@ -119,7 +120,8 @@ struct Integrator::Implementation {
     N_Vector predicted_y, predicted_yp, y, yp, r;
     void* user;
     require(IDAGetNonlinearSystemData(self.ida, &t, &predicted_y, &predicted_yp, &y, &yp, &r, &cj, &user), "IDAGetNonlinearSystemData");
-    const Newton::Step step{t + self.lost, cj, data(predicted_y), data(predicted_yp), data(y), data(yp)};
+    self.see_loss(t);
+    const Newton::Step step{t + self.lost_by_step, cj, data(predicted_y), data(predicted_yp), data(y), data(yp)};
     // Where it does not converge, or comes to a trial value out of a law's range, IDA tries a smaller step.
     return self.newton.solve(step, data(correction), data(weight), enough) ? SUN_NLS_SUCCESS : SUN_NLS_CONV_RECVR;
   }
@@ -136,7 +138,7 @@ struct Integrator::Implementation {
     // IDA's search multiplies functions and divides by differences of their multiples: where one underflows it misses a zero,
     // or goes to infinity, and would stay. Only where they are 0 matters: the least of them are made larger.
     if (!std::isfinite(t)) return -1;
-    self.event_functions.evaluate(t + self.lost, data(y), data(yp), g);
+    self.event_functions.evaluate(t + self.lost_by_step, data(y), data(yp), g);
     constexpr double little = 1e-100;
     for (std::size_t k = 0; k < self.fired.size(); ++k) {
       if (std::abs(g[k]) < little) g[k] = std::copysign(little * std::pow(std::abs(g[k]) / little, 0.25), g[k]);
@@ -144,13 +146,17 @@ struct Integrator::Implementation {
     return 0;
   }
 
-  /// After a step: what its sum has lost (exactly: T. J. Dekker, Numerische Mathematik 18 (1971) 224).
+  /// What the sum has lost with a step to `sum` (exactly: T. J. Dekker, Numerische Mathematik 18 (1971) 224).
+  void see_loss(double sum) {
+    double length = 0;
+    IDAGetCurrentStep(ida, &length);
+    lost_by_step = lost + (length - (sum - reached));
+  }
+
+  /// After a step.
   void keep_time() {
-    double length = 0, sum = 0;
-    IDAGetLastStep(ida, &length);
-    IDAGetCurrentTime(ida, &sum);
-    lost += length - (sum - reached);
-    reached = sum;
+    lost = lost_by_step;
+    IDAGetCurrentTime(ida, &reached);
     require(IDASetStopTime(ida, stop - lost), "IDASetStopTime");
   }
 
@@ -229,7 +235,7 @@ void Integrator::restart(double t, const std::vector<double>& y, const std::vect
   s.yp = yp;
   s.time = s.previous = t;
   s.stop = stop;
-  s.lost = 0;
+  s.lost = s.lost_by_step = 0;
   s.reached = t;
   require(IDAReInit(s.ida, t, s.ny, s.np), "IDAReInit");
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
@@ -246,7 +252,7 @@ Integrator::Outcome Integrator::step() {
   const int flag = IDASolve(s.ida, s.stop, &reached, s.ny, s.np, IDA_ONE_STEP);
   if (flag == IDA_SUCCESS) s.keep_time();
   if (flag >= 0) s.rise();
-  if (flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN) s.time = reached + s.lost;
+  if (flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN) s.time = reached + s.lost_by_step;
   if (flag == IDA_TSTOP_RETURN) s.time = s.stop;
   if ((flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN) && !s.locate && s.passed()) return Outcome::event;
   switch (flag) {
@@ -299,7 +305,7 @@ const std::vector<double>& Integrator::yp() const { return impl_->yp; }
 const std::vector<int>& Integrator::events() const { return impl_->fired; }
 
 void Integrator::interpolate(double t, int derivative, std::vector<double>& out) const {
-  require(IDAGetDky(impl_->ida, t - impl_->lost, derivative, impl_->nw), "IDAGetDky");
+  require(IDAGetDky(impl_->ida, t - impl_->lost_by_step, derivative, impl_->nw), "IDAGetDky");
   out = impl_->work;
 }
 

@@ -267,10 +267,10 @@ class Run {
     }
   }
 
-  /// At the end of the last step.
+  /// At the end of the last step, where events have mostly been looked for already.
   const Dae::View& view_of_step() {
     const Integrator& integrator = system_->integrator;
-    return system_->dae.view(integrator.time(), integrator.y().data(), integrator.yp().data());
+    return system_->dae.view_again(integrator.time(), integrator.y().data(), integrator.yp().data());
   }
 
   /// Of what restarts the integrator.
