@@ -66,11 +66,12 @@ Instant::Nodal Instant::together(const Nodal& single) const {
 // forces balance, along the laws' own curves and against the friction of the sliders.
 std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, const State& state,
                                                 const std::vector<double>& force, bool along) const {
+  bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
+  if (!needed && structure_.groups.empty()) return std::nullopt;
   const std::size_t nodes = structure_.kind.size();
   const auto [sum, magnitude, rounding] = together(nodal(state, force, false));
   std::vector<double> slack(nodes, 0);
   for (std::size_t n = 0; n < nodes; ++n) slack[at(speaker(static_cast<NodeId>(n)))] += slack_[n];
-  bool needed = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   ConvexNetwork problem(static_cast<int>(nodes));
   for (std::size_t n = 0; n < nodes; ++n) {
     const auto node = static_cast<NodeId>(n);
@@ -165,6 +166,7 @@ void Instant::displace(double t, const Jump& jump, State& state) const {
 }
 
 bool Instant::settle_errors(double t, State& state, std::vector<double>& force) const {
+  if (structure_.groups.empty()) return false;
   const Nodal now = together(nodal(state, force, false));
   for (std::size_t n = 0; n < now.sum.size(); ++n) {
     if (structure_.group[n] >= 0 && std::abs(now.sum[n]) > largest_error * now.magnitude[n]) return false;

@@ -172,6 +172,7 @@ void Switches::tell(double t, const Bundle& bundle, std::size_t index, int befor
 const std::vector<Event>& Switches::follow_step(const Integrator& integrator, const Dae& dae,
                                                 const std::vector<double>& p, bool timed) {
   events_.clear();
+  if (bundles_.empty()) return events_;
   WithinStep step(integrator, dae);
   const double end = integrator.time();
   for (Bundle& bundle : bundles_) {
