@@ -51,7 +51,7 @@ struct Integrator::Implementation {
   double lost_by_step = 0;  ///< with the step that is under way, once it has been attempted [s]
   double reached = 0;       ///< by IDA's sum [s]
   std::vector<int> fired;
-  std::vector<double> functions;  // of events, where they are not located
+  std::vector<double> left, between, right;  // event functions, at both ends of a step and within
   bool locate = true;
   Statistics past;  // of the stretches before the last restart
   bool started = false;
@@ -91,13 +91,8 @@ struct Integrator::Implementation {
     solver->ops->solve = solve;
     require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
     fired.assign(at(event_functions.count()), 0);
+    for (std::vector<double>* functions : {&left, &between, &right}) functions->assign(fired.size(), 0);
     locate = options.locate_events;
-    if (!fired.empty() && locate) {
-      require(IDARootInit(ida, event_functions.count(), roots), "IDARootInit");
-      std::vector<int> falling(fired.size(), -1);
-      require(IDASetRootDirection(ida, falling.data()), "IDASetRootDirection");
-      require(IDASetNoInactiveRootWarn(ida), "IDASetNoInactiveRootWarn");
-    }
   }
 
   ~Implementation() {
@@ -133,19 +128,6 @@ struct Integrator::Implementation {
     return 0;
   }
 
-  static int roots(double t, N_Vector y, N_Vector yp, double* g, void* user) {
-    Implementation& self = *static_cast<Implementation*>(user);
-    // IDA's search multiplies functions and divides by differences of their multiples: where one underflows it misses a zero,
-    // or goes to infinity, and would stay. Only where they are 0 matters: the least of them are made larger.
-    if (!std::isfinite(t)) return -1;
-    self.event_functions.evaluate(t + self.lost_by_step, data(y), data(yp), g);
-    constexpr double little = 1e-100;
-    for (std::size_t k = 0; k < self.fired.size(); ++k) {
-      if (std::abs(g[k]) < little) g[k] = std::copysign(little * std::pow(std::abs(g[k]) / little, 0.25), g[k]);
-    }
-    return 0;
-  }
-
   /// What the sum has lost with a step to `sum` (exactly: T. J. Dekker, Numerische Mathematik 18 (1971) 224).
   void see_loss(double sum) {
     double length = 0;
@@ -178,12 +160,63 @@ struct Integrator::Implementation {
     if (held != was_held) require(IDASetEtaFixedStepBounds(ida, 1, held ? none : growth), "IDASetEtaFixedStepBounds");
   }
 
-  /// Whether the last step has gone over an event, and which.
-  bool passed() {
-    functions.resize(fired.size());
-    event_functions.evaluate(time, y.data(), yp.data(), functions.data());
-    std::transform(functions.begin(), functions.end(), fired.begin(), [](double g) { return g <= 0 ? 1 : 0; });
+  void evaluate(std::vector<double>& functions) { event_functions.evaluate(time, y.data(), yp.data(), functions.data()); }
+
+  /// y and y' at a time within the last step.
+  void go_to(double t) {
+    time = t;
+    require(IDAGetDky(ida, t - lost_by_step, 0, ny), "IDAGetDky");
+    require(IDAGetDky(ida, t - lost_by_step, 1, np), "IDAGetDky");
+  }
+
+  /// Whether the last step has gone over an event, and which. Where events are located it ends at the first of them.
+  bool meets_event() {
+    if (fired.empty()) return false;
+    evaluate(right);
+    if (locate && falls(right)) go_to_event();
+    const auto has_fired = [&](double before, double now) { return now <= 0 && (before > 0 || !locate) ? 1 : 0; };
+    std::transform(left.begin(), left.end(), right.begin(), fired.begin(), has_fired);
+    left.swap(right);
     return std::find(fired.begin(), fired.end(), 1) != fired.end();
+  }
+
+  /// Some function has fallen through 0 since `left`.
+  bool falls(const std::vector<double>& now) const {
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if (left[k] > 0 && now[k] <= 0) return true;
+    }
+    return false;
+  }
+
+  /// By the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971) 168), with the function that falls
+  /// first as a straight line: to just behind the event.
+  void go_to_event() {
+    constexpr double grains = 100;  // roundings of the time
+    constexpr int most = 60;        // then by halves
+    double begin = previous, end = time;
+    const double near = grains * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
+    double weight = 1;    // of the functions at the beginning
+    int last_moved = 0;   // 1: the end
+    for (int round = 0; end - begin > near; ++round) {
+      double share = 0;  // of the interval: where the first of them falls through 0, counted from its end
+      for (std::size_t k = 0; k < left.size(); ++k) {
+        if (left[k] > 0 && right[k] <= 0) share = std::max(share, right[k] / (right[k] - weight * left[k]));
+      }
+      const double t = round < most ? end - share * (end - begin) : begin + (end - begin) / 2;
+      go_to(std::clamp(t, begin + near / 2, end - near / 2));
+      evaluate(between);
+      const int moves = falls(between) ? 1 : -1;
+      weight = moves != last_moved ? 1 : moves > 0 ? weight / 2 : 2 * weight;
+      last_moved = moves;
+      if (moves > 0) {
+        end = time;
+        right.swap(between);
+      } else {
+        begin = time;
+        left.swap(between);
+      }
+    }
+    if (time != end) go_to(end);
   }
 
   Failures failures() const {
@@ -241,6 +274,7 @@ void Integrator::restart(double t, const std::vector<double>& y, const std::vect
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
   require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
   s.newton.restart();
+  if (!s.fired.empty()) s.evaluate(s.left);
   s.started = true;
   s.rejected = 0;
 }
@@ -251,25 +285,19 @@ Integrator::Outcome Integrator::step() {
   double reached = s.time;
   const int flag = IDASolve(s.ida, s.stop, &reached, s.ny, s.np, IDA_ONE_STEP);
   if (flag == IDA_SUCCESS) s.keep_time();
-  if (flag >= 0) s.rise();
-  if (flag == IDA_SUCCESS || flag == IDA_ROOT_RETURN) s.time = reached + s.lost_by_step;
-  if (flag == IDA_TSTOP_RETURN) s.time = s.stop;
-  if ((flag == IDA_SUCCESS || flag == IDA_TSTOP_RETURN) && !s.locate && s.passed()) return Outcome::event;
+  if (flag >= 0) {
+    s.rise();
+    s.time = flag == IDA_TSTOP_RETURN ? s.stop : reached + s.lost;
+    if (s.meets_event()) return Outcome::event;
+  }
   switch (flag) {
     case IDA_SUCCESS:
       return Outcome::step;
     case IDA_TSTOP_RETURN:
       return Outcome::stop;
-    case IDA_ROOT_RETURN:
-      require(IDAGetRootInfo(s.ida, s.fired.data()), "IDAGetRootInfo");
-      return Outcome::event;
     case IDA_LSETUP_FAIL:
     case IDA_LSOLVE_FAIL:
       return Outcome::singular;
-    case IDA_RTFUNC_FAIL:
-      interpolate(s.time, 0, s.y);
-      interpolate(s.time, 1, s.yp);
-      return Outcome::stuck;
     default:
       return Outcome::stuck;
   }
@@ -291,9 +319,7 @@ void Integrator::limit_step(double longest) {
 
 void Integrator::cut(double t, int which) {
   Implementation& s = *impl_;
-  interpolate(t, 1, s.yp);
-  interpolate(t, 0, s.y);
-  s.time = t;
+  s.go_to(t);
   std::fill(s.fired.begin(), s.fired.end(), 0);
   s.fired[at(which)] = 1;
 }

@@ -205,6 +205,7 @@ void Tolerances::find_dashpot_rounding(const Dae::View& view) {
 /// What it is of the velocity at present.
 void Tolerances::find_rounding_now(const Dae::View& view) {
   rounding_now_ = plain_rounding_;
+  if (!dae_->rough()) return;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
     const double f = std::abs(view.rate_force[r]), rounding = to_and_fro * force_rounding_[at(part)];
     double& largest = rounding_now_[at(part)];

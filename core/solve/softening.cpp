@@ -83,7 +83,7 @@ void Softening::apply(const Tolerances& tolerances) {
   // What follows such a law at once would jump with every change of it.
   constexpr double other = 2;
   const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
-  const Tolerances::Unresolved& velocity = tolerances.unresolved();
+  const Tolerances::Unresolved velocity = tolerances.unresolved();
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;

@@ -240,8 +240,10 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   step_ = t - reached_;
   reached_ = t;
   find_dashpot_rounding(view);
-  if (dae_->rough()) find_force_rounding(view);
-  find_rounding_now(view);
+  if (dae_->rough()) {
+    find_force_rounding(view);
+    find_rounding_now(view);
+  }
   kinks_.follow(*dae_, view);
   find_stopping(view);
   update(t, yp, view);
@@ -332,7 +334,8 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
 void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View& view) {
   const std::vector<double>& slope = dae_->slopes();
   if (!balance_rounding_.none()) balance_rounding_.find(view, slope);
-  find_longest();
+  const bool positions = !dae_->integrated_positions().empty();
+  if (positions) find_longest();
   // Time itself is known to half a unit in the last place; what changes with it meanwhile cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Scales largest = find_largest(slope);
@@ -354,13 +357,16 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
     tolerance_[i] = std::max(local() * slider_share(quantity_[i]) * scale, least_tolerance * std::min(scale, size_[i]));
     bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
-  const auto unresolved = [&](const std::vector<double>& rounding) {
-    return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
-  };
-  unresolved_ = {.pseudoplastic = unresolved(plain_rounding_), .dilatant = unresolved(rounding_at_rest_)};
-  loosen_positions();
+  if (positions) loosen_positions();
   loosen_balanced_forces(slope);
   find_noise(slope);
+}
+
+Tolerances::Unresolved Tolerances::unresolved() const {
+  const auto beside = [&](const std::vector<double>& rounding) {
+    return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
+  };
+  return {.pseudoplastic = beside(plain_rounding_), .dilatant = beside(rounding_at_rest_)};
 }
 
 /// What the forces allow that blocks make of a position: a stop in the way of what comes from far takes little of that way.

@@ -50,7 +50,7 @@ class Tolerances {
   double largest_velocity() const { return largest_velocity_; }
   /// Velocities below which nothing is resolved [m/s]; at rest a dilatant law makes a large one of the rounding of a force.
   struct Unresolved { double pseudoplastic = 0, dilatant = 0; };
-  const Unresolved& unresolved() const { return unresolved_; }
+  Unresolved unresolved() const;
   /// So many times what a step may be wrong by is 0.013 of the accuracy promised: what is no more may be taken as linear.
   static constexpr double soft_share = 20;
   /// Velocity at which the force of a pseudoplastic dashpot is no more than that, or at which so much of it comes of
@@ -196,7 +196,6 @@ class Tolerances {
   std::vector<double> dashpot_rounding_;  ///< of each: what the rounding of velocities leaves of its force [N]
   std::vector<double> difference_rounding_, slide_rounding_;  ///< of the velocities of deflections and sliders [m/s]
   double largest_velocity_ = 0;
-  Unresolved unresolved_;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
   std::vector<double> dilatant_noise_;  ///< of each part [m/s]; empty where there is nothing of the sort
