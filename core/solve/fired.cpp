@@ -34,6 +34,7 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
   const std::vector<int>& found = system.integrator.events();
   std::vector<char> result(found.size(), 0);
   for (std::size_t k = 0; k < found.size(); ++k) result[k] = found[k] != 0;
+  if (found.empty() || system.events[0].which < 0) return result;  // those of laws come first
   constexpr double end_of_step = 1e-2;
   const double begin = t - end_of_step * (t - system.integrator.previous_time());
   if (!(begin < t)) return result;
@@ -56,7 +57,8 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
   // As the events saw it: what is switched changes the velocities.
   const std::vector<NetworkEvents::Turned> turned = system.events.turned(t, y, yp);
   const std::vector<char> events = at_once(system, t, y, yp);
-  const Dae::View view = dae.view(t, y.data(), yp.data());
+  const Dae::View& view = dae.view(t, y.data(), yp.data());
+  const std::vector<double> p = view.p, flow = view.flow;
   Fired fired;
   std::vector<int> switched;
   for (std::size_t k = 0; k < events.size(); ++k) {
@@ -75,11 +77,11 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     const int direction = batch.direction(i);
     switched.push_back(branch);
     fired.elements.push_back(system.events.element(k));
-    batch.switch_memory(i, which, view.p[at(branch)], view.flow[at(branch)]);
+    batch.switch_memory(i, which, p[at(branch)], flow[at(branch)]);
     if (!held && direction == 0) fired.sudden.starts.push_back(branch);
     if (!held && direction != 0 && batch.direction(i) == -direction) fired.sudden.turns.push_back(branch);
     if (held) {
-      const std::vector<int> released = dae.release_parallel(branch, view.flow[at(branch)]);
+      const std::vector<int> released = dae.release_parallel(branch, flow[at(branch)]);
       switched.insert(switched.end(), released.begin(), released.end());
       std::vector<int>& list = batch.direction(i) == 0 ? fired.sudden.rests : fired.sudden.starts;
       list.push_back(branch);
@@ -94,7 +96,7 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     }
     std::size_t i = 0;
     DeflectionBatch& batch = dae.batch_of(branch, i);
-    batch.set_direction(i, view.p[at(branch)], view.flow[at(branch)], -batch.direction(i));
+    batch.set_direction(i, p[at(branch)], flow[at(branch)], -batch.direction(i));
     fired.sudden.turns.push_back(branch);
     fired.elements.push_back(dae.network().deflections[at(branch)].element);
   }

@@ -104,7 +104,7 @@ struct Integrator::Implementation {
     SUNContext_Free(&context);
   }
 
-  static double* data(N_Vector v) { return N_VGetArrayPointer(v); }
+  static double* data(N_Vector v) { return NV_DATA_S(v); }
 
   /// IDA wants a residual of its own; it comes to `newton` only.
   static int residual(double, N_Vector, N_Vector, N_Vector, void*) { return -1; }

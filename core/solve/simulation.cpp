@@ -235,7 +235,8 @@ class Run {
       if (settings_.profile) settings_.profile->step(system_->integrator);
       accumulation_.follow(t, view);
       tolerances_.trust(true);
-      tolerances_.allow(tolerance(accumulation_.local_share()), tolerance(accumulation_.dense_share()));
+      const double local = tolerance(accumulation_.local_share());
+      tolerances_.allow(local, network_.bundles ? tolerance(accumulation_.dense_share()) : local);
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       deflections_ = view.p;
       observer_.step(system_->integrator);

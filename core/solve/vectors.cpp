@@ -15,10 +15,16 @@ using Values = Eigen::Map<Eigen::ArrayXd>;
 
 Values of(N_Vector v) { return {NV_DATA_S(v), NV_LENGTH_S(v)}; }
 
+// Up to this length a plain loop is faster than one made for long vectors.
+constexpr sunindextype few = 6;
+
 // Of each of these the result may be one of the operands, element by element.
 
 void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
-  if (a == 1 && b == 1)
+  const sunindextype length = NV_LENGTH_S(z);
+  if (length <= few)
+    for (sunindextype i = 0; i < length; ++i) NV_DATA_S(z)[i] = a * NV_DATA_S(x)[i] + b * NV_DATA_S(y)[i];
+  else if (a == 1 && b == 1)
     of(z) = of(x) + of(y);
   else
     of(z) = a * of(x) + b * of(y);
@@ -33,7 +39,17 @@ void scale(realtype c, N_Vector x, N_Vector z) {
 
 void fill(realtype c, N_Vector z) { of(z).setConstant(c); }
 
+realtype norm_of_few(N_Vector x, N_Vector weight) {
+  double sum = 0;
+  for (sunindextype i = 0; i < NV_LENGTH_S(x); ++i) {
+    const double term = NV_DATA_S(x)[i] * NV_DATA_S(weight)[i];
+    sum += term * term;
+  }
+  return std::sqrt(sum / static_cast<double>(NV_LENGTH_S(x)));
+}
+
 realtype norm(N_Vector x, N_Vector weight) {
+  if (NV_LENGTH_S(x) <= few) return norm_of_few(x, weight);
   return std::sqrt((of(x) * of(weight)).square().sum() / static_cast<double>(NV_LENGTH_S(x)));
 }
 
@@ -49,7 +65,7 @@ realtype norm_of_masked(N_Vector x, N_Vector weight, N_Vector id) {
 
 /// In blocks, so that what is summed stays in the cache.
 int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
-  constexpr sunindextype block = 64, few = 6;
+  constexpr sunindextype block = 64;
   std::array<double, block> sum;
   const sunindextype length = NV_LENGTH_S(z);
   if (length <= few) {
