@@ -188,6 +188,13 @@ void Tolerances::find_force_rounding(const Dae::View& view) {
   });
 }
 
+Tolerances::Unresolved Tolerances::unresolved() const {
+  const auto beside = [&](const std::vector<double>& rounding) {
+    return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
+  };
+  return {.pseudoplastic = beside(plain_rounding_), .dilatant = beside(rounding_at_rest_)};
+}
+
 /// What the rounding of the velocities at the ends of dashpots leaves of their forces, near rest a lot where they go with a
 /// small power.
 void Tolerances::find_dashpot_rounding(const Dae::View& view) {

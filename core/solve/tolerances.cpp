@@ -362,13 +362,6 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   find_noise(slope);
 }
 
-Tolerances::Unresolved Tolerances::unresolved() const {
-  const auto beside = [&](const std::vector<double>& rounding) {
-    return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
-  };
-  return {.pseudoplastic = beside(plain_rounding_), .dilatant = beside(rounding_at_rest_)};
-}
-
 /// What the forces allow that blocks make of a position: a stop in the way of what comes from far takes little of that way.
 void Tolerances::find_block_scales(double largest_force) {
   if (network_.blocks.sensors.empty()) return;
