@@ -26,7 +26,7 @@ class DenseFactors {
       }
       if (of_pivot[p] == 0) return false;
       pivot_[k] = p;
-      for (std::size_t j = 0; j < size_ && p != k; ++j) std::swap(column(j)[k], column(j)[p]);
+      for (std::size_t j = k; j < size_ && p != k; ++j) std::swap(column(j)[k], column(j)[p]);
       for (std::size_t i = k + 1; i < size_; ++i) of_pivot[i] /= of_pivot[k];
       for (std::size_t j = k + 1; j < size_; ++j) {
         for (std::size_t i = k + 1; i < size_; ++i) column(j)[i] -= of_pivot[i] * column(j)[k];
@@ -53,7 +53,7 @@ class DenseFactors {
 
   std::size_t size_;
   std::vector<double> matrix_;
-  std::vector<std::size_t> pivot_;  ///< of each column: the row that took its place, after those of the columns before
+  std::vector<std::size_t> pivot_;  ///< of each column: the row that took its place from there on
 };
 
 }  // namespace rheonet
