@@ -20,8 +20,9 @@ constexpr double weak_limit = 1e-6;
 
 /// Forces of least norm in the branches that stick: see bonds.cpp.
 void ConvexNetwork::find_bond_forces() {
-  std::vector<double> left(u_.size(), 0);
   bond_force_.assign(branches_.size(), 0);
+  if (std::none_of(branches_.begin(), branches_.end(), [](const Branch& b) { return b.stuck; })) return;
+  std::vector<double> left(u_.size(), 0);
   for (const Branch& b : branches_) {
     if (b.stuck) continue;
     const double f = force(b, difference(b), b.side);

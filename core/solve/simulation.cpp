@@ -238,7 +238,7 @@ class Run {
       const double local = tolerance(accumulation_.local_share());
       tolerances_.allow(local, network_.bundles ? tolerance(accumulation_.dense_share()) : local);
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
-      deflections_ = view.p;
+      if (network_.bundles) deflections_ = view.p;
       observer_.step(system_->integrator);
       if (drive_.past().any()) {
         const Dae::View& end = view_of_step();

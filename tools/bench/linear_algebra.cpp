@@ -59,11 +59,13 @@ double time_per_step(int masses, int dense) {
     const Network network = build_network(scene);
     const Modes modes;  // no slider
     const Structure structure = analyse(network, modes);
-    Start begin_state = start(network, 0);
+    const Structure classified = classify(network);
+    Start begin_state = start(network, classified);
     Dae dae(network, structure, begin_state.drive, std::vector<char>(scene.nodes.size(), 0));
     NoEvents events;
     const std::vector<double> tolerance(static_cast<std::size_t>(dae.size()), 1e-7);
-    Integrator integrator(dae, events, tolerance, {.dense = dense});
+    const std::vector<double> grain(tolerance.size(), 0);
+    Integrator integrator(dae, events, tolerance, grain, {.dense = dense});
     std::vector<double> y, yp;
     begin_state.drive.enter(0);
     dae.enter(0, begin_state.state, modes, y);
