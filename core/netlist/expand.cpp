@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -130,7 +131,7 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   element.spot = plan.spot;
   // The force of a motion or a force is what it applies, that of any other element what must be applied to it.
   if (around.force)
-    around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1.0 : -1.0});
+    around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1 : -1});
   scene_.elements.push_back(std::move(element));
   wire(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;
@@ -141,7 +142,7 @@ bool Expander::element_value(const Plan& plan, const Environment& environment, s
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
   if (!formula.given()) {
-    if (parameter.fallback && parameter.kind == Parameter::Kind::value) element.values[i] = *parameter.fallback;
+    if (parameter.fallback && parameter.kind == Parameter::Kind::value) values_[i] = *parameter.fallback;
     return true;
   }
   element.given.set(i);
@@ -153,7 +154,7 @@ bool Expander::element_value(const Plan& plan, const Environment& environment, s
     flow_index = 1;
   }
   if (!value) return false;
-  element.values[i] = *value;
+  values_[i] = *value;
   return check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.mistakes);
 }
 
@@ -166,27 +167,37 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
     return i;
   };
   bool good = true;
-  element.values.assign(parameters.size(), not_given);
+  values_.assign(parameters.size(), not_given);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].flow_index.empty()) good = element_value(plan, environment, i, 1, element) && good;
   // What has a flow index in its unit, and what is the same as another, comes after those.
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].flow_index.empty()) continue;
-    const double n = element.values[index_of(parameters[i].flow_index)];
+    const double n = values_[index_of(parameters[i].flow_index)];
     if (!std::isnan(n)) good = element_value(plan, environment, i, n, element) && good;
   }
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (!parameters[i].same_as.empty() && !plan.values[i].given())
-      element.values[i] = (parameters[i].opposite ? -1 : 1) * element.values[index_of(parameters[i].same_as)];
+      values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
   if (good && declaration.check) {
-    if (const std::optional<Misfit> misfit = declaration.check(element.values)) {
+    if (const std::optional<Misfit> misfit = declaration.check(values_)) {
       const Formula& formula = plan.values[index_of(misfit->parameter)];
       context_.mistakes.error(formula.given() ? formula.source().spot : plan.spot,
                               fmt::format("`{}` {}", misfit->parameter, misfit->what));
       good = false;
     }
   }
+  element.values = shared_values(plan.declaration);
   return element_signals(plan, environment, element) && good;
+}
+
+/// The values of the element that is being made: those of the last one of its type, if they are the same.
+Shared<double> Expander::shared_values(int declaration) {
+  if (made_.empty()) made_.resize(context_.declarations.size());
+  Shared<double>& last = made_[static_cast<std::size_t>(declaration)];
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  if (!std::equal(last.begin(), last.end(), values_.begin(), values_.end(), same)) last = values_;
+  return last;
 }
 
 bool Expander::element_signals(const Plan& plan, const Environment& environment, SceneElement& element) {
@@ -195,17 +206,17 @@ bool Expander::element_signals(const Plan& plan, const Environment& environment,
     const auto signal = plan.signals[i].evaluate(environment, context_);
     good = signal && good;
     if (!signal) continue;
-    element.signals.push_back(*signal);
-    element.signal_parameters.push_back(plan.signal_parameters[i]);
+    element.signals.own().push_back(*signal);
+    element.signal_parameters.own().push_back(plan.signal_parameters[i]);
   }
   for (const Wire& feed : plan.feeds) {
-    element.signals.emplace_back(Signal::Constant{0});  // what the block gives takes its place
-    element.signal_parameters.push_back(feed.parameter);
+    element.signals.own().emplace_back(Signal::Constant{0});  // what the block gives takes its place
+    element.signal_parameters.own().push_back(feed.parameter);
   }
   for (const std::size_t i : plan.default_signals) {
     const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
-    element.signals.emplace_back(Signal::Constant{*parameter.fallback});
-    element.signal_parameters.push_back(static_cast<int>(i));
+    element.signals.own().emplace_back(Signal::Constant{*parameter.fallback});
+    element.signal_parameters.own().push_back(static_cast<int>(i));
   }
   return good;
 }
@@ -217,6 +228,7 @@ std::size_t Expander::begin_assembly(const Plan& plan, Ends ends, const std::str
 
 void Expander::end_assembly(std::size_t assembly, Terms force, const Surroundings& around) {
   if (around.force) around.force->insert(around.force->end(), force.begin(), force.end());
+  force.shrink_to_fit();
   scene_.assemblies[assembly].force = std::move(force);
 }
 

@@ -63,6 +63,7 @@ class Expander {
 
   bool element_value(const Plan& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
   bool element_values(const Plan& plan, const Environment& environment, SceneElement& element);
+  Shared<double> shared_values(int declaration);
   bool element_signals(const Plan& plan, const Environment& environment, SceneElement& element);
   /// What is peculiar to the element made last: the inputs and units of a block, what feeds a source.
   void wire(const Plan& plan, const Environment& environment, int element);
@@ -87,6 +88,8 @@ class Expander {
   Scene& scene_;
   std::deque<TomlValue> patched_values_;
   std::deque<Plan> patched_plans_;
+  std::vector<double> values_;        ///< of the element that is being made
+  std::vector<Shared<double>> made_;  ///< of each declaration: those of the last element
   std::set<std::string> failed_;
   LooseEnds loose_;
   /// The instance that is being expanded: where its wires lead.

@@ -155,7 +155,7 @@ Expander::Terms Expander::take_port_forces(NodeId port, NodeId actual, std::size
   for (std::size_t i = first_element; i < scene_.elements.size(); ++i) {
     SceneElement& element = scene_.elements[i];
     // The force of a motion or a force is what it applies, that of any other element what must be applied to it.
-    const double applied = element.signals.empty() ? 1 : -1;
+    const int applied = element.signals.empty() ? 1 : -1;
     if (element.a == port) {
       element.a = actual;
       terms.push_back({static_cast<int>(i), applied});

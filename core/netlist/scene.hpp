@@ -11,6 +11,7 @@
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/dimension.hpp"
 #include "core/netlist/effect.hpp"
+#include "core/netlist/shared.hpp"
 #include "core/netlist/signal.hpp"
 
 namespace rheonet {
@@ -39,17 +40,17 @@ struct SceneElement {
   NodeId a = ground;
   NodeId b = ground;   ///< ground for an element `at` one node
   bool at = false;     ///< written with `at`
-  std::vector<double> values;   ///< SI, one for each declared parameter; not_given for signals and absent initial values
+  Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent initial values
   std::bitset<32> given;        ///< of each declared parameter: the netlist gives it this value, not its default
-  std::vector<Signal> signals;  ///< the signals, in order of declaration, of the parameters in signal_parameters
-  std::vector<int> signal_parameters;  ///< indices into Declaration::parameters
+  Shared<Signal> signals;       ///< the signals, in order of declaration, of the parameters in signal_parameters
+  Shared<int> signal_parameters;  ///< indices into Declaration::parameters
   Spot spot;           ///< of its name
 };
 
 /// A composed element (series, parallel, repeat, an instance of a model with two ports). Its force is the signed sum of
 /// the forces of the elements that touch its first node from inside.
 struct SceneAssembly {
-  struct Term { int element; double sign; };
+  struct Term { int element; int sign; };
   std::string name;
   NodeId a = ground;
   NodeId b = ground;

@@ -187,13 +187,14 @@ class Merger {
     if (id == e) return element;
     Reduced law = law_of(e);
     element.declaration = static_cast<int>(std::find(components().begin(), components().end(), law.component) - components().begin());
-    element.values = std::move(law.values);
+    std::vector<double> values = std::move(law.values);
     const std::vector<Parameter>& parameters = law.component->declaration.parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       if (parameters[k].kind != Parameter::Kind::value) continue;
-      if (parameters[k].quantity == (kind_[e] == spring ? Quantity::stiffness : Quantity::damping)) element.values[k] = net_->law(id).K;
-      if (parameters[k].quantity == Quantity::position) element.values[k] = net_->law(id).R;
+      if (parameters[k].quantity == (kind_[e] == spring ? Quantity::stiffness : Quantity::damping)) values[k] = net_->law(id).K;
+      if (parameters[k].quantity == Quantity::position) values[k] = net_->law(id).R;
     }
+    element.values = std::move(values);
     return element;
   }
 

@@ -26,7 +26,7 @@ TEST_CASE("contract: an element starts with the initial values that it is given"
         REQUIRE_MESSAGE(p.quantity == Quantity::position,
                         "an initial value that the contract does not know: " << p.name);
         Random random(c.seed);
-        e.values[k] = random.around(1, 2) * random.sign() * typical.of(p.quantity, c.place.domain);
+        e.values.own()[k] = random.around(1, 2) * random.sign() * typical.of(p.quantity, c.place.domain);
         scene.nodes[static_cast<std::size_t>(e.b)].position = not_given;
         CHECK_EQ(simulate(scene)[e.name + ".displacement"].front(), doctest::Approx(e.values[k]).epsilon(1e-12));
         ++displacements;

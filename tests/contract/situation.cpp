@@ -159,8 +159,8 @@ class Surroundings {
     for (std::size_t k = 0; k < d.parameters.size(); ++k) {
       const Parameter& p = d.parameters[k];
       if (!possible(p) || (alternative(p) && chosen-- != 0)) continue;
-      e.signal_parameters.push_back(static_cast<int>(k));
-      e.signals.push_back(draw_signal(p.quantity, place_.domain, random_.below(signal_kinds), random_));
+      e.signal_parameters.own().push_back(static_cast<int>(k));
+      e.signals.own().push_back(draw_signal(p.quantity, place_.domain, random_.below(signal_kinds), random_));
     }
   }
 

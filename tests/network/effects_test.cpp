@@ -143,7 +143,7 @@ TEST_CASE("contract: every effect that a component declares can be left out, but
       if (!b.absent || std::find(before.begin(), before.end(), b.effect) == before.end()) continue;
       scene.without = {{b.effect}};
       SceneElement rest = element;
-      leave_out_effects(scene, element, rest.values);
+      leave_out_effects(scene, element, rest.values.own());
       const std::vector<Effect> after = brought_by(rest);
       CHECK(std::find(after.begin(), after.end(), b.effect) == after.end());
       CHECK(after.size() < before.size());

@@ -66,9 +66,9 @@ SceneElement SceneBuilder::element(const std::string& name, const std::string& t
   SceneElement element;
   element.name = name;
   element.declaration = declaration_of(type);
-  for (const Parameter& p : declared(element).parameters) element.values.push_back(p.fallback.value_or(not_given));
+  for (const Parameter& p : declared(element).parameters) element.values.own().push_back(p.fallback.value_or(not_given));
   for (const auto& [parameter, value] : given) {
-    element.values[static_cast<std::size_t>(parameter_of(element, parameter))] = value;
+    element.values.own()[static_cast<std::size_t>(parameter_of(element, parameter))] = value;
   }
   return element;
 }

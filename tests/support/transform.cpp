@@ -21,7 +21,7 @@ const Parameter& parameter_of(const SceneElement& element, std::size_t signal) {
 template <class Change>
 void for_each_signal(Scene& scene, const Change& change) {
   for (SceneElement& e : scene.elements)
-    for (std::size_t k = 0; k < e.signals.size(); ++k) change(parameter_of(e, k).quantity, e.signals[k]);
+    for (std::size_t k = 0; k < e.signals.size(); ++k) change(parameter_of(e, k).quantity, e.signals.own()[k]);
 }
 
 struct Transform {
@@ -62,7 +62,7 @@ void require_no_ground(const Scene& scene) {
 void negate_oriented(SceneElement& element) {
   const std::vector<Parameter>& parameters = declared(element).parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (oriented(parameters[k])) element.values[k] = -element.values[k];
+    if (oriented(parameters[k])) element.values.own()[k] = -element.values[k];
   }
 }
 
@@ -115,10 +115,10 @@ Scene rescaled(Scene scene, const Scaling& scaling) {
     const Declaration& d = declared(e);
     const std::vector<double> before = e.values;
     for (std::size_t k = 0; k < d.parameters.size(); ++k) {
-      e.values[k] *= scaling.of(d.parameters[k].quantity, scene.domain, flow_index(d, d.parameters[k], before));
+      e.values.own()[k] *= scaling.of(d.parameters[k].quantity, scene.domain, flow_index(d, d.parameters[k], before));
     }
     for (std::size_t k = 0; k < e.signals.size(); ++k) {
-      e.signals[k] = transformed(e.signals[k], scaling.of(parameter_of(e, k).quantity, scene.domain), scaling.time);
+      e.signals.own()[k] = transformed(e.signals[k], scaling.of(parameter_of(e, k).quantity, scene.domain), scaling.time);
     }
   }
   scene.start *= scaling.time;
@@ -134,7 +134,7 @@ Scene negated(Scene scene) {
   }
   for (SceneElement& e : scene.elements) {
     negate_oriented(e);
-    for (Signal& s : e.signals) s = transformed(s, -1);
+    for (Signal& s : e.signals.own()) s = transformed(s, -1);
   }
   return scene;
 }
@@ -164,7 +164,7 @@ Scene exchanged(Scene scene, int element) {
   std::swap(e.a, e.b);
   negate_oriented(e);
   // A signal belongs to the first end: for the same effect it is negated with the rest.
-  for (Signal& s : e.signals) s = transformed(s, -1);
+  for (Signal& s : e.signals.own()) s = transformed(s, -1);
   return scene;
 }
 
