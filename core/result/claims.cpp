@@ -54,6 +54,10 @@ constexpr std::array<double, 2> probes{0, 0.75};
 // it is off: on a smooth record a 16th is left, of rounding all of it.
 constexpr int free_halvings = 4;
 
+// So many times as far as the samples of a piece are from each other a record does not go between them. (A sine of 1.5 periods in
+// a piece goes 1.5 times as far beyond them.)
+constexpr double much_farther = 4;
+
 bool is_over_time(Figure figure) { return figure != Figure::at && figure != Figure::final; }
 bool is_over_points(Figure figure) {
   return is_over_time(figure) && figure != Figure::mean && figure != Figure::rms;
@@ -126,8 +130,12 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
   for (std::size_t i = 1; i < nodes.size(); ++i) rows[i] = read(times[i]);
   for (const auto& row : rows)
     for (std::size_t k = 0; k < row.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(row[k]));
+  const bool matters = may_matter(middle, rows);
   double off = 0;
-  for (const double x : probes) off = std::max(off, off_cubic(middle, rows, x, read(middle + x * half)));
+  for (const double x : probes) {
+    if (!matters) break;
+    off = std::max(off, off_cubic(middle, rows, x, read(middle + x * half)));
+  }
   if (off > 1 && (halvings < free_halvings || off < parent / 2) && from < middle && middle < to) {
     piece(from, middle, read, halvings + 1, off);
     piece(middle, to, read, halvings + 1, off);
@@ -149,7 +157,7 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
       if (!is_over_points(claim.figure)) return;
       std::vector<Point> points;
       for (std::size_t i = 0; i < f.size(); ++i) points.push_back({times[i], f[i]});
-      for (const double x : Cubic(f).turning_points()) {
+      for (const double x : matters ? Cubic(f).turning_points() : std::vector<double>()) {
         const double t = middle + x * half;
         points.push_back({t, read(t)[at(record)]});
       }
@@ -159,6 +167,35 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
     follow(state.of, claim.record);
     if (claim.per >= 0) follow(state.per, claim.per);
   }
+}
+
+/// Whether a figure may come of what lies between the samples of a piece: not an extreme, or a level that is crossed, that is much
+/// farther from all of them than they are from each other.
+bool Claims::may_matter(double middle, const Rows& rows) const {
+  for (const State& state : claims_) {
+    const Claim& claim = state.claim;
+    if (!is_over_time(claim.figure) || middle < claim.from || middle > claim.to) continue;
+    if (!is_over_points(claim.figure)) return true;
+    const auto near = [&](const Course& course, int record) {
+      const Samples f = of_record(rows, record);
+      const auto [least, most] = std::minmax_element(f.begin(), f.end());
+      const double range = much_farther * (*most - *least);
+      switch (claim.figure) {
+        case Figure::max:
+        case Figure::time_of_max:
+          return !(*most + range < course.largest);
+        case Figure::min:
+        case Figure::time_of_min:
+          return !(*least - range > course.smallest);
+        default:
+          break;
+      }
+      if (!std::isnan(state.crossed)) return false;
+      return state.side == 0 || !(*most + range < claim.level || *least - range > claim.level);
+    };
+    if (near(state.of, claim.record) || (claim.per >= 0 && near(state.per, claim.per))) return true;
+  }
+  return false;
 }
 
 double Claims::off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const {

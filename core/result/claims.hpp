@@ -56,6 +56,7 @@ class Claims {
 
   /// One that has come of so many halvings, of one whose cubic was `parent` times too far from the record.
   void piece(double from, double to, const Read& read, int halvings = 0, double parent = 0);
+  bool may_matter(double middle, const Rows& rows) const;
   /// How far the cubic through a piece is at x, of [-1, 1], from what the records are there, in parts of what the accuracy
   /// allows: the most of those that are looked at in this piece.
   double off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const;

@@ -100,6 +100,7 @@ class Recorder final : public Observer {
     }
     if (claims_.any()) {
       claims_.step(integrator.previous_time(), integrator.time(), [&](double t) -> const std::vector<double>& {
+        if (t == integrator.time()) return claimed_.read(t, integrator.y(), integrator.yp(), rate(integrator));
         integrator.interpolate(t, 0, y_);
         integrator.interpolate(t, 1, yp_);
         return claimed_.read(t, y_, yp_, rate(integrator));
