@@ -295,11 +295,8 @@ Integrator::Outcome Integrator::step() {
       return Outcome::step;
     case IDA_TSTOP_RETURN:
       return Outcome::stop;
-    case IDA_LSETUP_FAIL:
-    case IDA_LSOLVE_FAIL:
-      return Outcome::singular;
     default:
-      return Outcome::stuck;
+      return s.newton.singular() ? Outcome::singular : Outcome::stuck;
   }
 }
 

@@ -30,6 +30,7 @@ Newton::Newton(Dae& dae, bool sparse, const std::vector<double>& tolerance, cons
       last_change_(dae.rough() ? change_.size() : 0, 0) {}
 
 void Newton::restart() {
+  singular_ = false;
   jacobian_cj_ = last_cj_ = 0;
   counts_ = {};
 }
@@ -61,7 +62,8 @@ bool Newton::renew(const Step& step) {
   dae_.jacobian(step.t, step.cj, step.y, step.yp, linear_.entries());
   jacobian_cj_ = step.cj;
   foreseen_ = left_if_new;
-  return linear_.factorise();
+  singular_ = !linear_.factorise();
+  return !singular_;
 }
 
 bool Newton::solve(const Step& step, double* correction, const double* weight, double enough) {

@@ -32,6 +32,8 @@ class Newton {
     long failures = 0;  ///< iterations that did not converge, also those that did with a new Jacobian
   };
   const Counts& counts() const { return counts_; }
+  /// The last Jacobian has no inverse.
+  bool singular() const { return singular_; }
 
  private:
   enum class Verdict { converged, go_on, hopeless };
@@ -49,6 +51,7 @@ class Newton {
   Dae& dae_;
   const std::vector<double>& grain_;
   LinearSolver linear_;
+  bool singular_ = false;
   double jacobian_cj_ = 0;  // of the Jacobian; 0: there is none
   double last_cj_ = 0;      // of the last step
   double foreseen_ = 0;     // what is left after a change, in parts of it
