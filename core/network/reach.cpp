@@ -47,7 +47,8 @@ bool elsewhere(double start) { return !std::isnan(start) && start != 0; }
 
 class Search {
  public:
-  explicit Search(const Scene& scene) : scene_(scene), found_(components().size()), mass_(scene.nodes.size(), 0), distance_(scene.nodes.size(), unreached) {}
+  explicit Search(const Scene& scene)
+      : scene_(scene), found_(components().size()), mass_(scene.nodes.size(), 0), distance_(scene.nodes.size(), unreached) {}
 
   std::optional<Reach> find() {
     if (scene_.start_from != Scene::StartFrom::given || kept(scene_, Reduction::reach)) return {};
@@ -195,7 +196,8 @@ class Search {
       for_each_neighbour(static_cast<NodeId>(n), [&](NodeId other, const Branch& branch) {
         const int d = distance_[at(other)];
         const auto add = [&](auto& sums, double value) {
-          (other == ground ? sums.ground : d < distance_[n] ? sums.nearer : d > distance_[n] ? sums.farther : sums.equal) += value / mass_[n];
+          double& sum = other == ground ? sums.ground : d < distance_[n] ? sums.nearer : d > distance_[n] ? sums.farther : sums.equal;
+          sum += value / mass_[n];
         };
         add(c, branch.damping);
         add(k, branch.stiffness);
@@ -216,7 +218,9 @@ class Search {
 
   std::optional<Reach> cut(int farthest) const {
     const auto near = [&](NodeId node) { return node == ground || distance_[at(node)] <= farthest; };
-    Reach reach{.node = std::vector<char>(scene_.nodes.size(), 0), .element = std::vector<char>(scene_.elements.size(), 0), .farthest = farthest};
+    Reach reach{.node = std::vector<char>(scene_.nodes.size(), 0),
+                .element = std::vector<char>(scene_.elements.size(), 0),
+                .farthest = farthest};
     std::size_t nodes_beyond = 0;
     for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
       reach.node[n] = near(static_cast<NodeId>(n));
@@ -243,6 +247,6 @@ class Search {
 
 }  // namespace
 
-std::optional<Reach> find_reach(const Scene& scene) { return Search(scene).find(); }
+std::optional<Reach> reach_of(const Scene& scene) { return Search(scene).find(); }
 
 }  // namespace rheonet

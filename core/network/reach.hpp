@@ -28,6 +28,6 @@ struct Reach {
 };
 
 /// Absent where hardly anything lies beyond, or where forces are to be in balance at the start.
-std::optional<Reach> find_reach(const Scene& scene);
+std::optional<Reach> reach_of(const Scene& scene);
 
 }  // namespace rheonet

@@ -50,13 +50,14 @@ struct Cubic {
 // what is odd about the middle, or is of both kinds and vanishes at one place, shows at the other.
 constexpr std::array<double, 2> probes{0, 0.75};
 
-// So often a piece is halved in any case that the cubic is not near enough. Beyond that only while halving halves what
-// it is off: on a smooth record a 16th is left, of rounding all of it.
+// So often a piece is halved in any case that the cubic is not near enough, and as long as a drive turns in it. Beyond that only
+// while halving halves what it is off: on a smooth record a 16th is left, of rounding all of it.
 constexpr int free_halvings = 4;
 
-// So many times as far as the samples of a piece are from each other a record does not go between them. (A sine of 1.5 periods in
-// a piece goes 1.5 times as far beyond them.)
+// So many times as far as the samples of a piece are from each other a record does not go between them, where the piece is no
+// longer than half a period of the fastest drive. (What is integrated is smooth within a step.)
 constexpr double much_farther = 4;
+constexpr double longest_turn = 3.14;
 
 bool is_over_time(Figure figure) { return figure != Figure::at && figure != Figure::final; }
 bool is_over_points(Figure figure) {
@@ -89,7 +90,8 @@ Claims::Claims(const Scene& scene)
   cuts_.erase(std::unique(cuts_.begin(), cuts_.end()), cuts_.end());
 }
 
-void Claims::begin(double t, const std::vector<double>& values) {
+void Claims::begin(double t, const std::vector<double>& values, double fastest) {
+  fastest_ = fastest;
   for (std::size_t k = 0; k < values.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(values[k]));
   for (State& state : claims_) {
     const Claim& claim = state.claim;
@@ -130,13 +132,14 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
   for (std::size_t i = 1; i < nodes.size(); ++i) rows[i] = read(times[i]);
   for (const auto& row : rows)
     for (std::size_t k = 0; k < row.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(row[k]));
-  const bool matters = may_matter(middle, rows);
+  const bool turns = (to - from) * fastest_ > longest_turn;
+  const bool matters = turns || may_matter(middle, rows);
   double off = 0;
   for (const double x : probes) {
     if (!matters) break;
     off = std::max(off, off_cubic(middle, rows, x, read(middle + x * half)));
   }
-  if (off > 1 && (halvings < free_halvings || off < parent / 2) && from < middle && middle < to) {
+  if (off > 1 && (halvings < free_halvings || off < parent / 2 || turns) && from < middle && middle < to) {
     piece(from, middle, read, halvings + 1, off);
     piece(middle, to, read, halvings + 1, off);
     return;

@@ -28,8 +28,8 @@ class Claims {
   explicit Claims(const Scene& scene);
   bool any() const { return !claims_.empty(); }
 
-  /// Just after the start or an event.
-  void begin(double t, const std::vector<double>& values);
+  /// Just after the start or an event; `fastest` is the largest angular frequency of what drives the records from there on [rad/s].
+  void begin(double t, const std::vector<double>& values, double fastest = 0);
   void step(double from, double to, const Read& read);
   /// One for each of the scene's claims.
   std::vector<Finding> findings() const;
@@ -70,6 +70,7 @@ class Claims {
   double interval_;
   double slack_;  ///< an event this close to a time is at it, as of rows
   double start_, length_, accuracy_;
+  double fastest_ = 0;
 };
 
 }  // namespace rheonet

@@ -39,9 +39,10 @@ constexpr std::size_t least_steps = 4;
 class Explainer {
  public:
   explicit Explainer(const Scene& whole)
-      : whole_(whole), reach_(find_reach(whole)), cut_out_(reach_ ? cut_out(whole, reach_->node, reach_->element) : Scene{}),
+      : whole_(whole), reach_(reach_of(whole)), cut_out_(reach_ ? cut_out(whole, reach_->node, reach_->element) : Scene{}),
         near_(reach_ ? cut_out_ : whole), asked_(divide(near_, {.apart = false})),
-        unmerged_(asked_.excerpts.empty() ? near_ : asked_.excerpts.front().scene), merging_(merge(unmerged_)), scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
+        unmerged_(asked_.excerpts.empty() ? near_ : asked_.excerpts.front().scene), merging_(merge(unmerged_)),
+        scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
 
   Explanation explain() {
     find_effects();
@@ -96,7 +97,9 @@ class Explainer {
     const Division division = divide(near_, {.apart = !near_.output_events});
     result_.structure.integrations = static_cast<int>(std::max<std::size_t>(division.excerpts.size(), 1));
     for (const std::string& name : division.left_out) {
-      leave_out({.reduction = name_of(Reduction::unasked), .what = "element", .reason = "nothing that is recorded or claimed depends on its part of the network"},
+      leave_out({.reduction = name_of(Reduction::unasked),
+                 .what = "element",
+                 .reason = "nothing that is recorded or claimed depends on its part of the network"},
                 name);
     }
   }
@@ -104,7 +107,8 @@ class Explainer {
   void find_beyond() {
     if (!reach_) return;
     const std::string reason = fmt::format(
-        "nothing comes there before the stop: it is more than {} elements away from all that moves, starts or is recorded", reach_->farthest);
+        "nothing comes there before the stop: it is more than {} elements away from all that moves, starts or is recorded",
+        reach_->farthest);
     for (std::size_t e = 0; e < whole_.elements.size(); ++e) {
       if (reach_->element[e]) continue;
       const std::string& type = components()[at(whole_.elements[e].declaration)]->declaration.type;

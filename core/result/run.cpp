@@ -67,7 +67,7 @@ class Recorder final : public Observer {
     }
     if (claims_.any()) {
       claimed_.attach(dae, consistency);
-      claims_.begin(t, claimed_.read(t, y, yp));
+      claims_.begin(t, claimed_.read(t, y, yp), dae.drive().fastest());
     }
     // At an output time its row is also the one after the event.
     bool written = false;
@@ -245,10 +245,6 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
   return result;
 }
 
-}  // namespace
-
-namespace {
-
 Summary run_near(const Scene& scene, const RunSettings& settings) {
   if (const std::optional<Merging> merging = merge(scene)) return run_merged(scene, *merging, settings, run_divided);
   return run_divided(scene, settings);
@@ -257,9 +253,9 @@ Summary run_near(const Scene& scene, const RunSettings& settings) {
 /// What nothing reaches is left out before anything else is looked at.
 Summary run_within_reach(const Scene& scene, const Reach& reach, const RunSettings& settings) {
   Summary summary = run_near(cut_out(scene, reach.node, reach.element), settings);
-  summary.notes.push_back(fmt::format("not integrated, since nothing comes as far before the stop: {} elements, more than {} away from all that "
-                                      "moves, starts or is recorded",
-                                      reach.beyond, reach.farthest));
+  summary.notes.push_back(fmt::format(
+      "not integrated, since nothing comes as far before the stop: {} elements, more than {} away from all that moves, starts or is recorded",
+      reach.beyond, reach.farthest));
   return summary;
 }
 
@@ -267,7 +263,7 @@ Summary run_within_reach(const Scene& scene, const Reach& reach, const RunSettin
 
 Summary run(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
-  const std::optional<Reach> reach = find_reach(scene);
+  const std::optional<Reach> reach = reach_of(scene);
   if (!reach) return run_near(scene, settings);
   Summary summary = run_within_reach(scene, *reach, settings);
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();

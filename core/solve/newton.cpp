@@ -63,6 +63,7 @@ bool Newton::renew(const Step& step) {
   jacobian_cj_ = step.cj;
   foreseen_ = left_if_new;
   singular_ = !linear_.factorise();
+  if (singular_) jacobian_cj_ = 0;
   return !singular_;
 }
 

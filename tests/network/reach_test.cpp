@@ -29,7 +29,7 @@ std::string row(int masses, const std::string& more = "", const std::string& rec
 }
 
 std::size_t beyond(const std::string& toml) {
-  const auto reach = find_reach(scene_of(toml));
+  const auto reach = reach_of(scene_of(toml));
   return reach ? reach->beyond : 0;
 }
 
@@ -56,7 +56,7 @@ TEST_CASE("what nothing reaches before the stop changes no record") {
 }
 
 TEST_CASE("a row that is short enough, or long enough a run, is simulated as a whole") {
-  const auto reach = find_reach(scene_of(row(400)));
+  const auto reach = reach_of(scene_of(row(400)));
   REQUIRE(reach.has_value());
   const int farthest = reach->farthest;
   CHECK_EQ(reach->beyond, 3 * (400 - farthest) - 1);  // of the last mass within, spring and dashpot are beyond, too
@@ -65,7 +65,7 @@ TEST_CASE("a row that is short enough, or long enough a run, is simulated as a w
   CHECK_GT(beyond(row(farthest * 5 / 4)), 0);
   Scene longer = scene_of(row(400));
   longer.stop *= 20;
-  CHECK_FALSE(find_reach(longer));
+  CHECK_FALSE(reach_of(longer));
 }
 
 TEST_CASE("only masses at rest between linear springs without force and dashpots may lie beyond") {
@@ -97,11 +97,11 @@ TEST_CASE("only masses at rest between linear springs without force and dashpots
   for (const char* record : {"x300.velocity", "k300.force"}) CHECK_LT(beyond(row(400, "", record)), plain + 3);
   Scene scene = scene_of(row(400));
   scene.start_from = Scene::StartFrom::rest;
-  CHECK_FALSE(find_reach(scene));
+  CHECK_FALSE(reach_of(scene));
   scene.start_from = Scene::StartFrom::given;
   scene.records.clear();
   scene.keep = {"reach"};
-  CHECK_FALSE(find_reach(scene));
+  CHECK_FALSE(reach_of(scene));
 }
 
 TEST_CASE("a mass that is farther away than is told moves less than is told, however a network is wired") {
@@ -137,7 +137,7 @@ TEST_CASE("a mass that is farther away than is told moves less than is told, how
       join(a, random.below(6) == 0 ? -1 : b);
     }
     const double stop = random.around(0.03, 10);
-    const auto reach = find_reach(scene_of(text + fmt::format("[simulate]\nstop = {:.17g}\nrecord = [\"n1.velocity\"]\n", stop)));
+    const auto reach = reach_of(scene_of(text + fmt::format("[simulate]\nstop = {:.17g}\nrecord = [\"n1.velocity\"]\n", stop)));
     if (!reach) continue;
     ++cuts;
     // The motion under a force that begins with the run: x' = v, M v' = f - K x - C v, by the exponential of the whole.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "core/netlist/read.hpp"
@@ -252,4 +253,39 @@ TEST_CASE("Claims: a time that a run has not come to has no value, but for round
   CHECK(std::isnan(of_course(at, x, 0.999).found));
   at.time = 0.4;
   CHECK(of_course(at, x).found == 3 * 0.4);
+}
+
+TEST_CASE("Claims: what a drive does many times between two rows is not missed") {
+  for (const double frequency : {0.3, 5.3, 7.0, 14.5, 29.0, 38.0, 47.0, 123.0}) {
+    for (const double phase : {0.0, 5.0}) {
+      CAPTURE(frequency);
+      CAPTURE(phase);
+      // First half as large a peak, and slower: after that larger ones may come.
+      const auto found = findings(fmt::format(R"([elements]
+one = {{ type = "motion", at = "a", velocity = {{ table = [[0, 0], [0.5, -0.5], [1, 0]] }} }}
+two = {{ type = "motion", at = "b", velocity = {{ sine = 1, frequency = {0}, phase = {1}, time = 1 }} }}
+c = {{ type = "dashpot", between = ["b", "a"], damping = 1 }}
+[simulate]
+stop = 5
+accuracy = 1e-6
+output = {{ every = 1 }}
+record = ["c.force"]
+[expect]
+"c.force" = [{{ max = 1 }}, {{ min = -1 }}, {{ crosses = 0.9, from = 1.0001, at = 2, within = 1 }}]
+)",
+                                               frequency, phase));
+      CHECK(std::abs(found.at(0).found - 1) <= 1e-6);
+      CHECK(std::abs(found.at(1).found + 1) <= 1e-6);
+      const double pi = std::numbers::pi, top = std::asin(0.9);
+      // Angles at which the sine is at the level: top and pi - top, and a turn later.
+      double first = std::numeric_limits<double>::infinity();
+      for (int turn = -1; turn < 3; ++turn) {
+        for (const double angle : {top, pi - top}) {
+          const double t = 1 + (angle + 2 * pi * turn - phase) / (2 * pi * frequency);
+          if (t > 1.0001) first = std::min(first, t);
+        }
+      }
+      CHECK(std::abs(found.at(2).found - first) <= 1e-9);
+    }
+  }
 }
