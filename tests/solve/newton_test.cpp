@@ -15,12 +15,12 @@ using namespace rheonet::test;
 
 namespace {
 
-std::string pushed_through(const std::string& flow_index) {
+std::string pushed_against(const std::string& flow_index) {
   return R"([elements]
 push = { type = "force", at = "x", force = { sine = "3 N", frequency = "0.7 Hz" } }
 m = { type = "mass", at = "x", mass = 1.3 }
-k = { type = "spring", between = ["x", "y"], stiffness = 2.1 }
-c = { type = "dashpot", between = ["y", "ground"], damping = 0.8, flow_index = )" + flow_index + R"( }
+k = { type = "spring", between = ["x", "ground"], stiffness = 2.1 }
+c = { type = "dashpot", between = ["x", "ground"], damping = 0.8, flow_index = )" + flow_index + R"( }
 [nodes]
 x = { velocity = 0.7 }
 [simulate]
@@ -35,7 +35,7 @@ TEST_CASE("the iteration meets the equations at the end of a step, and says how 
     CAPTURE(flow_index);
     for (const bool sparse : {false, true}) {
       CAPTURE(sparse);
-      Probe probe(scene_of(pushed_through(flow_index)));
+      Probe probe(scene_of(pushed_against(flow_index)));
       Dae& dae = probe.dae();
       const std::size_t n = probe.y().size();
       const std::vector<double> tolerance(n, 1e-8), grain(n, 0), weight(n, 1e8);
@@ -43,20 +43,22 @@ TEST_CASE("the iteration meets the equations at the end of a step, and says how 
       Newton newton(dae, sparse, tolerance, grain);
       newton.restart();
       // Backward Euler: from y on, predicted to stay there.
-      for (const double h : {1e-3, 1e-3, 1e-2}) {
+      double t = 0;
+      for (const double h : {1e-3, 1e-3, 2e-3}) {
         const std::vector<double> before = y;
-        REQUIRE(newton.solve({0.2, 1 / h, before.data(), still.data(), y.data(), yp.data()}, correction.data(), weight.data(), 1e-3));
+        t += h;
+        REQUIRE(newton.solve({t, 1 / h, before.data(), still.data(), y.data(), yp.data()}, correction.data(), weight.data(), 1e-3));
         for (std::size_t i = 0; i < n; ++i) {
           y[i] = before[i] + correction[i];
           yp[i] = correction[i] / h;
         }
-        dae.residual(0.2, y.data(), yp.data(), residual.data());
+        dae.residual(t, y.data(), yp.data(), residual.data());
         for (const double r : residual) CHECK(std::abs(r) < 1e-7);
       }
       CHECK_FALSE(newton.singular());
       CHECK_EQ(newton.counts().failures, 0);
       CHECK_GE(newton.counts().jacobians, 2);  // one for each length of a step
-      CHECK_GE(newton.counts().residuals, 6);
+      CHECK_GE(newton.counts().residuals, 3);
       if (flow_index == std::string("1")) CHECK_EQ(newton.counts().jacobians, 2);
     }
   }
