@@ -195,8 +195,7 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
 Shared<double> Expander::shared_values(int declaration) {
   if (made_.empty()) made_.resize(context_.declarations.size());
   Shared<double>& last = made_[static_cast<std::size_t>(declaration)];
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  if (!std::equal(last.begin(), last.end(), values_.begin(), values_.end(), same)) last = values_;
+  if (!same_values(last, values_)) last = values_;
   return last;
 }
 

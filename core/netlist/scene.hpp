@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ inline constexpr NodeId ground = 0;
 
 /// Marks an initial value or parameter that the user did not give.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// What is not given is the same as what is not given.
+bool same_values(std::span<const double> one, std::span<const double> other);
 
 /// Times this close together, as a fraction of an output interval, are one: that far rounding may put a row beyond the
 /// stop, or an event beside a row.

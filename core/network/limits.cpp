@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/netlist/scene.hpp"
+
 namespace rheonet {
 
 Reduced take_limits(const Component* component, std::vector<double> values, std::vector<const Limit*>* taken) {
@@ -26,10 +28,7 @@ std::string name_of(const Reduced& law) {
 
 namespace {
 
-bool same(const Reduced& x, const Reduced& y) {
-  const auto same_value = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-  return x.component == y.component && std::equal(x.values.begin(), x.values.end(), y.values.begin(), y.values.end(), same_value);
-}
+bool same(const Reduced& x, const Reduced& y) { return x.component == y.component && same_values(x.values, y.values); }
 
 /// Two values within its bounds at which no law has a limit.
 std::array<double, 2> ordinary_values(const Parameter& p) {

@@ -8,10 +8,9 @@
 
 #include "core/network/component.hpp"
 #include "core/network/index.hpp"
-#include "core/network/limits.hpp"
+#include "core/network/linear_law.hpp"
 #include "core/network/linear_net.hpp"
 #include "core/network/reductions.hpp"
-#include "core/network/resolved.hpp"
 
 namespace rheonet {
 
@@ -68,30 +67,11 @@ class Merger {
   void find_law(std::size_t e) {
     const SceneElement& element = scene_.elements[e];
     const Role role = component(e).role;
-    if (element.at || element.a == element.b || (role != Role::deflection && role != Role::rate) || starts_by_itself(e)) return;
-    const Reduced reduced = law_of(e);
-    if (!reduced.component) return;
-    if (reduced.component->spring) {
-      const LinearSpring law = reduced.component->spring(reduced.values);
-      if (!std::isnan(law.force) || !std::isnan(law.displacement)) return;
-      kind_[e] = spring;
-      laws_[e] = {law.stiffness, law.rest};
-    } else if (reduced.component->role == Role::rate) {
-      const Growth growth = reduced.component->rate(Values{reduced.values})->growth(0);
-      if (growth.exponent != 1) return;
-      kind_[e] = dashpot;
-      laws_[e] = {growth.coefficient, 0};
-    }
-  }
-
-  Reduced law_of(std::size_t e) const { return take_limits(&component(e), resolved_values(scene_, scene_.elements[e])); }
-
-  bool starts_by_itself(std::size_t e) const {
-    const std::vector<Parameter>& parameters = component(e).declaration.parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      if (parameters[k].kind == Parameter::Kind::initial && !std::isnan(scene_.elements[e].values[k])) return true;
-    }
-    return false;
+    if (element.at || element.a == element.b || (role != Role::deflection && role != Role::rate) || starts_by_itself(element)) return;
+    const std::optional<LinearLaw> law = linear_law(law_of(scene_, element));
+    if (!law) return;
+    kind_[e] = law->spring ? spring : dashpot;
+    laws_[e] = {law->coefficient, law->rest};
   }
 
   void stay(NodeId node) { stays_[at(node)] = 1; }
@@ -185,7 +165,7 @@ class Merger {
     element.a = node_[at(net_->first(id))];
     element.b = element.at ? ground : node_[at(net_->second(id))];
     if (id == e) return element;
-    Reduced law = law_of(e);
+    Reduced law = law_of(scene_, scene_.elements[e]);
     element.declaration = static_cast<int>(std::find(components().begin(), components().end(), law.component) - components().begin());
     std::vector<double> values = std::move(law.values);
     const std::vector<Parameter>& parameters = law.component->declaration.parameters;

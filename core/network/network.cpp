@@ -10,7 +10,7 @@
 
 #include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
-#include "core/network/resolved.hpp"
+#include "core/network/linear_law.hpp"
 
 namespace rheonet {
 
@@ -49,14 +49,13 @@ std::vector<Reduced> laws_of(const Scene& scene) {
   std::vector<Reduced> laws;
   laws.reserve(scene.elements.size());
   for (const SceneElement& element : scene.elements) {
-    const Component* declared = components()[static_cast<std::size_t>(element.declaration)];
     if (!element.at && element.a == element.b) {
       throw SimulationError(element.spot, describe("element", element.name,
                                                    fmt::format("both ends are at node `{}`, so that it can do nothing; "
                                                                "connect one end elsewhere or leave it out",
                                                                scene.nodes[static_cast<std::size_t>(element.a)].name)));
     }
-    laws.push_back(take_limits(declared, resolved_values(scene, element)));
+    laws.push_back(law_of(scene, element));
   }
   return laws;
 }

@@ -7,9 +7,8 @@
 
 #include "core/network/component.hpp"
 #include "core/network/index.hpp"
-#include "core/network/limits.hpp"
+#include "core/network/linear_law.hpp"
 #include "core/network/reductions.hpp"
-#include "core/network/resolved.hpp"
 
 namespace rheonet {
 
@@ -39,10 +38,6 @@ struct Found {
   Quiet quiet = {};
 };
 
-bool same(const std::vector<double>& v, const std::vector<double>& w) {
-  return std::equal(v.begin(), v.end(), w.begin(), w.end(), [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
-}
-
 bool elsewhere(double start) { return !std::isnan(start) && start != 0; }
 
 class Search {
@@ -66,28 +61,19 @@ class Search {
   /// Elements made by one entry of a netlist mostly have the same values. (Effects may be left out of some of them.)
   Quiet quiet(const SceneElement& e) {
     Found& before = found_[at(e.declaration)];
-    if (!before.element || !scene_.without.empty() || !same(before.element->values, e.values)) before = {&e, find_quiet(e)};
+    if (!before.element || !scene_.without.empty() || !same_values(before.element->values, e.values)) before = {&e, find_quiet(e)};
     return before.quiet;
   }
 
   Quiet find_quiet(const SceneElement& e) const {
-    const Component& component = *components()[at(e.declaration)];
-    const Role role = component.role;
-    if (role != Role::mass && role != Role::deflection && role != Role::rate) return {};
-    const std::vector<Parameter>& parameters = component.declaration.parameters;
-    for (std::size_t k = 0; k < parameters.size(); ++k) {
-      if (parameters[k].kind == Parameter::Kind::initial && !std::isnan(e.values[k])) return {};
-    }
-    const Reduced law = take_limits(&component, resolved_values(scene_, e));
+    const Role role = components()[at(e.declaration)]->role;
+    if ((role != Role::mass && role != Role::deflection && role != Role::rate) || starts_by_itself(e)) return {};
+    const Reduced law = law_of(scene_, e);
     if (!law.component) return {Quiet::Kind::none};
     if (law.component->role == Role::mass) return {Quiet::Kind::mass, law.values[0]};
-    if (law.component->spring) {
-      const LinearSpring spring = law.component->spring(law.values);
-      return spring.rest == 0 && std::isnan(spring.force) ? Quiet{Quiet::Kind::spring, spring.stiffness} : Quiet{};
-    }
-    if (law.component->role != Role::rate) return {};
-    const Growth growth = law.component->rate(Values{law.values})->growth(0);
-    return growth.exponent == 1 ? Quiet{Quiet::Kind::dashpot, growth.coefficient} : Quiet{};
+    const std::optional<LinearLaw> linear = linear_law(law);
+    if (!linear || linear->rest != 0) return {};
+    return {linear->spring ? Quiet::Kind::spring : Quiet::Kind::dashpot, linear->coefficient};
   }
 
   void look_at_elements() {

@@ -8,11 +8,10 @@
 #include <utility>
 
 #include "core/network/index.hpp"
-#include "core/network/limits.hpp"
+#include "core/network/linear_law.hpp"
 #include "core/network/network.hpp"
 #include "core/network/parts.hpp"
 #include "core/network/reductions.hpp"
-#include "core/network/resolved.hpp"
 #include "core/network/sets.hpp"
 #include "core/result/excerpt.hpp"
 
@@ -177,7 +176,7 @@ class Divider {
   }
 
   void look_at(const SceneElement& element, Nature& nature) const {
-    const Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene_, element));
+    const Reduced law = law_of(scene_, element);
     if (!law.component) return;
     const std::vector<Parameter>& parameters = law.component->declaration.parameters;
     for (std::size_t k = 0; k < law.values.size(); ++k) {
