@@ -30,6 +30,7 @@ stop = 1
 output = { points = 3 }
 TOML
 env -u RHEONET_LIBRARY "$folder/prefix/bin/rheonet" run -q scene.toml >/dev/null
+"$folder/prefix/bin/rheonet-serve" serve --help >/dev/null  # it finds its libraries
 
 cat >CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)

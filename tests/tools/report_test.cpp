@@ -19,3 +19,11 @@ TEST_CASE("without the web pages all but report and serve works, and these say h
   const Finished serve = folder.shell(program + " serve .", 1);
   CHECK(serve.err == "error: `serve` cannot begin: its web pages are missing: " + how);
 }
+
+TEST_CASE("a program without the one that serves says what is missing") {
+  const Folder folder(oscillator);
+  folder.shell(std::string("cp \"") + RHEONET_PROGRAM + "\" alone", 0);
+  const Finished serve = folder.shell("./alone serve . --port 0", 1);
+  CHECK(serve.err.find("error: `serve` cannot begin: ") == 0);
+  CHECK(serve.err.find("rheonet-serve`: No such file or directory\n  it belongs beside `rheonet`: build or install both\n") != std::string::npos);
+}

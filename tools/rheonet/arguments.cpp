@@ -328,6 +328,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
   CommandLine line;
   auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, only, app] = line;
 
+  arguments.words = words;
   words = with_every_option(words);
   std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
   try {

@@ -21,6 +21,7 @@ struct Arguments {
   enum class Command { run, check, explain, effects, compare, precision, sweep, plot, draw, report, serve, components, schema };
 
   Command command = Command::run;
+  std::vector<std::string> words;      ///< as they were given
   std::string scene;
   std::vector<std::string> scenes;     ///< of `compare`; of `plot` also CSV files
   std::vector<std::string> pairs;      ///< PATH=PATH, of `compare`

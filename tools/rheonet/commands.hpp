@@ -34,7 +34,7 @@ ExitStatus draw_network(const Arguments& arguments);
 /// `rheonet report`: writes one HTML file that shows scenes and their results.
 ExitStatus write_report(const Arguments& arguments);
 
-/// `rheonet serve`: the playground.
+/// `rheonet serve`: becomes the program that serves the playground.
 ExitStatus serve_playground(const Arguments& arguments);
 
 /// `rheonet components`: prints the reference.

@@ -6,12 +6,15 @@ namespace rheonet::tool {
 
 namespace fs = std::filesystem;
 
+fs::path program_folder() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
 std::vector<fs::path> library_folders() {
   if (const char* chosen = std::getenv("RHEONET_LIBRARY"); chosen != nullptr && *chosen != '\0') return {chosen};
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& folder :
-       {program.parent_path() / RHEONET_INSTALLED_NETLISTS, fs::path(RHEONET_SOURCE_NETLISTS)}) {
+  for (const fs::path& folder : {program_folder() / RHEONET_INSTALLED_NETLISTS, fs::path(RHEONET_SOURCE_NETLISTS)}) {
     if (fs::is_directory(folder, error)) return {folder.lexically_normal()};
   }
   return {};

@@ -9,4 +9,7 @@ namespace rheonet::tool {
 /// names; without it the one installed beside the program; without that the netlists of the source tree.
 std::vector<std::filesystem::path> library_folders();
 
+/// Where the program is that runs.
+std::filesystem::path program_folder();
+
 }  // namespace rheonet::tool

@@ -1,16 +1,9 @@
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <exception>
-#include <new>
-#include <system_error>
-
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
-#include "tools/rheonet/arguments.hpp"
 #include "tools/rheonet/commands.hpp"
-#include "tools/rheonet/interrupt.hpp"
-#include "tools/rheonet/say.hpp"
+#include "tools/rheonet/program.hpp"
 
 namespace {
 
@@ -52,23 +45,4 @@ ExitStatus carry_out(const Arguments& arguments) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  fail_writes_with_errors();
-  try {
-    const std::variant<Arguments, ExitStatus> read = read_arguments({words + 1, words + count});
-    if (const ExitStatus* status = std::get_if<ExitStatus>(&read)) return *status;
-    const ExitStatus status = carry_out(std::get<Arguments>(read));
-    if (std::fflush(stdout) != 0) {
-      say("error: cannot write to standard output\n");
-      return not_simulated;
-    }
-    return status;
-  } catch (const std::system_error& error) {
-    say("error: {}\n", error.what());
-  } catch (const std::bad_alloc&) {
-    say("error: out of memory\n");
-  } catch (const std::exception& error) {
-    say("error: a mistake in rheonet itself: {}\n", error.what());
-  }
-  return not_simulated;
-}
+int main(int count, char** words) { return rheonet::tool::run_program(count, words, carry_out); }

@@ -48,7 +48,7 @@ Worker::Worker(const Limits& limits) {
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string time = fmt::format("--time-limit={}", limits.seconds), memory = fmt::format("--memory-limit={}", limits.megabytes);
-  char name[] = "rheonet", command[] = "serve", worker[] = "--worker";
+  char name[] = "rheonet-serve", command[] = "serve", worker[] = "--worker";
   char* const words[] = {name, command, worker, time.data(), memory.data(), nullptr};
   const int error = ::posix_spawn(&process_, "/proc/self/exe", &actions, &attributes, words, environ);
   posix_spawnattr_destroy(&attributes);

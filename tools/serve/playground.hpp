@@ -1,0 +1,10 @@
+#pragma once
+
+#include "tools/rheonet/arguments.hpp"
+
+namespace rheonet::serve {
+
+/// Serves the playground until it is interrupted; or is one of its workers.
+tool::ExitStatus play(const tool::ServeArguments& wanted);
+
+}  // namespace rheonet::serve
