@@ -51,6 +51,7 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
     const Branch& b = structure.sliders[k];
     if (!structure.stuck[k] && b.a == b.b) continue;
     rates_needed_ = rates_needed_ || floating(b);
+    slips_along_ = slips_along_ || (!structure.stuck[k] && floating(b));
     const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
     if (!structure.stuck[k] && firm(b.a) && firm(b.b)) slipping_.push_back({static_cast<int>(k), sliders_.size(), 0, false});
     sliders_.push_back(static_cast<int>(k));

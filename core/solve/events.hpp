@@ -35,6 +35,9 @@ class NetworkEvents final : public EventFunctions {
 
   /// Sliders stick here that may break away, friction rests, or blocks limit what they take in.
   bool sticks() const;
+  /// A slider slips here at a node that only springs and friction hold: its velocity may follow a drive at once, without an
+  /// unknown that would keep steps short.
+  bool slips_along() const { return slips_along_; }
   /// A force may go beyond a bound, or a mass back against what it slips on, and come back within one step: the first such
   /// instant in the last step, and the event that it is. `end`: the view of the end of the step, which it is afterwards too.
   struct Missed { double t; int which; };
@@ -89,7 +92,7 @@ class NetworkEvents final : public EventFunctions {
   Consistency& consistency_;
   const Tolerances& tolerances_;
   const Modes& modes_;
-  bool rates_needed_ = false;
+  bool rates_needed_ = false, slips_along_ = false;
   std::vector<double> y_, yp_;
   std::vector<double> stepped_flow_;  ///< of each deflection branch, as the steps have it; empty unless some law's is in doubt [m/s]
   std::vector<Watched> watched_;

@@ -43,6 +43,8 @@ constexpr double lookahead_of_cycle = 0.01;
 // While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
 // alone, which no error test looks at.
 constexpr double longest_angle = 0.3;
+// Nor farther than this while sliders slip that follow a drive at once: they turn back but once within it.
+constexpr double longest_slip = 1.5;
 
 // What takes so many steps takes seconds.
 constexpr double many_steps = 3e5;
@@ -329,10 +331,12 @@ class Run {
       system_->consistency.derivative(t, y_, yp_);
     }
     double h = std::min({until - t, 100 * ahead, first_step(ypp, tolerances_.values())});
-    if (system_->dae.unknowns() == 0 && !system_->events.sticks()) h = until - t;  // nothing that a step could get wrong
+    const bool sticks = system_->events.sticks(), slips_along = system_->events.slips_along();
+    if (system_->dae.unknowns() == 0 && !sticks && !slips_along) h = until - t;  // nothing that a step could get wrong
     const double omega = drive_.fastest();
     double turn = std::numeric_limits<double>::infinity();
-    if (omega > 0 && system_->events.sticks()) turn = longest_angle / omega;
+    if (omega > 0 && slips_along) turn = longest_slip / omega;
+    if (omega > 0 && sticks) turn = longest_angle / omega;
     if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(settings_.accuracy)) / omega);
     system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
     if (settings_.profile) settings_.profile->restart(system_->dae);

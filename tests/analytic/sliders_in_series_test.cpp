@@ -105,6 +105,25 @@ TEST_CASE("Sliders in series, moved: equal ones share the motion, and a note say
   }
 }
 
+// Every motion follows from the drive, so that there is no unknown whose error would keep a step within one turn of it.
+TEST_CASE("Sliders in series turn with every turn of what moves them, with nothing recorded but forces") {
+  for (const double second : {Fc, 1.37 * Fc}) {
+    const std::string drive = fmt::format("drive = {{ type = \"motion\", at = \"end\", velocity = {{ sine = 0.217, frequency = {:.17g}, phase = 0.7 }} }}\n", frequency);
+    const std::string slow = "far = { type = \"mass\", at = \"far\", mass = 90 }\nhold = { type = \"spring\", between = [\"far\", \"ground\"], stiffness = 0.01, f0 = 1 }\n";
+    for (const std::string& beside : {std::string(), slow}) {
+      rheonet::Scene scene = scene_of(netlist({}, "[elements]\n" + drive + chain({Fc, second}) + beside, 40 * stop, 1201) + "record = [\"s1.force\", \"s2.force\"]\n");
+      scene.keep = {"parts", "unasked"};
+      const Trajectory rows = simulate(scene);
+      for (std::size_t k = 0; k < rows.time().size(); ++k) {
+        const double velocity = std::sin(omega * rows.time()[k] + 0.7);
+        if (std::abs(velocity) < 1e-6) continue;
+        CHECK_EQ(rows["s1.force"][k], std::copysign(Fc, velocity));
+        CHECK_EQ(rows["s2.force"][k], -std::copysign(Fc, velocity));
+      }
+    }
+  }
+}
+
 TEST_CASE("Two sliders in series without mass, pushed below the weaker one's force") {
   const double amplitude = 0.93 * Fc;
   for (const double second : {Fc, 1.37 * Fc}) {
