@@ -237,6 +237,10 @@ StartWords describe_start(const Start& start, const Network& network, const Stru
                       node.name, with_unit(scene, velocity[n], Quantity::velocity), node.velocity));
     }
     const double x = start.state.position[n];
+    if (floating && std::abs(x - node.position) > same_value * (std::abs(x) + std::abs(node.position))) {
+      words.notes.push_back(fmt::format("node `{}` starts at position {}, not at {}, which is given: it has no mass, and there the forces balance",
+                                        node.name, with_unit(scene, x, Quantity::position), with_unit(scene, node.position, Quantity::position)));
+    }
     if (floating && std::isnan(node.position) && x != 0) {
       words.chosen.push_back(
           fmt::format("node `{}` starts at position {}: it has no mass, and there the forces balance", node.name,

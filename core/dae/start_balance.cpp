@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <unordered_map>
 
 #include "core/network/index.hpp"
 
@@ -136,6 +140,15 @@ class StartBalance {
     return std::any_of(around_[at(g)].begin(), around_[at(g)].end(),
                        [&](const Side& s) { return members_[at(s.member)].forced; });
   }
+  /// What follows its place is joined to another group whose place is given.
+  bool beside_given_place(int g) const {
+    const std::vector<Side> places = open(g, true);
+    return std::any_of(places.begin(), places.end(), [&](const Side& s) {
+      const NodeId other = far_end(s);
+      return structure_.group[at(other)] >= 0 && fixed_[at(other)];
+    });
+  }
+
   std::vector<Side> open(int g, bool by_place) const {
     std::vector<Side> result;
     for (const Side& side : around_[at(g)]) {
@@ -147,10 +160,10 @@ class StartBalance {
 
   /// Where one thing is left open at a group with an initial force, it follows: its place, or another initial force.
   bool follow(int g) {
-    if (!any_forced(g) || slip_[at(g)] > 0) return false;
+    if (slip_[at(g)] > 0 || !(any_forced(g) || beside_given_place(g))) return false;
     const std::vector<Side> places = open(g, true), forces = open(g, false);
-    if (!places.empty()) return place(g, places);
-    if (forces.size() != 1) return false;
+    if (!places.empty()) return place(g);
+    if (!any_forced(g) || forces.size() != 1) return false;
     return demand(g, forces.front(), left_to_others(g));
   }
 
@@ -182,46 +195,127 @@ class StartBalance {
     return true;
   }
 
-  /// Shifts a group to where the laws that depend on its place balance the rest; initial forces left open are 0.
-  bool place(int g, const std::vector<Side>& places) {
-    constexpr int most_iterations = 50;
-    for (NodeId node : structure_.groups[at(g)].nodes) {
-      if (fixed_[at(node)]) return false;
+  /// Groups that are joined by laws which follow their places, and what holds them.
+  struct Region {
+    std::vector<int> groups = {};
+    std::unordered_map<int, int> number = {};  ///< of each of them, where it is in `groups`
+    bool anchored = false;          ///< such a law joins it to a place that is known
+    std::vector<Side> places = {};  ///< those laws, each once
+    std::vector<Side> forces = {};  ///< initial forces that are left open, between it and the rest
+  };
+
+  /// Absent if one of its groups cannot be moved as a whole: some of its nodes have a place, or what sliders let go is open.
+  std::optional<Region> region_of(int g) const {
+    Region region{.groups = {g}, .number = {{g, 0}}};
+    for (std::size_t k = 0; k < region.groups.size(); ++k) {
+      const int group = region.groups[k];
+      if (slip_[at(group)] > 0) return {};
+      for (const NodeId node : structure_.groups[at(group)].nodes) {
+        if (fixed_[at(node)]) return {};
+      }
+      for (const Side& side : open(group, true)) {
+        const NodeId other = far_end(side);
+        if (fixed_[at(other)]) {
+          region.anchored = true;
+        } else if (region.number.try_emplace(structure_.group[at(other)], static_cast<int>(region.groups.size())).second) {
+          region.groups.push_back(structure_.group[at(other)]);
+        }
+        if (fixed_[at(other)] || side.sign > 0) region.places.push_back(side);
+      }
     }
-    for (const Side& side : places) {
-      const Branch& b = members_[at(side.member)].ends;
-      if (!fixed_[at(side.sign > 0 ? b.b : b.a)]) return false;
+    for (const int group : region.groups) {
+      for (const Side& side : open(group, false)) {
+        if (number_of(region, far_end(side)) < 0) region.forces.push_back(side);
+      }
     }
-    const double left = left_to_others(g);
-    double shift = 0, change = 0;
-    for (int k = 0; k < most_iterations; ++k) {
-      double sum = -left, stiffness = 0;
-      for (const Side& side : places) {
+    return region;
+  }
+
+  NodeId far_end(const Side& side) const {
+    const Branch& b = members_[at(side.member)].ends;
+    return side.sign > 0 ? b.b : b.a;
+  }
+  NodeId near_end(const Side& side) const {
+    const Branch& b = members_[at(side.member)].ends;
+    return side.sign > 0 ? b.a : b.b;
+  }
+  int number_of(const Region& region, NodeId node) const {
+    const auto found = region.number.find(structure_.group[at(node)]);
+    return found == region.number.end() ? -1 : found->second;
+  }
+
+  /// Shifts groups to where the laws that depend on their places balance the rest. Initial forces left open are 0, but where
+  /// nothing else holds what the groups are loaded with.
+  bool place(int g) {
+    const std::optional<Region> region = region_of(g);
+    if (!region) return false;
+    if (!region->anchored && !region->forces.empty()) {
+      double left = 0;
+      for (const int group : region->groups) left += left_to_others(group);
+      for (const Side& side : region->forces) {
+        if (!demand(structure_.group[at(near_end(side))], side, left / static_cast<double>(region->forces.size()))) return false;
+      }
+    }
+    const Eigen::VectorXd shift = balanced_shifts(*region);
+    if (!shift.allFinite()) return false;
+    const auto shift_of = [&](NodeId node) {
+      const int number = number_of(*region, node);
+      return number < 0 ? 0.0 : shift[number];
+    };
+    for (std::size_t k = 0; k < region->groups.size(); ++k) {
+      for (const Side& side : around_[at(region->groups[k])]) {
+        if (side.sign < 0 && number_of(*region, far_end(side)) >= 0) continue;  // has been seen from its other end
         Member& m = members_[at(side.member)];
-        double slope = 0;
-        sum += side.sign * m.batch->force_along(m.i, deflection(m), side.sign * shift, slope);
-        stiffness += slope;
+        const double change = shift_of(m.ends.a) - shift_of(m.ends.b);
+        (m.by_place && !m.given ? state_.p : state_.offset)[at(side.member)] += change;
+        m.given = true;
       }
-      change = stiffness > 0 ? -sum / stiffness : 0;
-      shift += change;
-      if (std::abs(change) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(shift)) break;
-    }
-    if (!std::isfinite(shift)) return false;
-    for (NodeId node : structure_.groups[at(g)].nodes) {
-      state_.position[at(node)] += shift;
-      fixed_[at(node)] = 1;
-    }
-    for (const Side& side : around_[at(g)]) {
-      Member& m = members_[at(side.member)];
-      double& offset = state_.offset[static_cast<std::size_t>(&m - members_.data())];
-      if (m.by_place && !m.given) {
-        deflection(m) += side.sign * shift;
-      } else {
-        offset += side.sign * shift;
+      for (const NodeId node : structure_.groups[at(region->groups[k])].nodes) {
+        state_.position[at(node)] += shift[static_cast<Eigen::Index>(k)];
+        fixed_[at(node)] = 1;
       }
-      m.given = true;
     }
     return true;
+  }
+
+  /// Of each group of the region [m]; the first one stays where nothing holds the region in its place.
+  Eigen::VectorXd balanced_shifts(const Region& region) {
+    constexpr int most_iterations = 50;
+    const auto size = static_cast<Eigen::Index>(region.groups.size());
+    Eigen::VectorXd left(size), shift = Eigen::VectorXd::Zero(size);
+    for (Eigen::Index k = 0; k < size; ++k) left[k] = left_to_others(region.groups[static_cast<std::size_t>(k)]);
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
+    for (int n = 0; n < most_iterations; ++n) {
+      Eigen::VectorXd missing = left;
+      std::vector<Eigen::Triplet<double>> stiffness;
+      for (const Side& side : region.places) {
+        Member& m = members_[at(side.member)];
+        const int near = number_of(region, near_end(side)), far = fixed_[at(far_end(side))] ? -1 : number_of(region, far_end(side));
+        double slope = 0;
+        const double change = side.sign * (shift[near] - (far < 0 ? 0 : shift[far]));
+        const double force = side.sign * m.batch->force_along(m.i, deflection(m), change, slope);
+        missing[near] -= force;
+        stiffness.emplace_back(near, near, slope);
+        if (far < 0) continue;
+        missing[far] += force;
+        stiffness.emplace_back(far, far, slope);
+        stiffness.emplace_back(near, far, -slope);
+        stiffness.emplace_back(far, near, -slope);
+      }
+      if (!region.anchored) {
+        std::erase_if(stiffness, [](const auto& entry) { return entry.row() == 0 || entry.col() == 0; });
+        stiffness.emplace_back(0, 0, 1);
+        missing[0] = 0;
+      }
+      Eigen::SparseMatrix<double> matrix(size, size);
+      matrix.setFromTriplets(stiffness.begin(), stiffness.end());
+      factors.compute(matrix);
+      if (factors.info() != Eigen::Success) return Eigen::VectorXd::Constant(size, not_given);
+      const Eigen::VectorXd change = factors.solve(missing);
+      shift += change;
+      if (!(change.cwiseAbs().maxCoeff() > 4 * std::numeric_limits<double>::epsilon() * shift.cwiseAbs().maxCoeff())) break;
+    }
+    return shift;
   }
 
   void require_balance(int g) {

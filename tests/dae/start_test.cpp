@@ -387,4 +387,63 @@ TEST_CASE("a place of a massless node between springs at which their forces do n
   CHECK_FALSE(refused(not_given));
 }
 
+TEST_CASE("an initial force goes on through springs in a row, and beside one another") {
+  constexpr double f0 = 0.47;
+  for (const bool beside : {false, true}) {
+    SceneBuilder b;
+    b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
+    b.between("v", "vfm", "end", "p", {{"damping", B}, {"stiffness", 31.0}, {"f0", f0}});
+    b.between("k1", "spring", "p", "q", {{"stiffness", k}, {"rest", 0.02}});
+    b.between("k2", "spring", "r", "q", {{"stiffness", k2}});
+    b.between("k3", "spring", "r", "ground", {{"stiffness", 23.0}});
+    if (beside) b.between("k4", "spring", "p", "r", {{"stiffness", 17.0}});
+    const Started s(b);
+    CHECK_EQ(s.force("v"), exactly(f0));
+    CHECK_EQ(s.force("k1") + (beside ? s.force("k4") : 0), exactly(f0));
+    CHECK_EQ(s.force("k1"), exactly(-s.force("k2")));
+    CHECK_EQ(s.force("k3"), exactly(f0));
+    CHECK_EQ(s.position("r"), exactly(f0 / 23));
+    CHECK_EQ(s.force("k1"), exactly(k * (s.position("p") - s.position("q") - 0.02)));
+  }
+}
+
+TEST_CASE("nodes between springs that nothing else holds start where the initial forces on both sides leave them") {
+  const auto started = [](double other) {
+    SceneBuilder b;
+    b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
+    b.between("v", "vfm", "end", "p", {{"damping", B}, {"stiffness", 31.0}, {"f0", 0.47}});
+    b.between("k1", "spring", "p", "q", {{"stiffness", k}});
+    b.between("w", "vfm", "q", "ground", {{"damping", B2}, {"stiffness", 29.0}, {"f0", other}});
+    return Started(b);
+  };
+  for (const double other : {not_given, 0.47}) {
+    const Started s = started(other);
+    CHECK_EQ(s.force("v"), exactly(0.47));
+    CHECK_EQ(s.force("w"), exactly(0.47));
+    CHECK_EQ(s.position("p") - s.position("q"), exactly(0.47 / k));
+  }
+  CHECK_THROWS_AS(started(0.48), SimulationError);
+}
+
+TEST_CASE("the place of a massless node in a row of springs at which their forces do not balance is refused") {
+  const auto refused = [](double x) {
+    SceneBuilder c;
+    c.at("m", "mass", "x", {{"mass", m}});
+    c.start("x", 0.01);
+    c.between("k0", "spring", "x", "p", {{"stiffness", 30.0}});
+    c.between("k1", "spring", "p", "q", {{"stiffness", 20.0}});
+    c.between("k2", "spring", "q", "ground", {{"stiffness", 40.0}});
+    c.start("p", x);
+    try {
+      const Started started(c);
+    } catch (const SimulationError&) {
+      return true;
+    }
+    return false;
+  };
+  const double balanced = 0.01 * 30 / (30 + 40.0 / 3);
+  CHECK_FALSE(refused(balanced));
+  CHECK(refused(1.001 * balanced));
+}
+
 }  // namespace rheonet::test

@@ -105,3 +105,20 @@ TEST_CASE("what starts somewhere, or is looked at by blocks and claims, stays") 
   const std::string powers = "c1 = { type = \"dashpot\", between = [\"a\", \"b\"], damping = 3, flow_index = 0.7 }\nc2 = { type = \"dashpot\", between = [\"b\", \"ground\"], damping = 3, flow_index = 0.7 }\n";
   CHECK_FALSE(merge(scene_of(drive + powers + simulated("\"c1.force\""))));
 }
+
+TEST_CASE("a start force, and the place of a node, go on through springs that are merged as through those that are not") {
+  const std::string row = drive + R"(v = { type = "vfm", between = ["a", "p"], damping = 5, stiffness = 30, f0 = 0.4 }
+k1 = { type = "spring", between = ["p", "q"], stiffness = 20, rest = 0.013 }
+k2 = { type = "spring", between = ["r", "q"], stiffness = 40 }
+k3 = { type = "spring", between = ["r", "ground"], stiffness = 25 }
+)";
+  check_same(row + simulated("\"v.force\", \"k2.force\", \"k3.displacement\""));
+  CHECK_EQ(simulate(row + simulated("\"k3.force\""))["k3.force"].front(), doctest::Approx(0.4));
+  const std::string placed = drive + R"(v = { type = "vfm", between = ["a", "p"], damping = 5, stiffness = 30 }
+k1 = { type = "spring", between = ["p", "q"], stiffness = 20 }
+k2 = { type = "spring", between = ["q", "ground"], stiffness = 40 }
+[nodes]
+p = { position = "7 mm" }
+)";
+  check_same(placed + simulated("\"v.force\", \"k2.force\", \"p.position\""));
+}

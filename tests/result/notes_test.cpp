@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/scene_builder.hpp"
@@ -121,6 +122,25 @@ TEST_CASE("energy that is missing is told where it is more than the accuracy ask
     CHECK_EQ(told, std::abs(summary.missing) > 1e-5 * summary.largest);
     CHECK_EQ(told, tolerance > 1e-6);
   }
+}
+
+TEST_CASE("a massless node that cannot start where the netlist puts it is told, one that can is not") {
+  const auto told = [](const std::string& f0) {
+    Summary summary;
+    simulate(scene_of(R"([elements]
+m = { type = "mass", at = "x", mass = "0.7 kg" }
+v = { type = "vfm", between = ["x", "p"], damping = 5, stiffness = 30)" + f0 + R"( }
+k = { type = "spring", between = ["p", "ground"], stiffness = 20 }
+[nodes]
+p = { position = "7 mm" }
+[simulate]
+stop = 1
+)"), &summary);
+    return std::count(summary.notes.begin(), summary.notes.end(),
+                      "node `p` starts at position 0.0042 m, not at 0.007 m, which is given: it has no mass, and there the forces balance");
+  };
+  CHECK_EQ(told(""), 1);  // 0.14 N, shared by stiffnesses of 30 and 20 N/m
+  CHECK_EQ(told(", f0 = \"0.14 N\""), 0);
 }
 
 }  // namespace rheonet::test
