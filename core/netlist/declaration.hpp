@@ -70,7 +70,7 @@ struct Brought {
   std::optional<double> absent = {};
 };
 
-/// Values of further parameters where all of these effects are left out.
+/// Values of further parameters where all of these effects are left out, or those of them that the element brings.
 struct Absence {
   std::vector<Effect> effects;
   std::vector<std::pair<std::string, double>> values;

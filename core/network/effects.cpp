@@ -65,7 +65,8 @@ void leave_out_effects(const Scene& scene, const SceneElement& element, std::vec
   const std::vector<Effect> out = left_out_of(scene, element);
   if (out.empty()) return;
   const Declaration& declaration = declaration_of(element);
-  std::vector<Effect> stay = brought_by(element), done;
+  const std::vector<Effect> brought_here = brought_by(element);
+  std::vector<Effect> stay = brought_here, done;
   std::erase_if(stay, [&](Effect effect) { return contains(out, effect); });
   for (const Brought& brought : declaration.effects) {
     if (!contains(out, brought.effect) || !brought.absent) continue;
@@ -73,7 +74,11 @@ void leave_out_effects(const Scene& scene, const SceneElement& element, std::vec
     done.push_back(brought.effect);
   }
   for (const Absence& absence : declaration.absences) {
-    if (!std::all_of(absence.effects.begin(), absence.effects.end(), [&](Effect e) { return contains(out, e); })) continue;
+    // What a limit of its parameters has taken from an element is left out of it as well: it is then the model of that limit.
+    const auto is_out = [&](Effect e) { return contains(out, e); };
+    const auto is_absent = [&](Effect e) { return is_out(e) || !contains(brought_here, e); };
+    const std::vector<Effect>& of = absence.effects;
+    if (std::none_of(of.begin(), of.end(), is_out) || !std::all_of(of.begin(), of.end(), is_absent)) continue;
     for (const auto& [name, value] : absence.values) value_of(declaration, name, values) = value;
     done.insert(done.end(), absence.effects.begin(), absence.effects.end());
   }

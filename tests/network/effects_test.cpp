@@ -117,6 +117,24 @@ TEST_CASE("an effect that a law cannot do without by itself is refused") {
                                                                       "dry friction and viscosity alone has no law") != std::string::npos);
 }
 
+TEST_CASE("a cfm at a limit of its parameters does without effects as the model of that limit does") {
+  const std::string rest = "stiffness = 300, exponent = 0.8";
+  struct { std::string cfm, model; } const limits[] = {
+      {"damping = \"inf\", coulomb = 2", "type = \"sfm\", coulomb = 2, " + rest},
+      {"damping = 5, coulomb = \"inf\"", "type = \"vfm\", damping = 5, stiffness = 300"},
+      {"damping = \"inf\", coulomb = \"inf\"", "type = \"spring\", stiffness = 300"}};
+  for (const auto& [parameters, model] : limits) {
+    for (const std::string effect : {"elasticity", "viscosity", "dry_friction"}) {
+      CAPTURE(parameters);
+      CAPTURE(effect);
+      const std::string out = without("\"" + effect + ":brake\"");
+      const Trajectory limit = simulate(dragged("type = \"cfm\", " + parameters + ", " + rest, out)), same = simulate(dragged(model, out));
+      for (std::size_t k = 0; k < same.time().size(); ++k)
+        CHECK(std::abs(limit["brake.force"][k] - same["brake.force"][k]) <= 1e-6 * same.scale("brake.force"));
+    }
+  }
+}
+
 TEST_CASE("contract: every effect that a component declares can be left out, but for those it says cannot by themselves") {
   int tried = 0;
   for (const Component* component : components()) {

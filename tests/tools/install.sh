@@ -30,7 +30,9 @@ stop = 1
 output = { points = 3 }
 TOML
 env -u RHEONET_LIBRARY "$folder/prefix/bin/rheonet" run -q scene.toml >/dev/null
-"$folder/prefix/bin/rheonet-serve" serve --help >/dev/null  # it finds its libraries
+"$folder/prefix/bin/rheonet-serve" serve --help >/dev/null  # it finds its libraries, and is found:
+"$folder/prefix/bin/rheonet" serve "$folder/none" 2>serve.log && exit 1
+grep -Eq 'cannot serve|its web pages are missing' serve.log || { cat serve.log; exit 1; }
 
 cat >CMakeLists.txt <<'CMAKE'
 cmake_minimum_required(VERSION 3.25)
