@@ -290,7 +290,7 @@ class StartBalance {
       std::vector<Eigen::Triplet<double>> stiffness;
       for (const Side& side : region.places) {
         Member& m = members_[at(side.member)];
-        const int near = number_of(region, near_end(side)), far = fixed_[at(far_end(side))] ? -1 : number_of(region, far_end(side));
+        const int near = number_of(region, near_end(side)), far = number_of(region, far_end(side));
         double slope = 0;
         const double change = side.sign * (shift[near] - (far < 0 ? 0 : shift[far]));
         const double force = side.sign * m.batch->force_along(m.i, deflection(m), change, slope);

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "core/network/limits.hpp"
 #include "core/netlist/scene.hpp"
+#include "core/network/limits.hpp"
 
 namespace rheonet {
 

@@ -4,9 +4,7 @@
 
 #include <cmath>
 
-#include "core/network/index.hpp"
-#include "tests/support/probe.hpp"
-#include "tests/support/scene_builder.hpp"
+#include "tests/dae/started.hpp"
 #include "tests/support/solid_friction.hpp"
 
 namespace rheonet::test {
@@ -17,52 +15,6 @@ constexpr double k = 137.3, k2 = 71.9, B = 2.71, B2 = 0.83, m = 0.47, dx = 0.019
 constexpr double digits = 1e-12;
 
 Signal step(double height) { return Signal(Signal::Step{height, 0, 0}); }
-
-/// A scene just after its first instant.
-class Started {
- public:
-  explicit Started(const SceneBuilder& builder)
-      : scene_(builder.finish(1, 10, 1e-6)), probe_(scene_), jump(probe_.change()) {
-    view_ = probe_.dae().view(0, probe_.y().data(), probe_.yp().data());
-  }
-
-  double velocity(const std::string& node) const { return view_.velocity[at(id(node))]; }
-  double position(const std::string& node) const { return view_.position[at(id(node))]; }
-  double reaction(const std::string& node) const { return probe_.dae().reaction(id(node)); }
-  double force(const std::string& element) const {
-    const Network::Place place = place_of(element);
-    return place.role == Role::rate ? view_.rate_force[at(place.index)] : view_.f[at(place.index)];
-  }
-  double deflection(const std::string& element) const { return view_.p[at(place_of(element).index)]; }
-  double deflection_rate(const std::string& element) const { return view_.dp[at(place_of(element).index)]; }
-  double acceleration(const std::string& node) const { return probe_.yp()[at(probe_.dae().velocity_unknown(id(node)))]; }
-  const Dae::View& view() const { return view_; }
-
- private:
-  NodeId id(const std::string& node) const {
-    for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
-      if (scene_.nodes[n].name == node) return static_cast<NodeId>(n);
-    }
-    FAIL("no node " << node);
-    return -1;
-  }
-  Network::Place place_of(const std::string& element) const {
-    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
-      if (scene_.elements[e].name == element) return probe_.network().places[e];
-    }
-    FAIL("no element " << element);
-    return {};
-  }
-
-  Scene scene_;
-  mutable Probe probe_;
-  Dae::View view_;
-
- public:
-  const Instant::Change& jump;
-};
-
-doctest::Approx exactly(double value) { return doctest::Approx(value).epsilon(digits); }
 
 }  // namespace
 
@@ -304,146 +256,6 @@ TEST_CASE("an initial force goes before the rest length, and the displacement is
   CHECK_EQ(s.force("k"), exactly(-1.3));
   CHECK_EQ(s.position("a"), exactly(0.19));
   CHECK_EQ(s.acceleration("a"), exactly(1.3 / m));
-}
-
-TEST_CASE("an initial force goes on through what stands in series with it") {
-  constexpr double f0 = 1.7, sigma = 193.0;
-  SceneBuilder b;
-  b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
-  b.start("end", 0.23);
-  b.between("v", "vfm", "end", "n1", {{"damping", B}, {"stiffness", sigma}, {"f0", f0}});
-  b.between("f", "sfm", "n2", "n1", {{"stiffness", sigma}, {"coulomb", 2.3}, {"exponent", 0.6}});
-  b.between("c", "cfm", "n2", "n3", {{"damping", B2}, {"stiffness", k2}, {"coulomb", 2.9}, {"exponent", 1.2}});
-  b.between("k", "spring", "n3", "ground", {{"stiffness", k}, {"rest", 0.05}});
-  const Started s(b);
-  CHECK_EQ(s.force("v"), exactly(f0));
-  CHECK_EQ(s.force("f"), exactly(-f0));
-  CHECK_EQ(s.force("c"), exactly(f0));
-  CHECK_EQ(s.force("k"), exactly(f0));
-  // Only the spring's force says where a node is.
-  CHECK_EQ(s.position("n3"), exactly(0.05 + f0 / k));
-}
-
-TEST_CASE("an initial force and a load at a massless node: springs there make up for both") {
-  constexpr double f0 = -0.9, load = 3.1;
-  SceneBuilder b;
-  b.between("v", "vfm", "n", "ground", {{"damping", B}, {"stiffness", k2}, {"f0", f0}});
-  b.between("k", "spring", "n", "ground", {{"stiffness", k}});
-  b.between("k2", "spring", "ground", "n", {{"stiffness", k2}, {"rest", 0.01}});
-  b.force("push", "n", Signal(Signal::Constant{load}));
-  const Started s(b);
-  CHECK_EQ(s.force("v"), exactly(f0));
-  CHECK_EQ(s.force("k") - s.force("k2"), exactly(load - f0));
-  CHECK_EQ(s.position("n"), exactly((load - f0 - k2 * 0.01) / (k + k2)));
-}
-
-TEST_CASE("initial forces that do not balance at a massless node are refused, with all of them named") {
-  const auto refusal = [](double f1, double f2, double load, double before) {
-    SceneBuilder b;
-    b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
-    b.between("one", "vfm", "end", "n", {{"damping", B}, {"stiffness", k}, {"f0", f1}});
-    b.between("two", "sfm", "n", "ground", {{"stiffness", k2}, {"coulomb", 5.1}, {"f0", f2}});
-    b.force("push", "n", Signal(Signal::Step{load - before, 0, before}));
-    try {
-      const Started s(b);
-    } catch (const SimulationError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  // f2 - f1 = load, just before the start or just after.
-  CHECK_EQ(refusal(1.3, 3.8, 2.5, 2.5), "");
-  CHECK_EQ(refusal(1.3, 3.8, 2.5, 0.4), "");
-  CHECK_EQ(refusal(1.3, 3.8, 0.4, 2.5), "");
-  CHECK_EQ(refusal(1.3, 3.8 * (1 + 1e-8), 2.5, 2.5), "");  // less than the accuracy asked for
-  const std::string text = refusal(1.3, 3.8001, 2.5, 2.5);
-  CHECK(text.find("the initial forces at node `n` do not balance, and it has no mass: ") == 0);
-  CHECK(text.find("`one` ") != std::string::npos);
-  CHECK(text.find("with 1.3 N") != std::string::npos);
-  CHECK(text.find("`two` ") != std::string::npos);
-  CHECK(text.find("with 3.8001 N") != std::string::npos);
-  CHECK(refusal(1.3, -3.8, 2.5, 2.5) != "");
-}
-
-TEST_CASE("a place of a massless node between springs at which their forces do not balance is refused") {
-  const auto refused = [](double x) {
-    SceneBuilder b;
-    b.motion("drive", "end", "velocity", Signal());
-    b.start("end", 0.23);
-    b.between("k", "spring", "end", "n", {{"stiffness", k}});
-    b.between("k2", "spring", "n", "ground", {{"stiffness", k2}});
-    b.start("n", x);
-    try {
-      const Started s(b);
-    } catch (const SimulationError&) {
-      return true;
-    }
-    return false;
-  };
-  constexpr double balanced = 0.23 * k / (k + k2);
-  CHECK_FALSE(refused(balanced));
-  CHECK(refused(balanced * 1.001));
-  CHECK(refused(-balanced));
-  CHECK_FALSE(refused(not_given));
-}
-
-TEST_CASE("an initial force goes on through springs in a row, and beside one another") {
-  constexpr double f0 = 0.47;
-  for (const bool beside : {false, true}) {
-    SceneBuilder b;
-    b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
-    b.between("v", "vfm", "end", "p", {{"damping", B}, {"stiffness", 31.0}, {"f0", f0}});
-    b.between("k1", "spring", "p", "q", {{"stiffness", k}, {"rest", 0.02}});
-    b.between("k2", "spring", "r", "q", {{"stiffness", k2}});
-    b.between("k3", "spring", "r", "ground", {{"stiffness", 23.0}});
-    if (beside) b.between("k4", "spring", "p", "r", {{"stiffness", 17.0}});
-    const Started s(b);
-    CHECK_EQ(s.force("v"), exactly(f0));
-    CHECK_EQ(s.force("k1") + (beside ? s.force("k4") : 0), exactly(f0));
-    CHECK_EQ(s.force("k1"), exactly(-s.force("k2")));
-    CHECK_EQ(s.force("k3"), exactly(f0));
-    CHECK_EQ(s.position("r"), exactly(f0 / 23));
-    CHECK_EQ(s.force("k1"), exactly(k * (s.position("p") - s.position("q") - 0.02)));
-  }
-}
-
-TEST_CASE("nodes between springs that nothing else holds start where the initial forces on both sides leave them") {
-  const auto started = [](double other) {
-    SceneBuilder b;
-    b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
-    b.between("v", "vfm", "end", "p", {{"damping", B}, {"stiffness", 31.0}, {"f0", 0.47}});
-    b.between("k1", "spring", "p", "q", {{"stiffness", k}});
-    b.between("w", "vfm", "q", "ground", {{"damping", B2}, {"stiffness", 29.0}, {"f0", other}});
-    return Started(b);
-  };
-  for (const double other : {not_given, 0.47}) {
-    const Started s = started(other);
-    CHECK_EQ(s.force("v"), exactly(0.47));
-    CHECK_EQ(s.force("w"), exactly(0.47));
-    CHECK_EQ(s.position("p") - s.position("q"), exactly(0.47 / k));
-  }
-  CHECK_THROWS_AS(started(0.48), SimulationError);
-}
-
-TEST_CASE("the place of a massless node in a row of springs at which their forces do not balance is refused") {
-  const auto refused = [](double x) {
-    SceneBuilder c;
-    c.at("m", "mass", "x", {{"mass", m}});
-    c.start("x", 0.01);
-    c.between("k0", "spring", "x", "p", {{"stiffness", 30.0}});
-    c.between("k1", "spring", "p", "q", {{"stiffness", 20.0}});
-    c.between("k2", "spring", "q", "ground", {{"stiffness", 40.0}});
-    c.start("p", x);
-    try {
-      const Started started(c);
-    } catch (const SimulationError&) {
-      return true;
-    }
-    return false;
-  };
-  const double balanced = 0.01 * 30 / (30 + 40.0 / 3);
-  CHECK_FALSE(refused(balanced));
-  CHECK(refused(1.001 * balanced));
 }
 
 }  // namespace rheonet::test
