@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 
 #include "core/netlist/mistakes.hpp"
 
@@ -10,11 +11,24 @@ namespace rheonet {
 
 namespace {
 
+// So many of them may be mistyped; where there are more, they are meant.
+constexpr std::ptrdiff_t most_mistyped = 20;
+
 bool is_ground_in_capitals(const std::string& name) {
   const std::string_view wanted = "ground";
   return name != wanted && std::equal(name.begin(), name.end(), wanted.begin(), wanted.end(), [](char a, char b) {
            return std::tolower(static_cast<unsigned char>(a)) == b;
          });
+}
+
+/// Names of all nodes but these two: the ends that an element has.
+std::vector<std::string> ends_but(const Scene& scene, std::pair<NodeId, NodeId> ends) {
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
+    const NodeId node = static_cast<NodeId>(n);
+    if (node != ends.first && node != ends.second) names.push_back(node == ground ? "ground" : scene.nodes[n].name);
+  }
+  return names;
 }
 
 }  // namespace
@@ -31,10 +45,7 @@ std::vector<Diagnostic> loose_nodes(const Scene& scene) {
     meet(element.a, element);
     if (!element.at) meet(element.b, element);
   }
-  std::vector<std::string> others{"ground"};
-  for (std::size_t n = 1; n < meetings.size(); ++n) {
-    if (meetings[n].count > 1) others.push_back(scene.nodes[n].name);
-  }
+  const auto loose = std::count_if(meetings.begin() + 1, meetings.end(), [](const Meeting& m) { return m.count == 1; });
   std::vector<Diagnostic> warnings;
   for (std::size_t n = 1; n < meetings.size(); ++n) {
     const SceneNode& node = scene.nodes[n];
@@ -51,7 +62,7 @@ std::vector<Diagnostic> loose_nodes(const Scene& scene) {
     if (other != ground && meetings[static_cast<std::size_t>(other)].count == 1) continue;
     warnings.push_back({Severity::warning, node.spot,
                         "nothing but `" + meetings[n].only->name + "` is at node `" + node.name + "`: it carries no force",
-                        did_you_mean(node.name, others)});
+                        loose > most_mistyped ? "" : did_you_mean(node.name, ends_but(scene, {static_cast<NodeId>(n), other}))});
   }
   return warnings;
 }

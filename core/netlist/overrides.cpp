@@ -9,15 +9,13 @@ namespace rheonet {
 
 namespace {
 
-constexpr std::string_view option = "--set ";
-
-/// Splits PATH= off; the length of it with the `=`, 0 if there is none.
-std::size_t read_path(std::string_view text, int line, std::vector<Override::Part>& path) {
+/// Splits PATH= off; the length of it with the `=`, 0 if there is none. `before`: characters of the option before it.
+std::size_t read_path(std::string_view text, int line, std::size_t before, std::vector<Override::Part>& path) {
   std::string name;
   std::size_t begin = 0;
   char quote = '\0';
   const auto finish = [&](std::size_t end) {
-    const auto column = static_cast<int>(option.size() + count_characters(text.substr(0, begin)));
+    const auto column = static_cast<int>(before + count_characters(text.substr(0, begin)));
     path.push_back({name, {Spot::command_line, line, 1 + column}});
     name.clear();
     begin = end + 1;
@@ -54,13 +52,15 @@ bool excludes(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::deque<Override> read_overrides(const std::vector<std::string>& texts, Sources& sources, Mistakes& mistakes) {
+std::deque<Override> read_overrides(const std::vector<std::string>& texts, std::size_t varied, Sources& sources, Mistakes& mistakes) {
   std::deque<Override> overrides;
-  for (const std::string& text : texts) {
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    const std::string& text = texts[k];
+    const std::string_view option = k + varied < texts.size() ? "--set " : "--vary ";
     sources.command_line.push_back(std::string(option) + text);
     const int line = static_cast<int>(sources.command_line.size());
     Override override;
-    const std::size_t begin = read_path(text, line, override.path);
+    const std::size_t begin = read_path(text, line, option.size(), override.path);
     const bool nameless =
         std::any_of(override.path.begin(), override.path.end(), [](auto& p) { return p.name.empty(); });
     if (begin == 0 || nameless) {

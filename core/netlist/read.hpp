@@ -15,7 +15,8 @@ namespace rheonet {
 
 struct ReadOptions {
   std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
-  std::optional<double> accuracy;             ///< as after --accuracy; wins over the file
+  std::size_t varied = 0;                     ///< the last so many of these are values after --vary: messages show them so
+  std::optional<double> accuracy = {};        ///< as after --accuracy; wins over the file
   std::vector<std::string> records = {};      ///< paths that are recorded besides those that the file asks for
   bool plotted = false;                       ///< what `[plot]` draws is recorded besides
   std::vector<std::string> without = {};      ///< effects, as after --without: they are left out besides those of the file

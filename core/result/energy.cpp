@@ -88,17 +88,17 @@ void EnergyAccount::remember(double t, const Power& power) {
 // is what one point less would make of it, far more than it is off itself: together no more than is allowed in the run.
 std::optional<EnergyAccount::Power> EnergyAccount::from_past(double a, double b) const {
   if (known_ < remembered || adaptive_ || solved_between_steps()) return {};
-  constexpr std::array<double, 2> abscissae{0.33998104358485626, 0.86113631159405258};
-  constexpr std::array<double, 2> weights{0.65214515486254614, 0.34785484513745386};
+  constexpr std::size_t points = 4;
+  constexpr std::array<double, points> abscissae{0.33998104358485626, -0.33998104358485626, 0.86113631159405258, -0.86113631159405258};
+  constexpr std::array<double, points> weights{0.65214515486254614, 0.65214515486254614, 0.34785484513745386, 0.34785484513745386};
   const double middle = (a + b) / 2, half = (b - a) / 2;
-  std::array<double, remembered> integral{};  // of (t - times_[0]) (t - times_[1]) ...
-  for (std::size_t k = 0; k < 2 * abscissae.size(); ++k) {
-    const double t = middle + (k % 2 == 0 ? half : -half) * abscissae[k / 2];
-    double basis = weights[k / 2] * half;
-    for (std::size_t i = 0; i < remembered; ++i) {
-      integral[i] += basis;
-      basis *= t - times_[i];
-    }
+  std::array<double, points> t, basis;  // (t - times_[0]) (t - times_[1]) ..., with its weight
+  for (std::size_t k = 0; k < points; ++k) t[k] = middle + half * abscissae[k];
+  for (std::size_t k = 0; k < points; ++k) basis[k] = half * weights[k];
+  std::array<double, remembered> integral;
+  for (std::size_t i = 0; i < remembered; ++i) {
+    integral[i] = (basis[0] + basis[1]) + (basis[2] + basis[3]);
+    for (std::size_t k = 0; k < points; ++k) basis[k] *= t[k] - times_[i];
   }
   const double allowed = tolerance_ * largest_ * (b - a) / length_;
   const Power& last = differences_.back();

@@ -126,6 +126,11 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
       |                                           ^
   did you mean `ground`?
 )");
+  // Of its own other end nothing is said, which would make it no element.
+  CHECK(warnings("seat", "seta") == R"(scene.toml:3:43: warning: nothing but `k` is at node `seta`: it carries no force
+    3 | k = { type = "spring", between = ["seat", "seta"], stiffness = 3 }
+      |                                           ^
+)");
   CHECK(warnings("seat", "Ground") == R"(scene.toml:3:43: warning: node `Ground` moves as any other does
     3 | k = { type = "spring", between = ["seat", "Ground"], stiffness = 3 }
       |                                           ^

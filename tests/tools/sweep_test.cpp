@@ -162,6 +162,15 @@ TEST_CASE("sweep: a list, with units in its headings; and a grid for each of its
   CHECK(table(folder.shell("rheonet sweep scene.toml --list list.csv --vary simulate.stop=1,2 --measure 'final(c.force)' -q", 0).out)[4][4] == "6");
 }
 
+TEST_CASE("sweep and compare: what is wrong with the path of a value is shown as it was given") {
+  const Folder folder(overcome);
+  for (const std::string command : {"sweep scene.toml", "compare scene.toml scene.toml"}) {
+    const Finished result = folder.shell("rheonet " + command + " --set s1.coulomb=2 --vary s2.colomb=1,3", 2);
+    CHECK(contains(result.err, "| --vary s2.colomb=1\n      |           ^\n  did you mean `coulomb`?"));
+    CHECK(contains(folder.shell("rheonet " + command + " --set s1.colomb=2 --vary s2.coulomb=1,3", 2).err, "| --set s1.colomb=2\n"));
+  }
+}
+
 TEST_CASE("sweep: a run that fails is a row that says why, the others are done") {
   const Folder folder(overcome);
   const Finished result = folder.shell("rheonet sweep scene.toml --vary s2.coulomb=1,3,-2 --measure 'max(k1.force)'", 1);

@@ -84,7 +84,7 @@ View from_moving_frame(Scene scene, double v) {
   carrier.at = true;
   carrier.a = base;
   carrier.signal_parameters = {1};
-  carrier.signals = {Signal(Signal::Constant{0})};
+  carrier.signals = std::vector<Signal>(1, Signal(Signal::Constant{0}));
   scene.elements.push_back(std::move(carrier));
   view.scene = boosted(std::move(scene), v);
   return view;

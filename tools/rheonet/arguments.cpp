@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <functional>
-#include <map>
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
@@ -131,7 +131,7 @@ CLI::Option* add_list(CLI::App* command, const char* names, std::vector<std::str
   return option;
 }
 
-void add_plot(CLI::App* command, Arguments& arguments) {
+void add_figure(CLI::App* command, Arguments& arguments) {
   Arguments::Plot& plot = arguments.plot;
   command->add_option("FILES", arguments.scenes, "scenes (.toml) and CSV files; their curves are overlaid")
       ->required()
@@ -161,7 +161,7 @@ void add_plot(CLI::App* command, Arguments& arguments) {
   command->add_option("--size", plot.size, "of the figure, in px (96 to the inch)")->type_name("WxH");
 }
 
-/// The commands and options as CLI11 knows them, and what it reads into.
+/// The commands and options as CLI11 knows them, and what it reads into. A command has its options where it is called.
 struct CommandLine {
   Arguments arguments;
   std::optional<std::string> accuracy, within, order, runs, random, latin, seed, jobs;
@@ -169,41 +169,48 @@ struct CommandLine {
   CLI::App app{"Simulates one-dimensional mechanical networks: springs, dashpots, friction, masses, drives.\n",
                "rheonet"};
 
-  CommandLine() {
+  struct Command {
+    const char* name;
+    Arguments::Command command;
+    const char* description;
+    const char* footer;
+    void (CommandLine::*add_options)(CLI::App*);
+  };
+  static const std::array<Command, 13>& commands() {
+    using Name = Arguments::Command;
+    using Line = CommandLine;
+    static const std::array<Command, 13> all{{
+        {"run", Name::run, "simulate a scene and write its records as CSV", footer_of_run, &Line::add_run},
+        {"check", Name::check, "read and check a scene without simulating it", footer_of_check, &Line::add_check},
+        {"explain", Name::explain, "say what will be simulated of a scene, and why", footer_of_explain, &Line::add_explain},
+        {"effects", Name::effects, "say what each effect of a scene contributes to its records, and what it costs", footer_of_effects, &Line::add_effects},
+        {"compare", Name::compare, "simulate scenes and say how far they are from the first", footer_of_compare, &Line::add_compare},
+        {"precision", Name::precision, "simulate a scene at many accuracies and say what each costs and gives", footer_of_precision, &Line::add_precision},
+        {"sweep", Name::sweep, "simulate a scene for many values, on all processors, into one CSV file", footer_of_sweep, &Line::add_sweep},
+        {"plot", Name::plot, "draw results: curves of scenes and of CSV files", footer_of_plot, &Line::add_plot},
+        {"draw", Name::draw, "draw the network of a scene as an engineer does", footer_of_draw, &Line::add_draw},
+        {"report", Name::report, "write one HTML file that shows scenes and their results", footer_of_report, &Line::add_report},
+        {"serve", Name::serve, "play with netlists in a browser", footer_of_serve, &Line::add_serve},
+        {"components", Name::components, "describe the element types", "", &Line::add_components},
+        {"schema", Name::schema, "print the JSON Schema of a scene, for editors", "", &Line::add_schema},
+    }};
+    return all;
+  }
+
+  explicit CommandLine(const std::vector<std::string>& words) {
     app.set_help_flag("-h,--help", "print this help");
     app.set_version_flag("--version", "rheonet " RHEONET_VERSION, "print the version");
     app.footer(footer_of_rheonet);
     // Extra words are let through here and refused by refuse_extra_words, which knows the nearest right one.
     app.allow_extras()->require_subcommand(0, 1);
-    add_run();
-    add_check();
-    add_explain();
-    add_effects();
-    add_compare();
-    add_precision();
-    add_sweep();
-    CLI::App* plot = add_command("plot", "draw results: curves of scenes and of CSV files", footer_of_plot);
-    add_plot(plot, arguments);
-    add_overrides(plot);
-    add_accuracy(plot);
-    add_draw();
-    CLI::App* report = add_command("report", "write one HTML file that shows scenes and their results", footer_of_report);
-    add_report_options(*report, arguments.scenes, arguments.output, arguments.title, arguments.certify, arguments.report);
-    add_overrides(report);
-    add_accuracy(report);
-    add_serve_options(*add_command("serve", "play with netlists in a browser", footer_of_serve), arguments.serve);
-    CLI::App* components = add_command("components", "describe the element types");
-    components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
-    components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
-    add_command("schema", "print the JSON Schema of a scene, for editors");
+    for (const Command& command : commands()) {
+      CLI::App* known = app.add_subcommand(command.name, command.description)->allow_extras();
+      known->footer(command.footer);
+      if (std::find(words.begin(), words.end(), command.name) != words.end()) (this->*command.add_options)(known);
+    }
   }
   CommandLine(const CommandLine&) = delete;  // `app` holds the addresses of the others
 
-  CLI::App* add_command(const char* name, const char* description, const char* footer = "") {
-    CLI::App* command = app.add_subcommand(name, description)->allow_extras();
-    command->footer(footer);
-    return command;
-  }
   void add_overrides(CLI::App* command) {
     add_list(command, "--set", arguments.overrides,
              "in place of a value of the scene, named by its path; may be repeated", "PATH=VALUE", false);
@@ -221,8 +228,7 @@ struct CommandLine {
         ->type_name("E");
   }
 
-  void add_run() {
-    CLI::App* run = add_command("run", "simulate a scene and write its records as CSV", footer_of_run);
+  void add_run(CLI::App* run) {
     add_scene(run);
     run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
         ->type_name("FILE");
@@ -237,9 +243,7 @@ struct CommandLine {
     run->add_option("--order", order, "of the integration method, at most: 1 to 5, if not given 5")->type_name("N");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
-  void add_precision() {
-    CLI::App* precision =
-        add_command("precision", "simulate a scene at many accuracies and say what each costs and gives", footer_of_precision);
+  void add_precision(CLI::App* precision) {
     add_scene(precision);
     add_accuracy(precision);
     add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
@@ -255,8 +259,7 @@ struct CommandLine {
         ->type_name("FILE");
     precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");
   }
-  void add_sweep() {
-    CLI::App* sweep = add_command("sweep", "simulate a scene for many values, on all processors, into one CSV file", footer_of_sweep);
+  void add_sweep(CLI::App* sweep) {
     add_scene(sweep);
     Arguments::Sweep& s = arguments.sweep;
     add_list(sweep, "--vary", s.vary, "a value that takes many; may be repeated", "PATH=RANGE", false);
@@ -272,27 +275,23 @@ struct CommandLine {
     sweep->add_flag("--resume", s.resume, "go on where an interrupted sweep into the same file ended");
     sweep->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
-  void add_check() {
-    CLI::App* check = add_command("check", "read and check a scene without simulating it", footer_of_check);
+  void add_check(CLI::App* check) {
     add_scene(check);
     check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
   }
-  void add_explain() {
-    CLI::App* explain = add_command("explain", "say what will be simulated of a scene, and why", footer_of_explain);
+  void add_explain(CLI::App* explain) {
     add_scene(explain);
     add_accuracy(explain);
     explain->add_flag("--json", arguments.json, "for a program to read");
   }
-  void add_effects() {
-    CLI::App* weigh = add_command("effects", "say what each effect of a scene contributes to its records, and what it costs", footer_of_effects);
+  void add_effects(CLI::App* weigh) {
     add_scene(weigh);
     add_accuracy(weigh);
     weigh->add_option("--within", within, "difference that would not matter, of a record's largest magnitude; 0.01 if not given")->type_name("E");
     weigh->add_option("--runs", runs, "of each model, whose CPU time is taken; 5 if not given")->type_name("N");
     weigh->add_option("-o,--output", arguments.overlay, "where all differences go as CSV; `-` is standard output")->type_name("FILE");
   }
-  void add_draw() {
-    CLI::App* draw = add_command("draw", "draw the network of a scene as an engineer does", footer_of_draw);
+  void add_draw(CLI::App* draw) {
     add_scene(draw);
     draw->add_option("-o,--output", arguments.output, "the figure: an .svg or a .png; `-` is an SVG on standard output")
         ->required()
@@ -301,8 +300,7 @@ struct CommandLine {
     draw->add_flag("--all", arguments.all, "of more than 45 elements also those that repeat what is beside them");
     draw->add_flag("--no-values", arguments.no_values, "names alone");
   }
-  void add_compare() {
-    CLI::App* compare = add_command("compare", "simulate scenes and say how far they are from the first", footer_of_compare);
+  void add_compare(CLI::App* compare) {
     compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
         ->required()
         ->expected(2, 26)
@@ -320,12 +318,28 @@ struct CommandLine {
                      "where the rows of all scenes go, side by side; `-` is standard output")
         ->type_name("FILE");
   }
+  void add_plot(CLI::App* plot) {
+    add_figure(plot, arguments);
+    add_overrides(plot);
+    add_accuracy(plot);
+  }
+  void add_report(CLI::App* report) {
+    add_report_options(*report, arguments.scenes, arguments.output, arguments.title, arguments.certify, arguments.report);
+    add_overrides(report);
+    add_accuracy(report);
+  }
+  void add_serve(CLI::App* serve) { add_serve_options(*serve, arguments.serve); }
+  void add_components(CLI::App* components) {
+    components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
+    components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
+  }
+  void add_schema(CLI::App*) {}
 };
 
 }  // namespace
 
 std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> words) {
-  CommandLine line;
+  CommandLine line(words);
   auto& [arguments, accuracy, within, order, runs, random, latin, seed, jobs, accuracies, only, app] = line;
 
   arguments.words = words;
@@ -361,21 +375,9 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     return report(mistake, app);
   }
 
-  using Command = Arguments::Command;
-  const std::map<std::string, Command> commands = {{"run", Command::run},
-                                                   {"check", Command::check},
-                                                   {"explain", Command::explain},
-                                                   {"effects", Command::effects},
-                                                   {"compare", Command::compare},
-                                                   {"precision", Command::precision},
-                                                   {"sweep", Command::sweep},
-                                                   {"plot", Command::plot},
-                                                   {"draw", Command::draw},
-                                                   {"report", Command::report},
-                                                   {"serve", Command::serve},
-                                                   {"components", Command::components},
-                                                   {"schema", Command::schema}};
-  arguments.command = commands.at(app.get_subcommands().front()->get_name());
+  const std::string called = app.get_subcommands().front()->get_name();
+  const auto& commands = CommandLine::commands();
+  arguments.command = std::find_if(commands.begin(), commands.end(), [&](const auto& c) { return called == c.name; })->command;
   return arguments;
 }
 

@@ -45,7 +45,7 @@ std::string some_records(const Scene& scene) {
   return text + (scene.records.size() > few ? ", ..." : "");
 }
 
-/// Reads the scenes, with one more override ("" for none).
+/// Reads the scenes, with one value of `--vary` ("" for none).
 Compared read_all(const Arguments& arguments, const std::string& override) {
   Compared compared;
   compared.files = arguments.scenes;
@@ -53,7 +53,10 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
   for (std::size_t i = 0; i < arguments.scenes.size(); ++i) {
     ReadOptions options = options_of(arguments);
     options.claims = false;  // they are about each scene as it stands, alone
-    if (!override.empty()) options.overrides.push_back(override);
+    if (!override.empty()) {
+      options.overrides.push_back(override);
+      options.varied = 1;
+    }
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);
     if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};

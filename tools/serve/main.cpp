@@ -1,3 +1,5 @@
+#include <string_view>
+
 #include "tools/rheonet/program.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/serve/playground.hpp"
@@ -6,9 +8,10 @@
 // to load an HTTP server.
 int main(int count, char** words) {
   using namespace rheonet::tool;
-  return run_program(count, words, [](const Arguments& arguments) {
-    if (arguments.command == Arguments::Command::serve) return rheonet::serve::play(arguments.serve);
-    say("error: this is what `rheonet serve` starts\n");
+  // Its help and its mistakes are those of `rheonet serve`.
+  if (count < 2 || words[1] != std::string_view("serve")) {
+    say("error: this is what `rheonet serve` starts\n  `rheonet serve --help` lists what there is\n");
     return wrong_input;
-  });
+  }
+  return run_program(count, words, [](const Arguments& arguments) { return rheonet::serve::play(arguments.serve); });
 }

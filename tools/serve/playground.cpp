@@ -57,9 +57,9 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
   api.attach(server, wanted.host);
   const int port = server.bind(wanted.host, wanted.port);
   if (port < 0) {
-    say("error: cannot listen at {}: the address is not this machine's, or the port is in use\n"
-        "  `--port 0` takes any that is free\n",
-        address_of(wanted.host, wanted.port));
+    say("error: cannot listen at {}: {}\n", address_of(wanted.host, wanted.port),
+        wanted.port == 0 ? "the address is not this machine's\n  without `--host` it is this machine's own alone, 127.0.0.1"
+                         : "the address is not this machine's, or the port is in use\n  `--port 0` takes any that is free");
     return not_simulated;
   }
   const std::atomic<bool>& interrupted = end_on_signals();
