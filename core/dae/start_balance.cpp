@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "core/network/index.hpp"
 
@@ -35,9 +36,9 @@ class StartBalance {
         fixed_(std::move(fixed)),
         tolerance_(std::max(1e-9, network.scene->accuracy)),
         around_(structure.groups.size()),
-        slip_(structure.groups.size(), 0),
-        before_(slip_),
-        after_(slip_) {
+        lets_go_(structure.groups.size(), 0),
+        before_(structure.groups.size(), 0),
+        after_(before_) {
     // The position of what is heavy or held by dashpots is its own: 0 unless given.
     for (std::size_t n = 0; n < fixed_.size(); ++n) fixed_[n] = fixed_[n] || structure.group[n] < 0;
     find_branches();
@@ -94,11 +95,18 @@ class StartBalance {
       }
     }
     for (const Network::Slider& slider : network_.sliders) {
-      const int ga = structure_.group[at(slider.branch.a)], gb = structure_.group[at(slider.branch.b)];
-      if (ga == gb) continue;
-      if (ga >= 0) slip_[at(ga)] += slider.law.breakaway;
-      if (gb >= 0) slip_[at(gb)] += slider.law.breakaway;
+      if (slider.law.breakaway > 0) let_go(slider.branch);
     }
+    if (network_.bundles == nullptr) return;
+    // What a slider is in lets go as it does.
+    for (std::size_t j = at(network_.first_bundle); j < network_.deflections.size(); ++j) let_go(network_.deflections[j]);
+  }
+
+  void let_go(const Branch& slides) {
+    const int ga = structure_.group[at(slides.a)], gb = structure_.group[at(slides.b)];
+    if (ga == gb) return;
+    if (ga >= 0) lets_go_[at(ga)] = 1;
+    if (gb >= 0) lets_go_[at(gb)] = 1;
   }
 
   void find_loads() {
@@ -160,7 +168,7 @@ class StartBalance {
 
   /// Where one thing is left open at a group with an initial force, it follows: its place, or another initial force.
   bool follow(int g) {
-    if (slip_[at(g)] > 0 || !(any_forced(g) || beside_given_place(g))) return false;
+    if (lets_go_[at(g)] || !(any_forced(g) || beside_given_place(g))) return false;
     const std::vector<Side> places = open(g, true), forces = open(g, false);
     if (!places.empty()) return place(g);
     if (!any_forced(g) || forces.size() != 1) return false;
@@ -169,12 +177,13 @@ class StartBalance {
 
   /// Of several initial forces that are left open each takes an equal part.
   bool share(int g) {
-    if (!any_forced(g) || slip_[at(g)] > 0 || !open(g, true).empty()) return false;
+    if (!any_forced(g) || lets_go_[at(g)] || !open(g, true).empty()) return false;
     const std::vector<Side> forces = open(g, false);
     if (forces.empty()) return false;
     const double each = left_to_others(g) / static_cast<double>(forces.size());
-    for (const Side& side : forces) demand(g, side, each);
-    return true;
+    bool any = false;
+    for (const Side& side : forces) any = demand(g, side, each) || any;
+    return any;
   }
 
   bool demand(int g, const Side& side, double sum) {
@@ -209,7 +218,7 @@ class StartBalance {
     Region region{.groups = {g}, .number = {{g, 0}}};
     for (std::size_t k = 0; k < region.groups.size(); ++k) {
       const int group = region.groups[k];
-      if (slip_[at(group)] > 0) return {};
+      if (lets_go_[at(group)]) return {};
       for (const NodeId node : structure_.groups[at(group)].nodes) {
         if (fixed_[at(node)]) return {};
       }
@@ -318,10 +327,20 @@ class StartBalance {
     return shift;
   }
 
+  /// All that leads away from it leads to one place.
+  bool hangs(int g) const {
+    const auto place = [&](const Side& s) {
+      const NodeId node = structure_.rigid[at(far_end(s))];
+      const int group = structure_.group[at(node)];
+      return std::pair(group, group < 0 ? node : ground);
+    };
+    return std::all_of(around_[at(g)].begin(), around_[at(g)].end(), [&](const Side& s) { return place(s) == place(around_[at(g)].front()); });
+  }
+
   void require_balance(int g) {
     // A loose end contradicts nothing that is given, nor does what sliders may let go of.
     const bool loaded = before_[at(g)] != 0 || after_[at(g)] != 0;
-    if (around_[at(g)].size() < (loaded ? 1 : 2) || slip_[at(g)] > 0) return;
+    if (around_[at(g)].empty() || (!loaded && hangs(g)) || lets_go_[at(g)]) return;
     const auto all = [&](bool Member::*what) {
       return std::all_of(around_[at(g)].begin(), around_[at(g)].end(),
                          [&](const Side& s) { return members_[at(s.member)].*what; });
@@ -366,7 +385,7 @@ class StartBalance {
   double tolerance_;                       ///< less than the accuracy asked for contradicts nothing
   std::vector<Member> members_;            ///< of each deflection branch
   std::vector<std::vector<Side>> around_;  ///< of each group: the branches that lead away
-  std::vector<double> slip_;               ///< of each group: what sliders there may take [N]
+  std::vector<char> lets_go_;              ///< of each group: sliders there may
   std::vector<double> before_, after_;     ///< of each group: what is applied just before and after the start [N]
   std::vector<std::string> chosen_;
 };

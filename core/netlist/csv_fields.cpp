@@ -44,9 +44,18 @@ std::vector<CsvField> csv_fields(std::string_view line) {
   std::size_t at = 0, counted = 0, column = 1;
   while (at <= line.size()) {
     const std::size_t closing = closing_quote(line, at);
-    const std::size_t from = closing == line.npos ? at : closing;
+    std::size_t from = closing == line.npos ? at : closing;
+    // Between blanks a unit belongs to the name before it.
+    const bool unit = separator == ' ' && at > 0 && !fields.empty() && line.substr(at - 1).starts_with(" [") && line.find(']', at) != line.npos;
+    if (unit) from = line.find(']', at);
     std::size_t end = separator == ' ' ? line.find_first_of(blank, from) : line.find(separator, from);
     end = std::min(end, line.size());
+    if (unit) {
+      const std::string_view name = fields.back().text;
+      fields.back().text = {name.data(), static_cast<std::size_t>(line.data() + end - name.data())};
+      at = end + 1;
+      continue;
+    }
     const std::string_view text = trim(line.substr(at, end - at));
     const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);
     column += count_characters(line.substr(counted, begin - counted));

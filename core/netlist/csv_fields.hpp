@@ -14,7 +14,8 @@ struct CsvField {
   bool decimal_comma = false;  ///< a comma in it can be nothing but that of a number
 };
 
-/// The fields of a line, split at semicolons if it has any, else at commas, else at blanks and tabs. A field may stand
+/// The fields of a line, split at semicolons if it has any, else at commas, else at blanks and tabs: a unit in square
+/// brackets stays with the name before it. A field may stand
 /// in quotes, as spreadsheets write them, and may then have such separators in it. Where semicolons split, numbers may be
 /// written with a comma, as spreadsheets of half the world do.
 std::vector<CsvField> csv_fields(std::string_view line);

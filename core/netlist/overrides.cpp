@@ -52,25 +52,28 @@ bool excludes(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::deque<Override> read_overrides(const std::vector<std::string>& texts, std::size_t varied, Sources& sources, Mistakes& mistakes) {
+std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources,
+                                    Mistakes& mistakes) {
+  const std::size_t of_set = texts.size() - origins.size();
   std::deque<Override> overrides;
   for (std::size_t k = 0; k < texts.size(); ++k) {
     const std::string& text = texts[k];
-    const std::string_view option = k + varied < texts.size() ? "--set " : "--vary ";
-    sources.command_line.push_back(std::string(option) + text);
+    const std::string option = k < of_set ? "--set " : origins[k - of_set];
+    const std::size_t before = count_characters(option);
+    sources.command_line.push_back(option + text);
     const int line = static_cast<int>(sources.command_line.size());
     Override override;
-    const std::size_t begin = read_path(text, line, option.size(), override.path);
+    const std::size_t begin = read_path(text, line, before, override.path);
     const bool nameless =
         std::any_of(override.path.begin(), override.path.end(), [](auto& p) { return p.name.empty(); });
     if (begin == 0 || nameless) {
-      mistakes.error({Spot::command_line, line, 1 + static_cast<int>(option.size())},
+      mistakes.error({Spot::command_line, line, 1 + static_cast<int>(before)},
                      "expected PATH=VALUE, found `" + text + "`",
                      "for instance --set k1.stiffness=\"2 N/m\"");
       continue;
     }
     const std::string_view value = std::string_view(text).substr(begin);
-    const Spot spot{Spot::command_line, line, 1 + static_cast<int>(option.size() + count_characters(text.substr(0, begin)))};
+    const Spot spot{Spot::command_line, line, 1 + static_cast<int>(before + count_characters(text.substr(0, begin)))};
     if (auto parsed = parse_toml_value(value, spot)) {
       override.value = std::move(*parsed);
     } else {

@@ -29,9 +29,10 @@ struct ActiveOverride {
 };
 using ActiveOverrides = std::vector<ActiveOverride>;
 
-/// Reads the overrides, taking their text into sources.command_line; the last `varied` ones as those of --vary. The value is a TOML value if it can be read as
+/// Reads the overrides, taking their text into sources.command_line; the last ones of them after
+/// what is in `origins`, the others after "--set ". The value is a TOML value if it can be read as
 /// one, else a string. The path is split at dots; a part with a dot in it stands in quotes.
-std::deque<Override> read_overrides(const std::vector<std::string>& texts, std::size_t varied, Sources& sources, Mistakes& mistakes);
+std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources, Mistakes& mistakes);
 
 /// The path of an override up to where it has come: "bingham.k1".
 std::string path_to(const ActiveOverride& active);

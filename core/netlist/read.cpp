@@ -51,7 +51,7 @@ class Reader {
   }
 
   void read(fs::path name, std::string text, fs::path folder, const fs::path& canonical) {
-    overrides_ = read_overrides(options_.overrides, options_.varied, result_.sources, mistakes_);
+    overrides_ = read_overrides(options_.overrides, options_.origins, result_.sources, mistakes_);
     const int file = files_.add(std::move(name), std::move(text), std::move(folder));
     if (auto document = parse_toml(file, result_.sources, mistakes_)) {
       document_ = std::move(*document);

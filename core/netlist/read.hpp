@@ -15,7 +15,7 @@ namespace rheonet {
 
 struct ReadOptions {
   std::vector<std::string> overrides;         ///< "PATH=VALUE", as after --set
-  std::size_t varied = 0;                     ///< the last so many of these are values after --vary: messages show them so
+  std::vector<std::string> origins = {};      ///< of the last ones of these, what messages show before them; before the others "--set "
   std::optional<double> accuracy = {};        ///< as after --accuracy; wins over the file
   std::vector<std::string> records = {};      ///< paths that are recorded besides those that the file asks for
   bool plotted = false;                       ///< what `[plot]` draws is recorded besides

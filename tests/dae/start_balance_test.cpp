@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/dae/started.hpp"
+#include "tests/support/simulate.hpp"
 
 namespace rheonet::test {
 
@@ -149,6 +150,24 @@ TEST_CASE("the place of a massless node in a row of springs at which their force
   const double balanced = 0.01 * 30 / (30 + 40.0 / 3);
   CHECK_FALSE(refused(balanced));
   CHECK(refused(1.001 * balanced));
+}
+
+TEST_CASE("a spring in series with a slider takes its part of an initial force, up to where the slider yields") {
+  constexpr double f0 = 0.59, k3 = 113.0;
+  for (const bool others : {true, false}) {
+    for (const double coulomb : {0.9, 0.03}) {
+      SceneBuilder b;
+      b.between("given", "spring", "a", "ground", {{"stiffness", k}, {"f0", f0}});
+      if (others) b.between("other", "spring", "a", "ground", {{"stiffness", k3}});
+      b.between("slider", "slider", "a", "c", {{"coulomb", coulomb}, {"breakaway", coulomb}});
+      b.between("behind", "spring", "c", "ground", {{"stiffness", k2}});
+      const Trajectory run = simulate(b.finish(1, 10, 1e-9));
+      const double beside = others ? k3 : 0;
+      double x = -f0 / (k + beside + k2);
+      if (k2 * -x > coulomb) x = -(f0 - coulomb) / (k + beside);
+      for (const double position : run["a.position"]) CHECK_EQ(position, exactly(x));
+    }
+  }
 }
 
 }  // namespace rheonet::test

@@ -169,6 +169,20 @@ TEST_CASE("sweep and compare: what is wrong with the path of a value is shown as
     CHECK(contains(result.err, "| --vary s2.colomb=1\n      |           ^\n  did you mean `coulomb`?"));
     CHECK(contains(folder.shell("rheonet " + command + " --set s1.colomb=2 --vary s2.coulomb=1,3", 2).err, "| --set s1.colomb=2\n"));
   }
+  folder.write("list.csv", "s2.colomb [N]\n1\n3\n");
+  CHECK(contains(folder.shell("rheonet sweep scene.toml --list list.csv", 2).err,
+                 "| --list list.csv: s2.colomb=1 N\n      |                     ^\n  did you mean `coulomb`?"));
+}
+
+TEST_CASE("sweep: a list between blanks, units and all") {
+  const Folder folder(overcome);
+  const std::string of = "rheonet sweep scene.toml --measure 'max(k1.force)' -q --list list.csv";
+  folder.write("list.csv", "s2.coulomb [N],s1.coulomb\n3,2\n4,5\n");
+  const std::string both = folder.shell(of, 0).out;
+  folder.write("list.csv", "s2.coulomb [ N ] s1.coulomb\n3 2\n4 5\n");
+  CHECK(folder.shell(of, 0).out == both);
+  folder.write("list.csv", "s2.coulomb [N]\n3\n");
+  CHECK(table(folder.shell(of, 0).out)[1][1] == "3");
 }
 
 TEST_CASE("sweep: a run that fails is a row that says why, the others are done") {

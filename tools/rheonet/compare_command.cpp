@@ -55,7 +55,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     options.claims = false;  // they are about each scene as it stands, alone
     if (!override.empty()) {
       options.overrides.push_back(override);
-      options.varied = 1;
+      options.origins = {"--vary "};
     }
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);

@@ -46,9 +46,11 @@ std::variant<Design, NoVariation> Design::read(const Arguments::Sweep& sweep) {
   if (!sweep.list.empty()) {
     Checked checked = design.read_list(sweep.list);
     if (auto* wrong = std::get_if<NoVariation>(&checked)) return std::move(*wrong);
+    design.origins_.assign(design.paths_.size(), "--list " + sweep.list + ": ");
   }
   Checked checked = design.read_ranges(sweep);
   if (auto* wrong = std::get_if<NoVariation>(&checked)) return std::move(*wrong);
+  design.origins_.resize(design.paths_.size(), "--vary ");
   std::set<std::string> seen;
   for (const std::string& path : design.paths_)
     if (!seen.insert(path).second) return NoVariation{fmt::format("`{}` is varied twice", path), ""};

@@ -18,6 +18,8 @@ class Design {
   static std::variant<Design, NoVariation> read(const Arguments::Sweep& sweep);
 
   const std::vector<std::string>& paths() const { return paths_; }
+  /// Where each path was given: "--vary ", "--list values.csv: ".
+  const std::vector<std::string>& origins() const { return origins_; }
   long runs() const { return rows_ * drawn_ * grid_; }
   /// A value for each path, as `--set` takes it; `run` counts from 0. Rows of the list vary most slowly, then the draws
   /// or the first `--vary`.
@@ -29,7 +31,7 @@ class Design {
   /// Of a draw, along one of the ranges.
   double fraction(long draw, std::size_t range) const;
 
-  std::vector<std::string> paths_;
+  std::vector<std::string> paths_, origins_;
   std::vector<std::vector<std::string>> list_;  ///< its rows
   std::vector<Variation> variations_;           ///< of a grid
   std::vector<Range> ranges_;                   ///< of what is drawn

@@ -13,7 +13,7 @@ namespace rheonet::tool {
 
 ReadOptions options_of(const Arguments& arguments) {
   return {.overrides = arguments.overrides,
-          .varied = 0,
+          .origins = {},
           .accuracy = arguments.accuracy,
           .without = arguments.without,
           .only = arguments.only,

@@ -91,7 +91,7 @@ ReadResult Sweep::read(const std::vector<std::string>& values) {
   options.measures = table_.record_measures();
   for (std::size_t k = 0; k < values.size(); ++k)
     options.overrides.push_back(design_.paths()[k] + '=' + values[k]);
-  options.varied = values.size();
+  if (!values.empty()) options.origins = design_.origins();
   return read_scene(arguments_.scene, declarations(), options);
 }
 
@@ -104,7 +104,7 @@ bool Sweep::is_wrong_for_all(const ReadResult& refused) {
       // Lines of the command line: those of `--set`, of what is varied, of measures.
       const std::size_t line = static_cast<std::size_t>(mistake.spot.line) - 1;
       if (line < set || line >= set + design_.paths().size()) return true;
-      const std::size_t path = count_characters("--vary " + design_.paths()[line - set]);
+      const std::size_t path = count_characters(design_.origins()[line - set] + design_.paths()[line - set]);
       if (static_cast<std::size_t>(mistake.spot.column) <= path) return true;
       continue;
     }
