@@ -29,9 +29,9 @@ struct ActiveOverride {
 };
 using ActiveOverrides = std::vector<ActiveOverride>;
 
-/// Reads the overrides, taking their text into sources.command_line; the last ones of them after
-/// what is in `origins`, the others after "--set ". The value is a TOML value if it can be read as
-/// one, else a string. The path is split at dots; a part with a dot in it stands in quotes.
+/// Reads the overrides, taking their text into sources.command_line: the last ones after what is in `origins`, the others
+/// after "--set ". The value is a TOML value if it can be read as one, else a string. The path is split at dots; a part with
+/// a dot in it stands in quotes.
 std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources, Mistakes& mistakes);
 
 /// The path of an override up to where it has come: "bingham.k1".

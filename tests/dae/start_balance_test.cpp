@@ -170,4 +170,18 @@ TEST_CASE("a spring in series with a slider takes its part of an initial force, 
   }
 }
 
+TEST_CASE("what hangs on one place alone may begin out of balance, by one spring or by two") {
+  for (const bool two : {false, true}) {
+    for (const bool held : {false, true}) {
+      SceneBuilder b;
+      b.motion("drive", "end", "velocity", Signal(Signal::Constant{0.31}));
+      b.start("a", 0.017);
+      b.between("one", "spring", "a", "end", {{"stiffness", k}});
+      if (two) b.between("other", "spring", "end", "a", {{"stiffness", k2}});
+      if (held) b.between("third", "spring", "a", "ground", {{"stiffness", k}});
+      CHECK_EQ(is_refused(b), held);
+    }
+  }
+}
+
 }  // namespace rheonet::test

@@ -138,6 +138,23 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
 )");
 }
 
+TEST_CASE("more loose nodes than are mistyped are meant: none is guessed") {
+  const Folder folder;
+  const auto guesses = [&](int loose) {
+    std::string scene = "[elements]\nm = { type = \"mass\", at = \"seat\", mass = 1 }\n";
+    for (int n = 0; n < loose; ++n) {
+      const std::string number = std::to_string(n);
+      scene += "k" + number + " = { type = \"spring\", between = [\"seat\", \"end" + number + "\"], stiffness = 3 }\n";
+    }
+    folder.write("scene.toml", scene + "[simulate]\nstop = 1\n");
+    const std::string told = folder.shell("rheonet check scene.toml", 0).err;
+    CHECK(told.find("is at node `end1`: it carries no force") != std::string::npos);
+    return told.find("did you mean") != std::string::npos;
+  };
+  CHECK(guesses(20));
+  CHECK(!guesses(21));
+}
+
 TEST_CASE("a delay so short that the run takes millions of steps is told before") {
   const Folder folder;
   const auto notes = [&](const std::string& delay) {
