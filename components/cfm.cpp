@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include "components/solid_friction.hpp"
 #include "components/spring_to_slider.hpp"
@@ -9,8 +8,6 @@ namespace rheonet {
 namespace {
 
 constexpr double at_bound = 1e-12;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double any = -infinity;
 
 // Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
 // deflection p with p' = w - f/B the force is that model's: df/dp = E. At rest s = 0 and E = sigma.
@@ -152,7 +149,7 @@ struct Cfm : SolidFriction {
   }
 };
 
-bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
+bool vanishes(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
 
 std::optional<Misfit> start_that_can_be(std::span<const double> v) {
   if (std::isinf(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]) && v[1] > 0 && v[2] > 0) {
@@ -162,7 +159,7 @@ std::optional<Misfit> start_that_can_be(std::span<const double> v) {
   return beyond_bound(v[4], v[1]);
 }
 
-const RegisterComponent registered({
+const RegisterComponent register_cfm({
     .declaration =
         {
             .type = "cfm",
@@ -177,7 +174,7 @@ const RegisterComponent registered({
                      .description = "force per velocity in slow steady motion; 0 means no force"},
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
                      .upper = 100, .symbol = "i", .description = "shape of the loop, as for `sfm`"},
-                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = -infinity,
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
             .check = start_that_can_be,
@@ -195,7 +192,7 @@ const RegisterComponent registered({
                      "f^2/B + f (w - f/B)(1 - u^i) with u = 1 - s f/Fc.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0, coulomb = 0 or damping = 0", .becomes = "", .applies = no_force, .values = {}},
+    .limits = {{.when = "stiffness = 0, coulomb = 0 or damping = 0", .becomes = "", .applies = vanishes, .values = {}},
                {.when = "damping = inf", .becomes = "sfm",
                 .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], v[3], v[4]}; }},

@@ -47,7 +47,7 @@ struct Dashpot {
 
 bool no_damping(std::span<const double> v) { return v[0] == 0; }
 
-const RegisterComponent registered({
+const RegisterComponent register_dashpot({
     .declaration =
         {
             .type = "dashpot",

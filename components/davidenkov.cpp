@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "components/spring_to_slider.hpp"
@@ -9,8 +8,6 @@
 
 namespace rheonet {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Davidenkov's hysteresis. With x the travel on the first loading, and X = n/(n - 1) Fc/sigma the travel to its bound,
 //
@@ -199,7 +196,7 @@ struct Davidenkov {
   }
 };
 
-const RegisterComponent registered({
+const RegisterComponent register_davidenkov({
     .declaration =
         {
             .type = "davidenkov",

@@ -3,7 +3,7 @@
 namespace rheonet {
 namespace {
 
-const RegisterComponent registered({
+const RegisterComponent register_force({
     .declaration =
         {
             .type = "force",

@@ -22,7 +22,7 @@ struct Trace {
   std::string operator()(const Signal::Table&) const { return "M.14 .66 L.28 .38 L.44 .52 L.62 .3 L.74 .36 L.86 .6"; }
 };
 
-const RegisterComponent registered({
+const RegisterComponent register_generator({
     .declaration =
         {
             .type = "generator",

@@ -4,7 +4,7 @@
 namespace rheonet {
 namespace {
 
-const RegisterComponent registered({
+const RegisterComponent register_integrator({
     .declaration =
         {
             .type = "integrator",

@@ -8,7 +8,7 @@ std::optional<Misfit> upside_down(std::span<const double> v) {
   return Misfit{"upper", "is less than `lower`, which is -upper unless it is given"};
 }
 
-const RegisterComponent registered({
+const RegisterComponent register_limiter({
     .declaration =
         {
             .type = "limiter",

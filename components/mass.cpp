@@ -5,7 +5,7 @@ namespace {
 
 bool massless(std::span<const double> v) { return v[0] == 0; }
 
-const RegisterComponent registered({
+const RegisterComponent register_mass({
     .declaration =
         {
             .type = "mass",

@@ -3,7 +3,7 @@
 namespace rheonet {
 namespace {
 
-const RegisterComponent registered({
+const RegisterComponent register_motion({
     .declaration =
         {
             .type = "motion",

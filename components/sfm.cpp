@@ -8,8 +8,6 @@
 namespace rheonet {
 namespace {
 
-constexpr double any = -std::numeric_limits<double>::infinity();
-
 // Solid friction model: df/dt = E w, E = sigma |1 - s f/Fc|^i sgn(1 - s f/Fc), s = sgn w. The deflection is the relative
 // displacement, counted from the start.
 struct Sfm : SolidFriction {
@@ -59,7 +57,7 @@ struct Sfm : SolidFriction {
   double dissipated_power(double p, double, double w) const { return heating(p, w); }
 };
 
-const RegisterComponent registered({
+const RegisterComponent register_sfm({
     .declaration =
         {
             .type = "sfm",
@@ -73,7 +71,7 @@ const RegisterComponent registered({
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
                      .upper = 100, .symbol = "i",
                      .description = "shape of the loop: 0 is Prandtl's elastic-plastic law, 1 brittle, above 1 ductile"},
-                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = any,
+                    {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = -infinity,
                      .symbol = "f0", .description = "force at the start (0 unless given), within +-Fc"},
                 },
             .check = start_within_bound,

@@ -13,7 +13,7 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
   return Misfit{"breakaway", "is less than `coulomb`: once at rest it would have to slip at a force that holds it"};
 }
 
-const RegisterComponent registered({
+const RegisterComponent register_slider({
     .declaration =
         {
             .type = "slider",

@@ -28,7 +28,7 @@ LinearSpring linear(std::span<const double> v) { return {.stiffness = v[0], .res
 
 bool no_stiffness(std::span<const double> v) { return v[0] == 0; }
 
-const RegisterComponent registered({
+const RegisterComponent register_spring({
     .declaration =
         {
             .type = "spring",

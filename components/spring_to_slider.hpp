@@ -11,6 +11,8 @@
 
 namespace rheonet {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// For laws that begin as a spring and come to flow as a slider: why a force f0 at the start [N; NaN: not given] cannot
 /// be, if it lies beyond the bound Fc [N].
 inline std::optional<Misfit> beyond_bound(double f0, double Fc) {
@@ -28,7 +30,7 @@ inline std::optional<Misfit> start_within_bound(std::span<const double> v) { ret
 
 /// Its effects: without friction there is no force, without elasticity it is rigid up to its bound.
 inline std::vector<Brought> friction_effects() {
-  return {{Effect::dry_friction, "coulomb", 0}, {Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()}};
+  return {{Effect::dry_friction, "coulomb", 0}, {Effect::elasticity, "stiffness", infinity}};
 }
 
 /// The limits that such a law has whatever its shape is; `others` follow them.

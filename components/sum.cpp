@@ -5,7 +5,7 @@ namespace {
 
 constexpr std::size_t most_inputs = 1000;
 
-const RegisterComponent registered({
+const RegisterComponent register_sum({
     .declaration =
         {
             .type = "sum",

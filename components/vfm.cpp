@@ -46,7 +46,7 @@ std::optional<Misfit> delay_of_a_limit(std::span<const double> v) {
   return Misfit{"delay", "needs finite `damping` and `stiffness`: neither a spring nor a dashpot can be delayed"};
 }
 
-const RegisterComponent registered({
+const RegisterComponent register_vfm({
     .declaration =
         {
             .type = "vfm",

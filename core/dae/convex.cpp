@@ -11,7 +11,7 @@ namespace rheonet {
 namespace {
 
 // A balance of forces is met when it is off by this much of their magnitudes.
-constexpr double balance_rounding = 1e-13;
+constexpr double equilibrium_rounding = 1e-13;
 // What a step can still gain, of the power: the square of a rounding, as it is of second order.
 constexpr double power_rounding = 1e-24;
 constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -26,7 +26,7 @@ constexpr double weak_share = 1e-9;
 // bounds may differ by and decide.
 constexpr double weak_force = 1e-11;
 // A law with a slope this much smaller than its other one is flat to that side.
-constexpr double negligible = 1e-14;
+constexpr double flat_law_share = 1e-14;
 
 }  // namespace
 
@@ -109,7 +109,7 @@ void ConvexNetwork::choose_weak() {
   for (Branch& b : branches_) {
     if (heavy(b.a) && heavy(b.b)) continue;  // decided without
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
-    if (!b.jumps && flatter > negligible * steeper) continue;
+    if (!b.jumps && flatter > flat_law_share * steeper) continue;
     const double around = std::min(least[at(b.a)], least[at(b.b)]);
     double bounds = 0;
     for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
@@ -193,7 +193,7 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     const int column = column_[at(cluster_[at(node)])];
     if (column < 0) return;
     gradient[at(column)] += f;
-    rounding[at(column)] += balance_rounding * std::abs(f);
+    rounding[at(column)] += equilibrium_rounding * std::abs(f);
   };
   // Values are known to their last digit only.
   const auto blur = [&](int node, double slope, double x) {

@@ -10,7 +10,7 @@ namespace rheonet {
 namespace {
 
 // A law with a slope this much smaller than its other one is flat to that side.
-constexpr double negligible = 1e-6;
+constexpr double flat_step_share = 1e-6;
 // A search along a line. Where the step to the end of a jump is rounded, and its product: twice the half unit each.
 constexpr double break_rounding = 4e-16;
 // To this side of a jump: so much less than the step that leads to it, more than its rounding.
@@ -36,7 +36,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
     if (secants) {
       if (w != 0) s = std::max(s, std::abs(force(b, w, b.side) / w));
       const double steeper = std::max(b.law.forward, b.law.backward);
-      if (s <= negligible * steeper) s = steeper;
+      if (s <= flat_step_share * steeper) s = steeper;
     }
     if (a >= 0) entries.emplace_back(a, a, s);
     if (c >= 0) entries.emplace_back(c, c, s);

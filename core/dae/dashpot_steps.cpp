@@ -15,15 +15,15 @@ namespace rheonet {
 
 namespace {
 
-struct Dashpot {
+struct BranchDashpot {
   NodeId a, b;
   double coefficient;
 };
 
 /// Dashpots by their exponents, the largest first.
-using ByExponent = std::map<double, std::vector<Dashpot>, std::greater<>>;
+using ByExponent = std::map<double, std::vector<BranchDashpot>, std::greater<>>;
 
-ByExponent sorted(const Network& network) {
+ByExponent by_exponent(const Network& network) {
   ByExponent result;
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -61,16 +61,16 @@ class Steps {
 
   /// Settles what dashpots of this exponent lead to from known steps. What they join elsewhere goes as one from there
   /// on: nothing that is left can move it apart.
-  bool settle(double exponent, const std::vector<Dashpot>& dashpots) {
+  bool settle(double exponent, const std::vector<BranchDashpot>& dashpots) {
     const std::vector<char> led = led_by(dashpots);
     double stiffest = 0;
-    for (const Dashpot& d : dashpots) stiffest = std::max(stiffest, d.coefficient);
+    for (const BranchDashpot& d : dashpots) stiffest = std::max(stiffest, d.coefficient);
     ConvexNetwork balance(static_cast<int>(dx_.size()));
     const auto slot = [&](NodeId node) { return structure_.rank[at(node)]; };
     for (std::size_t n = 0; n < dx_.size(); ++n) {
       if (!led[n]) balance.fix(slot(static_cast<NodeId>(n)), dx_[n] / farthest_);
     }
-    for (const Dashpot& d : dashpots) {
+    for (const BranchDashpot& d : dashpots) {
       const NodeId a = together_.find(d.a), b = together_.find(d.b);
       if (a != b && (led[at(a)] || led[at(b)]))
         balance.add(slot(a), slot(b), law_of(d.coefficient / stiffest, exponent));
@@ -81,7 +81,7 @@ class Steps {
       dx_[n] = balance.value(slot(static_cast<NodeId>(n))) * farthest_;
       known_[n] = 1;
     }
-    for (const Dashpot& d : dashpots) {
+    for (const BranchDashpot& d : dashpots) {
       if (!known(d.a) && !known(d.b)) together_.join(d.a, d.b);
     }
     return true;
@@ -96,13 +96,13 @@ class Steps {
 
   /// The nodes, each standing for those that go with it, that are not known and that a way over such dashpots joins to
   /// one that is.
-  std::vector<char> led_by(const std::vector<Dashpot>& dashpots) {
+  std::vector<char> led_by(const std::vector<BranchDashpot>& dashpots) {
     Sets parts(dx_.size());
-    for (const Dashpot& d : dashpots) {
+    for (const BranchDashpot& d : dashpots) {
       if (!known(d.a) && !known(d.b)) parts.join(together_.find(d.a), together_.find(d.b));
     }
     std::vector<char> part_led(dx_.size(), 0), led(part_led);
-    for (const Dashpot& d : dashpots) {
+    for (const BranchDashpot& d : dashpots) {
       if (!known(d.a) && known(d.b)) part_led[at(parts.find(together_.find(d.a)))] = 1;
       if (!known(d.b) && known(d.a)) part_led[at(parts.find(together_.find(d.b)))] = 1;
     }
@@ -125,7 +125,7 @@ class Steps {
 bool go_with_dashpots(const Network& network, const Structure& structure, std::vector<double>& dx) {
   Steps steps(structure, dx);
   if (!steps.any()) return true;
-  for (const auto& [exponent, dashpots] : sorted(network)) {
+  for (const auto& [exponent, dashpots] : by_exponent(network)) {
     if (!steps.settle(exponent, dashpots)) return false;
   }
   steps.give_to_all();
@@ -176,7 +176,7 @@ class RigidParts {
   std::vector<std::vector<NodeId>> holders_;  ///< of each part
 };
 
-[[noreturn]] void report(const Network& network, double t, const Branch& dashpot, NodeId mass, const char* why) {
+[[noreturn]] void refuse_unbounded(const Network& network, double t, const Branch& dashpot, NodeId mass, const char* why) {
   throw SimulationError(
       fmt::format("{} a step in position reaches the mass at node `{}` through dashpot `{}`, {}; give the step a time "
                   "to rise in, or put "
@@ -200,11 +200,11 @@ std::vector<double> momentum_through_dashpots(const Network& network, const Stru
         for (NodeId taker : takers) {
           if (structure.kind[at(taker)] != Kind::massive) continue;
           if (std::isinf(impulse)) {
-            report(network, t, b, taker,
+            refuse_unbounded(network, t, b, taker,
                    "whose force grows faster than the velocity (flow_index above 1): an infinite impulse");
           }
           if (takers.size() > 1) {
-            report(network, t, b, taker,
+            refuse_unbounded(network, t, b, taker,
                    "and which share of its impulse the dashpots beyond (flow_index above 1) take is open");
           }
           momentum[at(taker)] += sign * impulse * (dx[at(b.a)] - dx[at(b.b)]);

@@ -15,7 +15,7 @@ namespace rheonet {
 namespace {
 
 // Forces that balance but for this share of their magnitudes balance.
-constexpr double balance_rounding = 1e-12;
+constexpr double jump_rounding = 1e-12;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
       problem.fix(slot(node), dx[n]);
     } else if (speaker(node) != node) {
       problem.fix(slot(node), 0);
-    } else if (const double out = std::abs(sum[n]) - slack[n]; out > balance_rounding * magnitude[n] + rounding[n]) {
+    } else if (const double out = std::abs(sum[n]) - slack[n]; out > jump_rounding * magnitude[n] + rounding[n]) {
       problem.load(slot(node), -std::copysign(out, sum[n]));
       needed = true;
     }
@@ -87,7 +87,7 @@ std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, c
   const auto light = [&](const Branch& b) { return structure_.group[at(b.a)] >= 0 || structure_.group[at(b.b)] >= 0; };
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    needed = needed || (light(b) && std::abs(force[k]) > bound(k, force[k] > 0 ? 1 : -1) * (1 + balance_rounding));
+    needed = needed || (light(b) && std::abs(force[k]) > bound(k, force[k] > 0 ? 1 : -1) * (1 + jump_rounding));
   }
   if (!needed) return std::nullopt;
 

@@ -16,7 +16,7 @@ namespace rheonet {
 namespace {
 
 // Forces that balance but for this share of their magnitudes balance.
-constexpr double balance_rounding = 1e-12;
+constexpr double onset_rounding = 1e-12;
 // A law whose slope is this share of that to the other side has none.
 constexpr double flat = 1e-6;
 // A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
@@ -110,7 +110,7 @@ void Instant::add_nodes(Onset& onset, const State& state) const {
       onset.slope_around[n] = structure_.mass[n] / onset.h;
     }
     const double out = std::abs(onset.now.sum[n]) - slack_[n];
-    if (out > balance_rounding * onset.now.magnitude[n] + onset.now.rounding[n]) onset.problem.load(node, -std::copysign(out, onset.now.sum[n]));
+    if (out > onset_rounding * onset.now.magnitude[n] + onset.now.rounding[n]) onset.problem.load(node, -std::copysign(out, onset.now.sum[n]));
   }
   onset.problem.fix(slot(ground), 0);
 }
@@ -203,7 +203,7 @@ void Instant::add_sliders(Onset& onset) const {
     ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
     // At its bound the rate alone decides, not the rounding of the event.
     const double limit = bound(k, force > 0 ? 1 : -1);
-    const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= balance_rounding * limit;
+    const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
     const bool fired = contains(onset.fired.sliders, static_cast<int>(k));
     if (onset.modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
       (force > 0 ? law.high : law.low) = 0;

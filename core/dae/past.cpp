@@ -11,9 +11,9 @@ namespace rheonet {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 // What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
-constexpr int most_levels = 6;
+constexpr int most_delays = 6;
 
 /// The last one that has begun by t; nullptr if none has (before the run).
 template <class Items>
@@ -32,7 +32,7 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
       track_of_(network.nodes(), -1),
       track_of_motion_(network.motions.size(), -1),
       longest_step_(limit),
-      shortest_(channels > 0 ? *std::min_element(delays.begin(), delays.end()) : infinity),
+      shortest_(channels > 0 ? *std::min_element(delays.begin(), delays.end()) : never),
       longest_(reach) {
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -54,7 +54,7 @@ Past::Past(const Network& network, const std::vector<double>& delays, double rea
   }
   std::sort(delays_.begin(), delays_.end());
   delays_.erase(std::unique(delays_.begin(), delays_.end()), delays_.end());
-  taken_.assign(delayed_.size(), -infinity);
+  taken_.assign(delayed_.size(), -never);
   for (std::size_t m = 0; m < network.motions.size(); ++m) {
     if (network.motions[m].block >= 0) continue;  // as any other node
     track_of_motion_[m] = track_of_[static_cast<std::size_t>(network.motions[m].node)];
@@ -80,7 +80,7 @@ void Past::begin(const std::vector<double>& velocity) {
 
 void Past::mark(double t, bool fresh) {
   if (delays_.empty()) return;
-  int level = fresh ? 0 : most_levels;
+  int level = fresh ? 0 : most_delays;
   for (const double delay : delays_) {
     const auto early = [&](const Break& b) { return b.t + delay - t < -time_grain(t); };
     auto b = std::partition_point(breaks_.begin(), breaks_.end(), early);
@@ -188,11 +188,11 @@ std::size_t Past::held() const {
 
 /// To be called when a break has been added or has become sharper. One that is forgotten has come through all delays.
 void Past::find_next_break() {
-  next_break_ = infinity;
+  next_break_ = never;
   for (const double delay : delays_) {
     const auto over = [&](const Break& b) { return b.t + delay <= since_ + time_grain(since_); };
     const auto ahead = std::partition_point(breaks_.begin(), breaks_.end(), over);
-    const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < most_levels; });
+    const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < most_delays; });
     if (next != breaks_.end()) next_break_ = std::min(next_break_, next->t + delay);
   }
 }

@@ -7,12 +7,12 @@ namespace rheonet {
 
 namespace {
 
-constexpr Eigen::Index few = 8;  // up to so many there is nothing to gain from a sparse matrix, and it takes many times as long
+constexpr Eigen::Index largest_dense = 8;  // up to so many there is nothing to gain from a sparse matrix, and it takes many times as long
 
 bool solve_few(const std::vector<Eigen::Triplet<double>>& entries, Eigen::VectorXd& x) {
   const Eigen::Index n = x.size();
-  std::array<double, static_cast<std::size_t>(few * few)> values{};
-  const auto a = [&](Eigen::Index row, Eigen::Index column) -> double& { return values[static_cast<std::size_t>(row * few + column)]; };
+  std::array<double, static_cast<std::size_t>(largest_dense * largest_dense)> values{};
+  const auto a = [&](Eigen::Index row, Eigen::Index column) -> double& { return values[static_cast<std::size_t>(row * largest_dense + column)]; };
   for (const Eigen::Triplet<double>& entry : entries) a(entry.row(), entry.col()) += entry.value();
   // D comes on the diagonal, L below it.
   for (Eigen::Index j = 0; j < n; ++j) {
@@ -36,7 +36,7 @@ bool solve_few(const std::vector<Eigen::Triplet<double>>& entries, Eigen::Vector
 }  // namespace
 
 bool solve_symmetric(const std::vector<Eigen::Triplet<double>>& entries, Eigen::VectorXd& x) {
-  if (x.size() <= few) return solve_few(entries, x);
+  if (x.size() <= largest_dense) return solve_few(entries, x);
   Eigen::SparseMatrix<double> matrix(x.size(), x.size());
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);

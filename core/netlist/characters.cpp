@@ -14,18 +14,23 @@ constexpr char32_t stray = 0xDC00;
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// Number of bytes of the character that begins with `c`; 0 if none does.
-std::size_t length(char c) {
+std::size_t length_of_character(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte < 0x80 ? 1 : byte < 0xC2 ? 0 : byte < 0xE0 ? 2 : byte < 0xF0 ? 3 : byte < 0xF5 ? 4 : 0;
 }
 
 }  // namespace
 
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
+}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 std::u32string decode(std::string_view text) {
   std::u32string characters;
   characters.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t bytes = length(text[0]);
+    const std::size_t bytes = length_of_character(text[0]);
     if (bytes == 0 || bytes > text.size() ||
         !std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(bytes), continues)) {
       characters += stray + static_cast<unsigned char>(text[0]);

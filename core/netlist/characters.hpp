@@ -16,6 +16,11 @@ bool is_printable(char32_t character);
 /// line.
 std::string printable(std::string_view text);
 
+/// A letter of any alphabet: every byte of a character outside ASCII counts as one, since none has a meaning in a path or
+/// an expression.
+bool is_letter(char c);
+bool is_digit(char c);
+
 /// Number of characters (code points) of a text: positions in messages count these, not bytes.
 std::size_t count_characters(std::string_view text);
 

@@ -13,7 +13,7 @@ namespace rheonet {
 
 namespace {
 
-const char* const example = "laminar = { that = \"speed < critical_speed\", warn = \"the flow would be turbulent\" }";
+const char* const check_example = "laminar = { that = \"speed < critical_speed\", warn = \"the flow would be turbulent\" }";
 
 /// Where the comparisons of an expression stand.
 struct Comparisons {
@@ -50,7 +50,7 @@ std::optional<TextError> mismatch(std::string_view text, const Environment& envi
   return TextError{wrong->offset - std::min<std::size_t>(wrong->offset, 1), wrong->message, wrong->hint};
 }
 
-std::string values_of(const Formula& formula, const Environment& environment) {
+std::string values_in(const Formula& formula, const Environment& environment) {
   std::string list;
   for (const std::string& name : formula.identifiers()) {
     const Number* number = environment.find(name);
@@ -64,7 +64,7 @@ std::string values_of(const Formula& formula, const Environment& environment) {
 void evaluate_check(const std::string& name, const TomlValue& that, Severity severity, const std::string& message,
                     const Environment& environment, Mistakes& mistakes) {
   const std::string what = "check `" + name + "`";
-  if (!expect_string(that, what, mistakes, example)) return;
+  if (!expect_string(that, what, mistakes, check_example)) return;
   const Comparisons comparisons = comparisons_of(that.text);
   if (comparisons.chained != std::string_view::npos) {
     const auto before = std::string_view(that.text).substr(0, comparisons.chained);
@@ -76,7 +76,7 @@ void evaluate_check(const std::string& name, const TomlValue& that, Severity sev
   const auto holds = formula.evaluate(environment, mistakes);
   if (!holds) return;
   if (!comparisons.any || !holds->dimension.is_number() || (holds->value != 0 && holds->value != 1)) {
-    mistakes.error(that.spot, what + " must be a comparison, but is " + describe(that), example);
+    mistakes.error(that.spot, what + " must be a comparison, but is " + describe(that), check_example);
     return;
   }
   if (holds->value == 1) return;
@@ -85,7 +85,7 @@ void evaluate_check(const std::string& name, const TomlValue& that, Severity sev
     return;
   }
   std::string hint = "`" + that.text + "` does not hold";
-  if (const std::string values = values_of(formula, environment); !values.empty()) hint += ": " + values;
+  if (const std::string values = values_in(formula, environment); !values.empty()) hint += ": " + values;
   const std::string text = what + (message.empty() ? " fails" : ": " + message);
   severity == Severity::error ? mistakes.error(that.spot, text, hint) : mistakes.warning(that.spot, text, hint);
 }
@@ -93,14 +93,14 @@ void evaluate_check(const std::string& name, const TomlValue& that, Severity sev
 }  // namespace
 
 void evaluate_checks(const TomlValue& checks, const Environment& environment, Mistakes& mistakes) {
-  if (!expect_table(checks, "`check`", mistakes, example)) return;
+  if (!expect_table(checks, "`check`", mistakes, check_example)) return;
   for (const TomlEntry& entry : checks.entries) {
     if (!entry.value.is_table()) {
       evaluate_check(entry.key, entry.value, Severity::warning, "", environment, mistakes);
       continue;
     }
     Keys keys(entry.value, "check `" + entry.key + "`");
-    const TomlEntry* that = keys.require("that", entry.spot, example);
+    const TomlEntry* that = keys.require("that", entry.spot, check_example);
     const TomlEntry* warn = keys.find("warn");
     const TomlEntry* error = keys.find("error");
     keys.finish(mistakes);

@@ -9,11 +9,11 @@ namespace rheonet {
 
 namespace {
 
-constexpr std::string_view blank = " \t\r";
+constexpr std::string_view spaces_and_ends = " \t\r";
 
 std::string_view trim(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
-  return text.substr(0, text.find_last_not_of(blank) + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(spaces_and_ends), text.size()));
+  return text.substr(0, text.find_last_not_of(spaces_and_ends) + 1);
 }
 
 std::string_view without_quotes(std::string_view text) {
@@ -23,7 +23,7 @@ std::string_view without_quotes(std::string_view text) {
 
 /// The quote that closes a field which begins at `at` and stands in quotes; npos if it does not.
 std::size_t closing_quote(std::string_view line, std::size_t at) {
-  at = line.find_first_not_of(blank, at);
+  at = line.find_first_not_of(spaces_and_ends, at);
   return at < line.size() && line[at] == '"' ? line.find('"', at + 1) : line.npos;
 }
 
@@ -48,7 +48,7 @@ std::vector<CsvField> csv_fields(std::string_view line) {
     // Between blanks a unit belongs to the name before it.
     const bool unit = separator == ' ' && at > 0 && !fields.empty() && line.substr(at - 1).starts_with(" [") && line.find(']', at) != line.npos;
     if (unit) from = line.find(']', at);
-    std::size_t end = separator == ' ' ? line.find_first_of(blank, from) : line.find(separator, from);
+    std::size_t end = separator == ' ' ? line.find_first_of(spaces_and_ends, from) : line.find(separator, from);
     end = std::min(end, line.size());
     if (unit) {
       const std::string_view name = fields.back().text;
@@ -57,7 +57,7 @@ std::vector<CsvField> csv_fields(std::string_view line) {
       continue;
     }
     const std::string_view text = trim(line.substr(at, end - at));
-    const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(blank), end - at);
+    const std::size_t begin = at + std::min(line.substr(at, end - at).find_first_not_of(spaces_and_ends), end - at);
     column += count_characters(line.substr(counted, begin - counted));
     counted = begin;
     if (separator != ' ' || !text.empty()) fields.push_back({without_quotes(text), static_cast<int>(column), separator == ';'});

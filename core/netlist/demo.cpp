@@ -11,7 +11,7 @@ namespace rheonet {
 
 namespace {
 
-const char* const example = "k = [\"10 N/m\", \"1 kN/m\"], or with a step: n = [1, 64, 1]";
+const char* const demo_example = "k = [\"10 N/m\", \"1 kN/m\"], or with a step: n = [1, 64, 1]";
 
 /// "N/m" of "10 N/m"; "" of a number and an expression.
 std::string unit_text(const TomlValue& value) {
@@ -66,9 +66,9 @@ std::optional<Demo::Slider> read_slider(const TomlEntry& entry, const Environmen
     return {};
   }
   const std::string what = "slider `" + entry.key + "`";
-  if (!expect_array(entry.value, what, mistakes, example)) return {};
+  if (!expect_array(entry.value, what, mistakes, demo_example)) return {};
   if (entry.value.items.size() != 2 && entry.value.items.size() != 3) {
-    mistakes.error(entry.value.spot, what + " takes two values, between which it goes, and a step if it has one", example);
+    mistakes.error(entry.value.spot, what + " takes two values, between which it goes, and a step if it has one", demo_example);
     return {};
   }
   const auto values = values_of(entry, parameter->second, environment, mistakes);
@@ -107,7 +107,7 @@ Demo read_demo(const TomlValue& table, const Environment& environment, Context& 
   text("why", demo.why);
   const TomlEntry* sliders = keys.find("sliders");
   keys.finish(mistakes);
-  if (!sliders || !expect_table(sliders->value, "`sliders`", mistakes, example)) return demo;
+  if (!sliders || !expect_table(sliders->value, "`sliders`", mistakes, demo_example)) return demo;
   for (const TomlEntry& entry : sliders->value.entries)
     if (auto slider = read_slider(entry, environment, mistakes)) demo.sliders.push_back(std::move(*slider));
   return demo;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t excerpt_width = 120;
 
 /// Line `number` (from 1) without its end, "" if there is none.
-std::string_view line_of(std::string_view text, int number) {
+std::string_view line_at(std::string_view text, int number) {
   for (int n = 1; n < number; ++n) {
     const auto end = text.find('\n');
     if (end == text.npos) return {};
@@ -89,7 +89,7 @@ std::string format(const Diagnostic& diagnostic, const Sources& sources) {
   if (file && spot.line > 0) text += fmt::format(":{}:{}", spot.line, std::max(spot.column, 1));
   text += severity == Severity::error ? ": error: " : ": warning: ";
   text += printable(message);
-  if (file && spot.line > 0) text += '\n' + excerpt(line_of(file->text, spot.line), spot.line, spot.column);
+  if (file && spot.line > 0) text += '\n' + excerpt(line_at(file->text, spot.line), spot.line, spot.column);
   if (spot.on_command_line() && spot.line > 0 && spot.line <= std::ssize(sources.command_line))
     text += '\n' + excerpt(sources.command_line[static_cast<std::size_t>(spot.line - 1)], 0, spot.column);
   if (!hint.empty()) text += "\n  " + printable(hint);

@@ -18,7 +18,7 @@ namespace rheonet {
 
 namespace {
 
-const char* const example = "\"k1.force\" = \"k*x0*exp(-t*k/B)\"";
+const char* const exact_example = "\"k1.force\" = \"k*x0*exp(-t*k/B)\"";
 
 /// One entry: a path, a string with its place, and the form.
 struct Entry {
@@ -27,10 +27,10 @@ struct Entry {
 };
 
 /// `k1.force = "..."` without quotes is a table `k1` to TOML: it means the same.
-void gather(const TomlValue& table, const std::string& before, std::vector<Entry>& entries) {
+void gather_entries(const TomlValue& table, const std::string& before, std::vector<Entry>& entries) {
   for (const TomlEntry& entry : table.entries) {
     if (entry.value.is_table()) {
-      gather(entry.value, before + entry.key + '.', entries);
+      gather_entries(entry.value, before + entry.key + '.', entries);
       continue;
     }
     TomlValue path;
@@ -58,9 +58,9 @@ Number time_of(double t, const Environment& parameters, Domain domain) {
 void read_exact(const TomlValue& exact, const Environment& environment, const std::set<std::string>& doubtful,
                 Context& context, Scene& scene) {
   Mistakes& mistakes = context.mistakes;
-  if (!expect_table(exact, "`exact`", mistakes, example)) return;
+  if (!expect_table(exact, "`exact`", mistakes, exact_example)) return;
   std::vector<Entry> entries;
-  gather(exact, "", entries);
+  gather_entries(exact, "", entries);
   std::vector<TomlValue> paths;
   for (const Entry& entry : entries) paths.push_back(entry.path);
   const auto records = find_records(paths, doubtful, context, scene);

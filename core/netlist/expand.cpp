@@ -13,7 +13,7 @@ namespace rheonet {
 namespace {
 
 /// Levels of groups and models within each other: each takes some stack.
-constexpr int most_levels = 500;
+constexpr int most_nested = 500;
 
 constexpr NodeId no_node = std::numeric_limits<NodeId>::min();
 
@@ -104,9 +104,9 @@ bool Expander::entry(const Plan& plan, Ends ends, const std::string& path, const
 }
 
 bool Expander::body(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
-  if (around.depth > most_levels) {
+  if (around.depth > most_nested) {
     context_.mistakes.error(plan.spot,
-                            "groups and models are nested deeper than " + std::to_string(most_levels) + " levels");
+                            "groups and models are nested deeper than " + std::to_string(most_nested) + " levels");
     return false;
   }
   switch (plan.kind) {
@@ -243,7 +243,7 @@ bool Expander::group(const Plan& plan, Ends ends, const std::string& path, const
 
 bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surroundings& around) {
   const bool series = plan.kind == Plan::Kind::series;
-  if (around.depth > most_levels) return body(plan, ends, level.path, around);  // which refuses it
+  if (around.depth > most_nested) return body(plan, ends, level.path, around);  // which refuses it
   bool good = true;
   NodeId before = ends[0];
   for (std::size_t i = 0; i < plan.members.size() && !stopped_; ++i) {

@@ -17,14 +17,14 @@ namespace {
 
 using Figure = Claim::Figure;
 
-const char* const example = "\"k1.force\" = { at = \"0.2 s\", value = \"2 N\", within = 1e-6 }";
+const char* const claim_example = "\"k1.force\" = { at = \"0.2 s\", value = \"2 N\", within = 1e-6 }";
 
-constexpr std::pair<const char*, Figure> figures[] = {
+constexpr std::pair<const char*, Figure> claim_keys[] = {
     {"value", Figure::at},  {"final", Figure::final}, {"max", Figure::max},         {"min", Figure::min},
     {"mean", Figure::mean}, {"rms", Figure::rms},     {"crosses", Figure::crossing}};
 
 /// One entry of `[expect]`: a path, and its claims.
-struct Subject {
+struct ClaimedSubject {
   TomlValue path;  ///< a string
   const TomlValue* claims;
 };
@@ -34,13 +34,13 @@ bool holds_tables(const TomlValue& value) {
 }
 
 /// `k1.force = { ... }` without quotes is a table `k1` with a table `force` to TOML: it means the same.
-void gather(const TomlValue& table, const std::string& before, const Spot* begin, std::vector<Subject>& subjects) {
+void gather_subjects(const TomlValue& table, const std::string& before, const Spot* begin, std::vector<ClaimedSubject>& subjects) {
   for (const TomlEntry& entry : table.entries) {
     const Spot& spot = begin ? *begin : entry.spot;
     const auto& inner = entry.value.entries;
     if (!inner.empty() &&
         std::all_of(inner.begin(), inner.end(), [](const auto& e) { return holds_tables(e.value); })) {
-      gather(entry.value, before + entry.key + '.', &spot, subjects);
+      gather_subjects(entry.value, before + entry.key + '.', &spot, subjects);
     } else {
       TomlValue path;
       path.kind = TomlValue::Kind::string;
@@ -63,7 +63,7 @@ class ClaimReader {
     const std::string what = "a claim on `" + record.path + "`";
     Keys keys(source, what);
     const TomlEntry* figure = nullptr;
-    for (const auto& [key, meant] : figures) {
+    for (const auto& [key, meant] : claim_keys) {
       const TomlEntry* entry = keys.find(key);
       if (!entry) continue;
       if (figure) {
@@ -82,7 +82,7 @@ class ClaimReader {
     keys.finish(mistakes_);
     if (mistakes_.errors() > before) return {};
     if (!figure) {
-      mistakes_.error(source.spot, what + " needs `value`, `final`, `max`, `min`, `mean`, `rms` or `crosses`", example);
+      mistakes_.error(source.spot, what + " needs `value`, `final`, `max`, `min`, `mean`, `rms` or `crosses`", claim_example);
       return {};
     }
     claim.spot = figure->value.spot;
@@ -109,7 +109,7 @@ class ClaimReader {
     const bool crossing = claim.figure == Figure::crossing;
     const bool instant = claim.figure == Figure::at || claim.figure == Figure::final;
     if (claim.figure == Figure::at || crossing) {
-      if (!at) mistakes_.error(figure.spot, "`" + figure.key + "` needs `at`, a time", example);
+      if (!at) mistakes_.error(figure.spot, "`" + figure.key + "` needs `at`, a time", claim_example);
     } else if (at) {
       mistakes_.error(at->spot, "`at` goes with `value` or `crosses`, not with `" + figure.key + "`",
                       instant ? "`final` is the value at the end" : "`from` and `to` say where to look");
@@ -186,21 +186,21 @@ class ClaimReader {
 void read_claims(const TomlValue& expect, const Environment& environment, const std::set<std::string>& doubtful,
                  Context& context, Scene& scene) {
   Mistakes& mistakes = context.mistakes;
-  if (!expect_table(expect, "`expect`", mistakes, example)) return;
-  std::vector<Subject> subjects;
-  gather(expect, "", nullptr, subjects);
+  if (!expect_table(expect, "`expect`", mistakes, claim_example)) return;
+  std::vector<ClaimedSubject> subjects;
+  gather_subjects(expect, "", nullptr, subjects);
 
   // All paths first: a scene of millions is gone through once.
   std::vector<TomlValue> paths;
   std::vector<std::pair<const TomlValue*, std::size_t>> claims;  // each with the index of its record's path
-  for (const Subject& subject : subjects) {
+  for (const ClaimedSubject& subject : subjects) {
     paths.push_back(subject.path);
     const bool several = subject.claims->is_array();
     if (several && subject.claims->items.empty())
-      mistakes.error(subject.claims->spot, "there is no claim on `" + subject.path.text + "`", example);
+      mistakes.error(subject.claims->spot, "there is no claim on `" + subject.path.text + "`", claim_example);
     for (std::size_t i = 0; i < (several ? subject.claims->items.size() : 1); ++i) {
       const TomlValue& claim = several ? subject.claims->items[i] : *subject.claims;
-      if (expect_table(claim, "a claim on `" + subject.path.text + "`", mistakes, example))
+      if (expect_table(claim, "a claim on `" + subject.path.text + "`", mistakes, claim_example))
         claims.emplace_back(&claim, paths.size() - 1);
     }
   }

@@ -62,7 +62,6 @@ const NamedFunction functions[] = {
     {"max", nullptr, nullptr, maximum},
 };
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
 }
@@ -169,10 +168,10 @@ TextError translate(const mu::ParserError& error, std::string_view text) {
 
 /// An expression compiled once, as a function of the values of its variables. The members of a `repeat` evaluate the
 /// same text thousands of times.
-class Formula {
+class CompiledExpression {
  public:
   /// Throws TextError.
-  explicit Formula(std::string_view text) : variables_(variables_of(text)), slots_(variables_.size()) {
+  explicit CompiledExpression(std::string_view text) : variables_(variables_of(text)), slots_(variables_.size()) {
     try {
       parser_.DefineNameChars(name_characters().c_str());
       parser_.ClearConst();
@@ -193,8 +192,8 @@ class Formula {
       error_ = translate(error, text);
     }
   }
-  Formula(const Formula&) = delete;
-  Formula& operator=(const Formula&) = delete;
+  CompiledExpression(const CompiledExpression&) = delete;
+  CompiledExpression& operator=(const CompiledExpression&) = delete;
 
   const std::vector<Variable>& variables() const { return variables_; }
   const std::optional<TextError>& error() const { return error_; }
@@ -210,13 +209,13 @@ class Formula {
   std::optional<TextError> error_;
 };
 
-std::shared_ptr<Formula> formula_of(std::string_view text) {
-  static thread_local std::unordered_map<std::string, std::shared_ptr<Formula>> formulas;
+std::shared_ptr<CompiledExpression> formula_of(std::string_view text) {
+  static thread_local std::unordered_map<std::string, std::shared_ptr<CompiledExpression>> formulas;
   constexpr std::size_t most = 512;  // of a few kB each: more than a person writes
   std::string key(text);
   if (const auto known = formulas.find(key); known != formulas.end()) return known->second;
   if (formulas.size() >= most) formulas.clear();
-  return formulas[std::move(key)] = std::make_shared<Formula>(text);
+  return formulas[std::move(key)] = std::make_shared<CompiledExpression>(text);
 }
 
 void names_of(const Environment& environment, std::vector<std::string>& names) {

@@ -116,9 +116,9 @@ std::optional<Exponents> homogeneous_exponents(const Function& function, const s
 namespace {
 
 /// Looks for the innermost sum, comparison or argument in which unlike things meet.
-class Explainer {
+class HomogeneityCheck {
  public:
-  Explainer(std::string_view text, const Environment& environment) : text_(text), environment_(environment) {}
+  HomogeneityCheck(std::string_view text, const Environment& environment) : text_(text), environment_(environment) {}
 
   std::optional<TextError> within(std::size_t begin, std::size_t end) {
     // Inner parentheses first.
@@ -255,7 +255,7 @@ class Explainer {
 }  // namespace
 
 TextError explain_inhomogeneous(std::string_view text, const Environment& environment) {
-  if (auto error = Explainer(text, environment).within(0, text.size())) return *error;
+  if (auto error = HomogeneityCheck(text, environment).within(0, text.size())) return *error;
   return {0, fmt::format("the units in `{}` do not fit together", text),
           "only like quantities can be added or compared, and an exponent is a pure number"};
 }

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Each file that includes another takes some stack.
-constexpr std::size_t most_levels = 100;
+constexpr std::size_t most_including = 100;
 
 class Includer {
  public:
@@ -47,8 +47,8 @@ class Includer {
       return;
     }
     if (!done_.insert(found->canonical).second) return;
-    if (open_.size() > most_levels) {
-      mistakes.error(name.spot, "files include each other more than " + std::to_string(most_levels) + " levels deep");
+    if (open_.size() > most_including) {
+      mistakes.error(name.spot, "files include each other more than " + std::to_string(most_including) + " levels deep");
       return;
     }
     const auto file = context_.files.read(*found, Sources::Role::included, name.spot, mistakes);

@@ -9,11 +9,6 @@ namespace rheonet {
 
 namespace {
 
-// Letters of other alphabets are whatever is not ASCII: no character of it has a meaning in a path or an expression.
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
-}
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_printable_text(std::string_view text) {
   const std::u32string characters = decode(text);
   return std::all_of(characters.begin(), characters.end(), is_printable);

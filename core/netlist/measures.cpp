@@ -15,9 +15,9 @@ namespace {
 using Figure = Claim::Figure;
 
 constexpr std::string_view option = "--measure ";
-constexpr std::string_view blank = " \t";
+constexpr std::string_view spaces = " \t";
 
-constexpr std::pair<const char*, Figure> figures[] = {
+constexpr std::pair<const char*, Figure> measure_names[] = {
     {"max", Figure::max},
     {"min", Figure::min},
     {"mean", Figure::mean},
@@ -47,7 +47,7 @@ class Splitter {
 
   std::optional<Parts> run() {
     Parts parts;
-    const std::size_t open = text_.find('('), close = text_.find_last_not_of(blank);
+    const std::size_t open = text_.find('('), close = text_.find_last_not_of(spaces);
     if (open == text_.npos || text_[close] != ')') {
       mistakes_.error(spot(0), "`" + printable(text_) + "` is no measure", "for instance max(k1.force)");
       return {};
@@ -76,8 +76,8 @@ class Splitter {
   }
 
   TomlValue trimmed(std::size_t begin, std::size_t end) const {
-    begin = std::min(text_.find_first_not_of(blank, begin), end);
-    while (end > begin && blank.find(text_[end - 1]) != blank.npos) --end;
+    begin = std::min(text_.find_first_not_of(spaces, begin), end);
+    while (end > begin && spaces.find(text_[end - 1]) != spaces.npos) --end;
     TomlValue part;
     part.kind = TomlValue::Kind::string;
     part.spot = spot(begin);
@@ -87,7 +87,7 @@ class Splitter {
 
   bool read_figure(Parts& parts, const std::string& name) {
     std::vector<std::string> names;
-    for (const auto& [known, figure] : figures) {
+    for (const auto& [known, figure] : measure_names) {
       names.emplace_back(known);
       if (name != known) continue;
       parts.figure = figure;

@@ -16,7 +16,6 @@ namespace {
 using Result = std::variant<Number, TextError>;
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string_view without_spaces_before(std::string_view text) {
   while (!text.empty() && is_space(text.front())) text.remove_prefix(1);

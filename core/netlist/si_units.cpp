@@ -8,7 +8,7 @@ namespace rheonet {
 
 namespace {
 
-constexpr Dimension length{1, 0, 0}, mass{0, 1, 0}, duration{0, 0, 1}, force{1, 1, -2}, pressure{-1, 1, -2}, energy{2, 1, -2}, power{2, 1, -3},
+constexpr Dimension length{1, 0, 0}, mass{0, 1, 0}, duration{0, 0, 1}, force{1, 1, -2}, pressure{-1, 1, -2}, energy{2, 1, -2}, watt{2, 1, -3},
     frequency{0, 0, -1};
 
 constexpr std::array<std::pair<std::string_view, Unit>, 30> units{{
@@ -17,8 +17,8 @@ constexpr std::array<std::pair<std::string_view, Unit>, 30> units{{
     {"mg", {1e-6, mass}},    {"s", {1, duration}},         {"ms", {1e-3, duration}}, {"us", {1e-6, duration}},
     {"N", {1, force}},       {"mN", {1e-3, force}},        {"kN", {1e3, force}},     {"MN", {1e6, force}},
     {"Pa", {1, pressure}},   {"kPa", {1e3, pressure}},     {"MPa", {1e6, pressure}}, {"GPa", {1e9, pressure}},
-    {"J", {1, energy}},      {"mJ", {1e-3, energy}},       {"kJ", {1e3, energy}},    {"W", {1, power}},
-    {"mW", {1e-3, power}},   {"kW", {1e3, power}},         {"Hz", {1, frequency, 0, 1}},
+    {"J", {1, energy}},      {"mJ", {1e-3, energy}},       {"kJ", {1e3, energy}},    {"W", {1, watt}},
+    {"mW", {1e-3, watt}},   {"kW", {1e3, watt}},         {"Hz", {1, frequency, 0, 1}},
     {"kHz", {1e3, frequency, 0, 1}}, {"rad", {1, {}, 1, 0}}, {"mrad", {1e-3, {}, 1, 0}},
 }};
 

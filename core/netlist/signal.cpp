@@ -12,7 +12,7 @@ namespace rheonet {
 namespace {
 
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// 10-point Gauss-Legendre on [-1, 1] (Abramowitz and Stegun, table 25.4), the positive half: abscissa, weight.
 constexpr std::pair<double, double> gauss[] = {{0.14887433898163121088, 0.29552422471475287017},
@@ -23,7 +23,7 @@ constexpr std::pair<double, double> gauss[] = {{0.14887433898163121088, 0.295524
 
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
-Piece constant(double level, double end = infinity) {
+Piece constant(double level, double end = endless) {
   Piece piece;
   piece.level = level;
   piece.end = end;
@@ -31,7 +31,7 @@ Piece constant(double level, double end = infinity) {
 }
 
 /// A breakpoint after t, whatever rounding did to it.
-double after(double t, double end) { return end > t ? end : std::nextafter(t, infinity); }
+double after(double t, double end) { return end > t ? end : std::nextafter(t, endless); }
 
 /// The largest k >= first with edge(k) <= t, for edges that do not decrease and edge(first) <= t. `guess` is near it.
 template <typename Edge>
@@ -70,7 +70,7 @@ struct HalfPeriod {
 HalfPeriod half_period(double t, double frequency, double phase, double time, double shift) {
   const double start = half_turns(phase) - shift;  // in half periods
   const double first = std::floor(start);
-  if (frequency == 0) return {std::fmod(first, 2) == 0, start - first, time, infinity};
+  if (frequency == 0) return {std::fmod(first, 2) == 0, start - first, time, endless};
   const auto edge = [&](std::int64_t k) { return time + (static_cast<double>(k) - start) / (2 * frequency); };
   const auto k = last_edge(t, std::floor(2 * frequency * (t - time) + start), static_cast<std::int64_t>(first), edge);
   // The first stretch is cut by the start, and reckoned from there.
@@ -157,7 +157,7 @@ struct PieceAt {
     if (s.frequency > 0 && s.width * s.frequency >= 1) return constant(high);
     const double start = s.frequency > 0 ? half_turns(s.phase) / 2 : 0;  // in periods
     const auto on = [&](std::int64_t k) {
-      return s.frequency > 0 ? s.time + (static_cast<double>(k) - start) / s.frequency : k > 0 ? infinity : s.time;
+      return s.frequency > 0 ? s.time + (static_cast<double>(k) - start) / s.frequency : k > 0 ? endless : s.time;
     };
     const auto k =
         last_edge(t, std::floor(s.frequency * (t - s.time) + start), static_cast<std::int64_t>(std::floor(start)), on);
@@ -275,6 +275,6 @@ Signal Signal::seen_from(double start) const { return Signal(std::visit(SeenFrom
 
 Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }
 
-double Signal::before(double t) const { return piece(std::nextafter(t, -infinity)).value(t); }
+double Signal::before(double t) const { return piece(std::nextafter(t, -endless)).value(t); }
 
 }  // namespace rheonet

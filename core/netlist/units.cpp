@@ -18,7 +18,7 @@ namespace rheonet {
 
 namespace {
 
-using Result = std::variant<Unit, TextError>;
+using UnitResult = std::variant<Unit, TextError>;
 
 /// Units that UDUNITS-2 does not know, takes for something else, or gives with less than double precision (it has
 /// 0.2780139 N for an ounce of force).
@@ -70,7 +70,7 @@ const std::vector<std::string>& usual_units() {
 /// UDUNITS-2: every single unit by its name. Its database is read when the first unit is asked for.
 class Library {
  public:
-  Result find(const std::string& name) {
+  UnitResult find(const std::string& name) {
     const std::scoped_lock lock(mutex_);
     const auto known = units_.find(name);
     return known != units_.end() ? known->second : units_.emplace(name, look_up(name)).first->second;
@@ -84,7 +84,7 @@ class Library {
     bool multiple = true;
   };
 
-  Result look_up(const std::string& name) {
+  UnitResult look_up(const std::string& name) {
     if (!system_) {
       ut_set_error_message_handler(ut_ignore);
       system_.reset(ut_read_xml(nullptr));
@@ -143,7 +143,7 @@ class Library {
 
   std::mutex mutex_;
   std::unique_ptr<ut_system, decltype(&ut_free_system)> system_{nullptr, &ut_free_system};
-  std::map<std::string, Result, std::less<>> units_;
+  std::map<std::string, UnitResult, std::less<>> units_;
 };
 
 Library& library() {
@@ -160,19 +160,19 @@ Unit power(const Unit& unit, double n) {
 }
 
 /// A unit by its name, with no hint if it is unknown.
-Result named_unit(const std::string& name) {
+UnitResult named_unit(const std::string& name) {
   if (const Unit* unit = si_unit(name)) return *unit;
   for (const Definition& definition : definitions)
     if (name == definition.name) {
-      Result unit = parse_unit(definition.unit);
+      UnitResult unit = parse_unit(definition.unit);
       if (auto* known = std::get_if<Unit>(&unit)) known->factor *= definition.factor;
       return unit;
     }
-  Result unit = library().find(name);
+  UnitResult unit = library().find(name);
   if (std::holds_alternative<Unit>(unit)) return unit;
   for (const auto& [symbol, long_name] : prefixed)
     if (name.ends_with(symbol)) {
-      Result multiple = library().find(name.substr(0, name.size() - symbol.size()).append(long_name));
+      UnitResult multiple = library().find(name.substr(0, name.size() - symbol.size()).append(long_name));
       if (std::holds_alternative<Unit>(multiple)) return multiple;
     }
   return unit;
@@ -183,7 +183,7 @@ std::string as_product(const std::string& name) {
   const Dimension force{1, 1, -2};
   for (std::size_t i = 1; i < name.size(); ++i) {
     const std::string head = name.substr(0, i), tail = name.substr(i);
-    const Result a = named_unit(head), b = named_unit(tail);
+    const UnitResult a = named_unit(head), b = named_unit(tail);
     const Unit *first = std::get_if<Unit>(&a), *second = std::get_if<Unit>(&b);
     if (first && second && (first->dimension.same(force) || second->dimension.same(force)))
       return fmt::format("a product is written with `*`: `{}*{}`", head, tail);
@@ -191,11 +191,11 @@ std::string as_product(const std::string& name) {
   return "";
 }
 
-Result single_unit(const std::string& name) {
+UnitResult single_unit(const std::string& name) {
   if (name == "oz" || name == "ounce")
     return TextError{0, fmt::format("`{}` may be a force, a mass or a volume", name),
                      "`ozf` is the force, `avoirdupois_ounce` the mass"};
-  Result unit = named_unit(name);
+  UnitResult unit = named_unit(name);
   auto* error = std::get_if<TextError>(&unit);
   if (!error || !error->hint.empty() || !error->message.starts_with("unknown")) return unit;
   constexpr std::size_t longest_product = 12;  // beyond it is no slip, but another thing
@@ -211,7 +211,7 @@ class Parser {
  public:
   explicit Parser(std::string_view text) : text_(decode(text)) {}
 
-  Result run() {
+  UnitResult run() {
     try {
       skip_spaces();
       const Unit unit = product();
@@ -310,7 +310,7 @@ class Parser {
     while (is_name(peek()) || is_digit(peek())) ++at_;
     // Digits at the end of a name are an exponent (m2), others belong to it (H2O).
     while (is_digit(text_[at_ - 1])) --at_;
-    Result unit = single_unit(encode(std::u32string_view(text_).substr(begin, at_ - begin)));
+    UnitResult unit = single_unit(encode(std::u32string_view(text_).substr(begin, at_ - begin)));
     if (auto* error = std::get_if<TextError>(&unit)) fail(begin, error->message, error->hint);
     return std::get<Unit>(unit);
   }

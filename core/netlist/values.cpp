@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/netlist/characters.hpp"
+
 namespace rheonet {
 
 namespace {
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
-}
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Length of the unsigned decimal number that `text` begins with, 0 if it begins with none.
 std::size_t number_length(std::string_view text) {
@@ -55,9 +52,9 @@ std::vector<std::string> words_of(std::string_view text) {
   while (!text.empty()) {
     if (const std::size_t number = number_length(text)) {
       text.remove_prefix(number);
-    } else if (is_letter(text.front())) {
+    } else if (is_letter(text.front()) || text.front() == '_') {
       std::size_t end = 1;
-      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]))) ++end;
+      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]) || text[end] == '_')) ++end;
       names.emplace_back(text.substr(0, end));
       text.remove_prefix(end);
     } else {

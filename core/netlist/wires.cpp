@@ -13,17 +13,17 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-const char* const example = "a block (`controller`) or a quantity of the network (`drum.velocity`)";
+const char* const source_example = "a block (`controller`) or a quantity of the network (`drum.velocity`)";
 
 std::optional<Wire> read_wire(const TomlValue& source, const std::string& what, Mistakes& mistakes) {
-  if (!expect_string(source, what, mistakes, example)) return {};
+  if (!expect_string(source, what, mistakes, source_example)) return {};
   Wire wire{.source = &source, .path = source.text};
   if (wire.path.starts_with('-')) {
     wire.sign = -1;
     wire.path.erase(0, 1);
   }
   if (!wire.path.empty()) return wire;
-  mistakes.error(source.spot, what + " is empty", example);
+  mistakes.error(source.spot, what + " is empty", source_example);
   return {};
 }
 
@@ -116,7 +116,7 @@ class Connection {
     mistakes_.error(spot, "no block is called `" + end.path + "`",
                     did_you_mean(end.path, blocks,
                                  end.block < 0 ? "a signal comes from a block: a `gain` makes one of a quantity of the network"
-                                               : "an input is " + std::string(example)));
+                                               : "an input is " + std::string(source_example)));
   }
 
   BlockUnit unit_of_input(const SceneBlock::Input& input) const {
@@ -229,7 +229,7 @@ std::vector<Wire> read_inputs(const Declaration& declaration, const std::string&
   const Declaration::Inputs& inputs = declaration.inputs;
   std::vector<Wire> wires;
   if (inputs.most == 0) return wires;
-  const TomlEntry* in = keys.require("in", spot, std::string("an input is ") + example);
+  const TomlEntry* in = keys.require("in", spot, std::string("an input is ") + source_example);
   if (!in) return wires;
   std::vector<const TomlValue*> sources{&in->value};
   if (in->value.is_array()) {

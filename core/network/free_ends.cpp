@@ -33,9 +33,9 @@ bool has_initial_value(const SceneElement& e) {
   return false;
 }
 
-class Search {
+class FreeEndSearch {
  public:
-  Search(const Scene& scene, const std::vector<Reduced>& laws)
+  FreeEndSearch(const Scene& scene, const std::vector<Reduced>& laws)
       : scene_(scene), laws_(laws), result_{std::vector<NodeId>(scene.nodes.size()), {}}, held_(scene.nodes.size(), 0) {
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) result_.on[n] = static_cast<NodeId>(n);
   }
@@ -168,7 +168,7 @@ class Search {
 
 }  // namespace
 
-FreeEnds find_free_ends(const Scene& scene, const std::vector<Reduced>& laws) { return Search(scene, laws).find(); }
+FreeEnds find_free_ends(const Scene& scene, const std::vector<Reduced>& laws) { return FreeEndSearch(scene, laws).find(); }
 
 std::vector<std::string> tell_free_ends(const Scene& scene, const FreeEnds& ends) {
   struct Hanging { std::vector<std::string> nodes, elements; };

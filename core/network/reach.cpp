@@ -20,7 +20,7 @@ constexpr double share = 1e-12;
 constexpr double worth_a_cut = 0.1;
 // Values of w - 1 that are tried, from the first on in equal ratios: of what spreads like heat the best w is near 1, of what is
 // hardly begun before the stop it is large.
-constexpr std::size_t weights = 48;
+constexpr std::size_t weights_tried = 48;
 constexpr double first_excess = 1e-3, excess_ratio = 1.6;
 
 constexpr int unreached = std::numeric_limits<int>::max();
@@ -40,9 +40,9 @@ struct Found {
 
 bool elsewhere(double start) { return !std::isnan(start) && start != 0; }
 
-class Search {
+class ReachSearch {
  public:
-  explicit Search(const Scene& scene)
+  explicit ReachSearch(const Scene& scene)
       : scene_(scene), found_(components().size()), mass_(scene.nodes.size(), 0), distance_(scene.nodes.size(), unreached) {}
 
   std::optional<Reach> find() {
@@ -172,8 +172,8 @@ class Search {
   }
 
   int farthest() const {
-    std::array<double, weights> weight, a, b;
-    for (std::size_t k = 0; k < weights; ++k) weight[k] = 1 + first_excess * std::pow(excess_ratio, static_cast<double>(k));
+    std::array<double, weights_tried> weight, a, b;
+    for (std::size_t k = 0; k < weights_tried; ++k) weight[k] = 1 + first_excess * std::pow(excess_ratio, static_cast<double>(k));
     a.fill(0);  // what only slows down is not counted on
     b.fill(0);
     for (std::size_t n = 1; n < distance_.size(); ++n) {
@@ -188,14 +188,14 @@ class Search {
         add(c, branch.damping);
         add(k, branch.stiffness);
       });
-      for (std::size_t i = 0; i < weights; ++i) {
+      for (std::size_t i = 0; i < weights_tried; ++i) {
         const double w = weight[i];
         a[i] = std::max(a[i], c.nearer * (w - 1) + c.farther * (1 / w - 1) - c.ground);
         b[i] = std::max(b[i], k.nearer * (w + 1) + k.farther * (1 / w + 1) + 2 * k.equal + k.ground);
       }
     }
     double least = unreached;
-    for (std::size_t i = 0; i < weights; ++i) {
+    for (std::size_t i = 0; i < weights_tried; ++i) {
       const double rate = (a[i] + std::sqrt(a[i] * a[i] + 4 * b[i])) / 2;
       least = std::min(least, std::ceil((rate * (scene_.stop - scene_.start) - std::log(share)) / std::log(weight[i])));
     }
@@ -233,6 +233,6 @@ class Search {
 
 }  // namespace
 
-std::optional<Reach> reach_of(const Scene& scene) { return Search(scene).find(); }
+std::optional<Reach> reach_of(const Scene& scene) { return ReachSearch(scene).find(); }
 
 }  // namespace rheonet

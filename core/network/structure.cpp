@@ -113,7 +113,7 @@ void assign_viscous_and_floating(const Network& network, Structure& s) {
   }
 }
 
-Structure blank(const Network& network) {
+Structure blank_structure(const Network& network) {
   const std::size_t n = network.nodes();
   Structure s;
   s.kind.assign(n, Kind::floating);
@@ -148,13 +148,13 @@ Structure::Loop closed_loop(const Network& network, const Structure& structure, 
 }
 
 Structure classify(const Network& network) {
-  Structure s = blank(network);
+  Structure s = blank_structure(network);
   assign_viscous_and_floating(network, s);
   return s;
 }
 
 Structure analyse(const Network& network, const Modes& modes) {
-  Structure s = blank(network);
+  Structure s = blank_structure(network);
   for (std::size_t k = 0; k < s.stuck.size(); ++k) s.stuck[k] = modes.slider[k] == Modes::stuck;
   join(network, modes, s);
   assign_viscous_and_floating(network, s);

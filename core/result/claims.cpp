@@ -15,7 +15,7 @@ using Figure = Claim::Figure;
 // Lobatto's rule on [-1, 1], exact to degree 5.
 const double inner = 1 / std::sqrt(5.0);
 const std::array<double, 4> nodes{-1, -inner, inner, 1};
-constexpr std::array<double, 4> weights{1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
+constexpr std::array<double, 4> lobatto_weights{1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
 
 using Samples = std::array<double, 4>;
 
@@ -153,8 +153,8 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
       if (to == claim.time || (to < claim.time && claim.time - to <= slack_)) course.at = f.back();
       if (middle < claim.from || middle > claim.to) return;
       for (std::size_t i = 0; i < f.size(); ++i) {
-        course.integral += weights[i] * f[i] * (to - from);
-        course.squares += weights[i] * f[i] * f[i] * (to - from);
+        course.integral += lobatto_weights[i] * f[i] * (to - from);
+        course.squares += lobatto_weights[i] * f[i] * f[i] * (to - from);
       }
       course.length += to - from;
       if (!is_over_points(claim.figure)) return;

@@ -14,9 +14,9 @@ namespace {
 // Known instants are counted up to here.
 constexpr long most_instants = 1000000;
 
-class Search {
+class EventSearch {
  public:
-  explicit Search(const Network& network) : network_(network) {}
+  explicit EventSearch(const Network& network) : network_(network) {}
 
   PossibleEvents find() {
     for (const Network::Slider& slider : network_.sliders) add_slider(slider.law, slider.branch.element);
@@ -67,6 +67,6 @@ class Search {
 
 }  // namespace
 
-PossibleEvents possible_events(const Network& network) { return Search(network).find(); }
+PossibleEvents possible_events(const Network& network) { return EventSearch(network).find(); }
 
 }  // namespace rheonet

@@ -20,7 +20,7 @@ namespace rheonet {
 namespace {
 
 // Of an element's fastest motion: what is usually taken, and what is thought to be exact.
-constexpr double shares[] = {1e-2, 1e-4};
+constexpr double regular_shares[] = {1e-2, 1e-4};
 // A glance tells how fast elements move.
 constexpr double glance = 1e-3;
 // Of the way that an element goes at its fastest in the run.
@@ -28,7 +28,7 @@ constexpr double share_of_way = 1e-4;
 
 const std::string& type_of(const SceneElement& element) { return components()[at(element.declaration)]->declaration.type; }
 
-int declaration_of(const std::string& type) {
+int index_of_type(const std::string& type) {
   const auto& all = components();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Component* c) { return c->declaration.type == type; });
   return static_cast<int>(found - all.begin());
@@ -68,7 +68,7 @@ Scene with(const Scene& scene, const Alternative& alternative, double share, con
     if (type_of(element) != alternative.type || speed == 0) continue;
     const double small = share * speed;
     element.values = alternative.values(resolved_values(scene, element), small, small * share_of_way * (scene.stop - scene.start));
-    element.declaration = declaration_of(alternative.becomes);
+    element.declaration = index_of_type(alternative.becomes);
   }
   return result;
 }
@@ -106,7 +106,7 @@ std::vector<Manner> manners(const Scene& scene) {
       return element.second > 0 && type_of(scene.elements[at(element.first)]) == alternative.type;
     };
     if (std::none_of(glance_at.fastest.begin(), glance_at.fastest.end(), moves)) continue;
-    for (const double share : shares) {
+    for (const double share : regular_shares) {
       result.push_back({.name = fmt::format("every {} {} below {:g} of its fastest motion", alternative.type, alternative.name, share),
                         .scene = {with(scene, alternative, share, glance_at.fastest)}});
     }

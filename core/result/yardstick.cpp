@@ -16,10 +16,10 @@ using Instants = std::vector<Yardstick::Instant>;
 // A jump explains a distance of up to so many times itself: from its other side the record may have gone on a little.
 constexpr double explained = 2;
 // Roundings of the largest value of its kind that a record may be off by: it may be a difference of such values.
-constexpr double grains = 16;
+constexpr double record_grains = 16;
 // A record of less than this share of the accuracy, of the largest of its kind, of which no digit is certain, is nothing
 // but the error of the others: it has no size of its own.
-constexpr double share_of_kind = 1e-4;
+constexpr double record_noise_share = 1e-4;
 
 // What is over within this share of the time to the events before and after is as good as a jump.
 constexpr double share_of_stretches = 1e-2;
@@ -146,7 +146,7 @@ std::vector<RecordError> record_errors(const Scene& scene, const Course& course,
   for (std::size_t k = 0; k < errors.size(); ++k) {
     RecordError& error = errors[k];
     error.scale = truth.largest[k];
-    const double rounding = grains * std::numeric_limits<double>::epsilon() * kind[k];
+    const double rounding = record_grains * std::numeric_limits<double>::epsilon() * kind[k];
     visit_common(course, truth.course, [&](std::size_t row, std::size_t true_row) {
       const double t = course.times[row];
       double off = distance(course.rows[row][k], truth.course.rows[true_row][k], k, t, truth.instants, measure.shift);
@@ -156,7 +156,7 @@ std::vector<RecordError> record_errors(const Scene& scene, const Course& course,
       error.largest = off;
       error.time = t;
     });
-    const double noise = share_of_kind * measure.allowed * kind[k];
+    const double noise = record_noise_share * measure.allowed * kind[k];
     if (error.largest > error.scale / 2 && std::max(error.largest, error.scale) <= noise) {
       error.scale = kind[k];
       error.beyond = not_given;

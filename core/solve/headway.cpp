@@ -17,7 +17,7 @@ constexpr std::size_t enough_failures = 30;
 constexpr int enough_steps = 1000;
 // So many counts one after the other.
 constexpr int enough_counts = 20;
-constexpr double grains = 64;
+constexpr double standstill_grains = 64;
 
 }  // namespace
 
@@ -94,7 +94,7 @@ bool Headway::failing(double t, double within) {
 }
 
 bool Headway::standing(double t, double grain) {
-  if (std::abs(t - reached_) > grains * grain) {
+  if (std::abs(t - reached_) > standstill_grains * grain) {
     reached_ = t;
     steps_there_ = 0;
   }

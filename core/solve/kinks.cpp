@@ -13,7 +13,7 @@ constexpr double memory = 32;
 // At a strict tolerance kinks make steps short, and most of these go over none. So it is tried where one in so many does
 // (which one kink by itself does not come to), for so many steps, and left off where at the larger tolerance not every
 // third one does.
-constexpr double promising = 0.05, most = 1.0 / 3;
+constexpr double promising = 0.05, largest_pace = 1.0 / 3;
 constexpr long trial = 64;
 // The longest wait until it is tried again: each failure doubles it.
 constexpr long longest_wait = 1 << 16;
@@ -44,8 +44,8 @@ void Kinks::follow(const Dae& dae, const Dae::View& view) {
   pace_ += ((crossed(dae, view) ? 1 : 0) - pace_) / memory;
   ++since_;
   if (dense_) {
-    if (pace_ > most) found_dense_ = true;
-    if (since_ <= trial || pace_ > most) return;
+    if (pace_ > largest_pace) found_dense_ = true;
+    if (since_ <= trial || pace_ > largest_pace) return;
     wait_ = found_dense_ ? trial : std::min(2 * wait_ + trial, longest_wait);
     dense_ = false;
   } else {

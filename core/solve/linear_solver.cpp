@@ -12,7 +12,7 @@ namespace {
 // So much more than with pivots that are chosen for a matrix its coefficients may grow with those of an earlier one.
 constexpr double much_more = 1e3;
 // What is larger than that says that there are no better ones.
-constexpr double most = 1e6;
+constexpr double largest_growth = 1e6;
 
 }  // namespace
 
@@ -54,7 +54,7 @@ bool LinearSolver::factorise() {
   // few digits of others.
   if (sparse_->refactorise(values_.data()) && sparse_->growth(values_.data()) <= much_more * first_growth_) return true;
   if (!sparse_->factorise(values_.data())) return false;
-  first_growth_ = std::min(sparse_->growth(values_.data()), most);
+  first_growth_ = std::min(sparse_->growth(values_.data()), largest_growth);
   return true;
 }
 

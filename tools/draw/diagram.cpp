@@ -13,7 +13,7 @@
 namespace rheonet::draw {
 namespace {
 
-constexpr double port_distance = 17, line_height = 14, track = 9, clearance = 16, channel = 10;
+constexpr double port_distance = 17, track = 9, clearance = 16, channel = 10;
 
 /// What stands at the two sides of the blocks: the name of what is sensed, or fed.
 struct Item {

@@ -10,7 +10,7 @@
 namespace rheonet::draw {
 namespace {
 
-constexpr double name_size = 12, value_size = 11, node_size = 10, line_height = 14;
+constexpr double name_size = 12, value_size = 11, node_size = 10;
 constexpr double lead = 6;  // of wire beside a symbol
 constexpr double wall_margin = 14, wall_depth = 10;
 

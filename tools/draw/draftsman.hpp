@@ -74,6 +74,7 @@ class Draftsman {
 
 /// From a symbol to the baseline of the name above it: letters reach below that.
 inline constexpr double name_gap = 6;  // px
+inline constexpr double line_height = 14;  // px, of a line of names or values
 
 /// A row, broken into lines where it is wider than `line`.
 Piece draw_row(const Draftsman& draftsman, const Block& row, double line);

@@ -62,7 +62,7 @@ void refuse_extra_words(const CLI::App& app) {
 }
 
 // What CLI11 says of an option with too few or too many values, in words.
-std::string in_words(const CLI::ParseError& error) {
+std::string parse_error_in_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::string option = text.substr(0, text.find(':'));
   if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ArgumentMismatch) || !option.starts_with('-')) {
@@ -114,7 +114,7 @@ void check_reductions(const std::vector<std::string>& names) {
   }
 }
 
-ExitStatus report(const WrongCommandLine& mistake, const CLI::App& app) {
+ExitStatus report_mistake(const WrongCommandLine& mistake, const CLI::App& app) {
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
   say("error: {}\n", printable(mistake.message));
   if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
@@ -353,7 +353,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
       return done;
     } catch (const CLI::ParseError& error) {
       refuse_extra_words(app);  // a misspelt word is often why another is missing
-      throw WrongCommandLine{in_words(error), ""};
+      throw WrongCommandLine{parse_error_in_words(error), ""};
     }
     refuse_extra_words(app);
     if (accuracy) arguments.accuracy = read_number("--accuracy", *accuracy);
@@ -372,7 +372,7 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
     if (app.get_subcommands().empty())
       throw WrongCommandLine{"no command given", "to simulate a scene: `rheonet run SCENE`"};
   } catch (const WrongCommandLine& mistake) {
-    return report(mistake, app);
+    return report_mistake(mistake, app);
   }
 
   const std::string called = app.get_subcommands().front()->get_name();

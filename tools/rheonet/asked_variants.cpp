@@ -44,7 +44,7 @@ std::optional<Asked> parsed(const std::string& text, const std::string& own_file
 
 /// `--pair a=b`: what the scene records as a the variants have as b.
 std::optional<std::map<std::string, std::string>> pairs_of(const Arguments& arguments, const Scene& scene) {
-  const Columns known = columns_of(scene);
+  const Columns known = record_columns(scene);
   std::map<std::string, std::string> result;
   for (const std::string& text : arguments.pairs) {
     const std::vector<std::string> paths = split(text, '=');
@@ -63,7 +63,7 @@ std::optional<std::map<std::string, std::string>> pairs_of(const Arguments& argu
 
 /// In the order of the records of the scene; false, with a message, where a quantity is another one.
 bool take_records(const Scene& scene, const std::vector<std::string>& paths, const std::string& text, Scene& variant) {
-  const Columns columns = columns_of(variant);
+  const Columns columns = record_columns(variant);
   std::vector<Record> records;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const Record& record = variant.records[columns.at(paths[k])];

@@ -19,7 +19,7 @@ using Round = Certificate::Round;
 
 double tighter(const Round& round) { return round.tolerance / Certificate::factor; }
 std::string relative(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
-const std::string& name_of(const Scene& scene, const Round& round) { return scene.records[round.worst].path; }
+const std::string& path_of_worst(const Scene& scene, const Round& round) { return scene.records[round.worst].path; }
 
 std::string table_of_records(const Scene& scene, const std::vector<RecordError>& errors) {
   Rows rows{{"record", "estimated error", "relative", "at", "largest magnitude"}};
@@ -36,7 +36,7 @@ std::string table_of_rounds(const Scene& scene, const Certificate& certificate) 
   Rows rows{{"run to", "measured by a run to", "estimated error", "of", "at"}};
   for (const Round& round : certificate.rounds) {
     rows.push_back({fmt::format("{:g}", round.tolerance), fmt::format("{:g}", tighter(round)),
-                    relative(round.error.relative()), name_of(scene, round), readable(round.error.time, "s")});
+                    relative(round.error.relative()), path_of_worst(scene, round), readable(round.error.time, "s")});
   }
   return aligned(rows);
 }
@@ -66,7 +66,7 @@ std::string failure(const Scene& scene, const Certificate& certificate) {
                        wrapped(reason(certificate), 2), scene.accuracy);
   const Round& kept = certificate.result();
   return fmt::format("not certified: `{}` is off by an estimated {} of its largest magnitude, at {:g} s; the scene asks for {:g}\n",
-                     name_of(scene, kept), relative(kept.error.relative()), kept.error.time, scene.accuracy) +
+                     path_of_worst(scene, kept), relative(kept.error.relative()), kept.error.time, scene.accuracy) +
          fmt::format("  before {:g} s all records are within that; the rows are those of a run to {:g}\n", certificate.until,
                      kept.tolerance) +
          fmt::format("  {}\n{}  {}\n", wrapped(reason(certificate), 2), table_of_rounds(scene, certificate), cost(certificate));

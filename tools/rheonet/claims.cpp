@@ -35,7 +35,7 @@ std::string unit_of(const Claim& claim, const Scene& scene) {
 }
 
 /// "k1.force at 0.2 s", "largest k1.force from 1 s to 2 s".
-std::string name_of(const Claim& claim, const Scene& scene) {
+std::string name_of_claim(const Claim& claim, const Scene& scene) {
   const Record& record = record_of(scene, claim.record);
   std::string path = record.path;
   if (claim.per >= 0) path += " / " + record_of(scene, claim.per).path;
@@ -76,7 +76,7 @@ std::string claimed_of(const Claim& claim, const Finding& finding, const std::st
 ClaimInWords in_words(const Scene& scene, const Claim& claim, const Finding& finding) {
   const std::string unit = unit_of(claim, scene);
   const std::string never = claim.per < 0 ? "never comes" : "is no number";
-  return {name_of(claim, scene), claimed_of(claim, finding, unit),
+  return {name_of_claim(claim, scene), claimed_of(claim, finding, unit),
           std::isnan(finding.found) ? never : with_unit(finding.found, unit), finding.holds};
 }
 

@@ -61,7 +61,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     ReadResult read = read_and_report(arguments.scenes[i], options);
     if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
     compared.scenes.push_back(std::move(*read.scene));
-    compared.columns.push_back(columns_of(compared.scenes.back()));
+    compared.columns.push_back(record_columns(compared.scenes.back()));
     compared.sources.push_back(std::move(read.sources));
   }
   if (const std::string why = obstacle(compared.scenes); !why.empty()) {

@@ -14,7 +14,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::string relative(double value) { return value == 0 ? "0" : fmt::format("{:.2e}", value); }
+std::string relative_text(double value) { return value == 0 ? "0" : fmt::format("{:.2e}", value); }
 
 std::string unit_of(const Compared& compared, const Pairing& pairing) {
   const Scene& first = compared.scenes.front();
@@ -40,7 +40,7 @@ std::string energy_line(const Compared& compared, std::size_t other) {
   std::string text = fmt::format("  energy dissipated: A {}, {} {}", readable(a, "J"), letter(other), readable(b, "J"));
   if (b == a) return text + ", the same\n";
   return text + fmt::format("; {} {} {}, {} of the larger\n", letter(other), readable(std::abs(b - a), "J"),
-                            b > a ? "more" : "less", relative(std::abs(b - a) / larger));
+                            b > a ? "more" : "less", relative_text(std::abs(b - a) / larger));
 }
 
 }  // namespace
@@ -63,9 +63,9 @@ std::string describe(const Compared& compared) {
     for (std::size_t p = 0; p < compared.pairings.size(); ++p) {
       const Difference& d = compared.differences[other - 1][p];
       const std::string unit = unit_of(compared, compared.pairings[p]);
-      rows.push_back({name_of(compared.pairings[p], other), readable(d.largest, unit), relative(d.relative()),
+      rows.push_back({name_of(compared.pairings[p], other), readable(d.largest, unit), relative_text(d.relative()),
                       d.largest == 0 ? "-" : readable(d.time, "s"), readable(d.first, unit), readable(d.second, unit),
-                      readable(d.rms, unit), relative(d.relative_rms())});
+                      readable(d.rms, unit), relative_text(d.relative_rms())});
     }
     text += aligned(rows) + energy_line(compared, other);
   }
@@ -111,9 +111,9 @@ std::string describe(const std::string& path, const std::vector<Varied>& rows, c
                   letter(other) + " dissipates"}};
       for (const Varied& row : rows) {
         const Difference& d = row.differences[other - 1][p];
-        cells.push_back({row.value, readable(d.largest, unit), relative(d.relative()),
+        cells.push_back({row.value, readable(d.largest, unit), relative_text(d.relative()),
                          d.largest == 0 ? "-" : readable(d.time, "s"), readable(d.rms, unit),
-                         relative(d.relative_rms()), readable(row.dissipated.front(), "J"),
+                         relative_text(d.relative_rms()), readable(row.dissipated.front(), "J"),
                          readable(row.dissipated[other], "J")});
       }
       text += aligned(cells);
@@ -146,7 +146,7 @@ std::string verdict(double within, const Furthest& furthest, const std::string& 
   const bool holds = furthest.difference.relative() <= within;
   std::string text = fmt::format(
       "{} {:g}: `{}` differs by {}{} of its largest magnitude", holds ? "within" : "NOT within", within, furthest.name,
-      furthest.difference.largest > 0 ? "up to " : "", relative(furthest.difference.relative()));
+      furthest.difference.largest > 0 ? "up to " : "", relative_text(furthest.difference.relative()));
   if (furthest.difference.largest > 0) text += fmt::format(", at {:g} s", furthest.difference.time);
   if (!varied.empty()) text += fmt::format(", with {} = {}", varied, furthest.value);
   return text + '\n';

@@ -11,7 +11,7 @@ namespace {
 /// Times that differ by less than this fraction of the run are the same, computed otherwise.
 constexpr double rounding = 1e-9;
 
-const char* name_of(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
+const char* name_of_domain(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
 
 }  // namespace
 
@@ -19,8 +19,8 @@ std::string obstacle(const std::vector<Scene>& scenes) {
   const Scene& first = scenes.front();
   for (const Scene& scene : scenes) {
     if (scene.domain != first.domain)
-      return fmt::format("one scene is of {}, the other of {}: nothing in them can be compared", name_of(first.domain),
-                         name_of(scene.domain));
+      return fmt::format("one scene is of {}, the other of {}: nothing in them can be compared", name_of_domain(first.domain),
+                         name_of_domain(scene.domain));
     if (std::abs(scene.start - first.start) > rounding * (first.stop - first.start))
       return fmt::format("the runs start at different times, {} s and {} s; `--set simulate.start=...` sets all",
                          first.start, scene.start);
@@ -42,7 +42,7 @@ void to_one_time_base(std::vector<Scene>& scenes) {
   }
 }
 
-Columns columns_of(const Scene& scene) {
+Columns record_columns(const Scene& scene) {
   Columns columns;
   for (std::size_t i = 0; i < scene.records.size(); ++i) columns.emplace(scene.records[i].path, i);
   return columns;

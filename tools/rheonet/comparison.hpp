@@ -20,7 +20,7 @@ void to_one_time_base(std::vector<Scene>& scenes);
 
 /// Where among a scene's records each path is.
 using Columns = std::unordered_map<std::string, std::size_t>;
-Columns columns_of(const Scene& scene);
+Columns record_columns(const Scene& scene);
 
 /// The paths that all scenes record, in the order of the first; `columns` are those of each.
 std::vector<Pairing> shared_records(const Scene& first, const std::vector<Columns>& columns);

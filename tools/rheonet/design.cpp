@@ -61,7 +61,7 @@ std::variant<Design, NoVariation> Design::read(const Arguments::Sweep& sweep) {
 
 std::variant<std::monostate, NoVariation> Design::read_list(const std::string& file) {
   std::string why;
-  const auto text = read_text(file, why);
+  const auto text = rheonet::read_text(file, why);
   if (!text) return NoVariation{fmt::format("`--list {}` cannot be read: {}", file, why), ""};
   std::vector<std::string> units;
   int number = 0;

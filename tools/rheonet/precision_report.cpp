@@ -23,7 +23,7 @@ constexpr double told = 2;
 // A run as tight as it can be is not this far from a true closed form.
 constexpr double doubtful_form = 1e-6;
 
-std::string number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
+std::string error_number(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 
 /// The least error of the worst record of a price that is known.
 double least_known(const PriceList& list, const Price& price) {
@@ -32,7 +32,7 @@ double least_known(const PriceList& list, const Price& price) {
 
 std::string error_text(const PriceList& list, const Price& price) {
   const double least = least_known(list, price);
-  return price.error() > least || price.error() == 0 ? number(price.error()) : "< " + number(least);
+  return price.error() > least || price.error() == 0 ? error_number(price.error()) : "< " + error_number(least);
 }
 
 double median(const Price& price) { return price.cpu_quantile(0.5); }
@@ -87,7 +87,7 @@ std::string yardstick_words(const Scene& scene, const PriceList& list) {
   std::string text;
   if (scene.exact.size() < scene.records.size()) {
     text += fmt::format("  errors are measured by a run to {:g} of order up to {}; one of order up to {} is {} from it",
-                        list.reference.tolerance, list.reference.order, list.check.order, number(list.largest_doubt()));
+                        list.reference.tolerance, list.reference.order, list.check.order, error_number(list.largest_doubt()));
     text += list.largest_doubt() > 0 ? fmt::format(" (`{}`)\n", scene.records[worst_of(list.doubt)].path) : "\n";
   }
   if (scene.exact.empty()) return text;
@@ -97,7 +97,7 @@ std::string yardstick_words(const Scene& scene, const PriceList& list) {
                       scene.exact.size() == scene.records.size() ? "all records"
                       : scene.exact.size() == 1                  ? "one record"
                                                                  : fmt::format("{} records", scene.exact.size()),
-                      list.reference.tolerance, number(off.relative()),
+                      list.reference.tolerance, error_number(off.relative()),
                       scene.records[static_cast<std::size_t>(scene.exact[worst].record)].path);
   if (off.relative() > doubtful_form)
     text += fmt::format("  note: that is too much for rounding, first at {:g} s: either the form or the scene is not as it is meant\n",
@@ -110,7 +110,7 @@ const std::string& name_of_manner(const PriceList& list, const Price& price) {
 }
 
 /// "accuracy = 1e-05, order up to 3".
-std::string name_of(const PriceList& list, const Price& price) {
+std::string name_of_price(const PriceList& list, const Price& price) {
   return fmt::format("accuracy = {:g}", price.method.tolerance) +
          (price.method.manner == 0 ? "" : ", " + printable(name_of_manner(list, price)));
 }
@@ -125,9 +125,9 @@ std::string recommendation(const Scene& scene, const PriceList& list) {
                : fmt::format("nothing of this meets the {:g} asked for\n", scene.accuracy);
   }
   std::string text = fmt::format("the cheapest that meets the {:g} asked for: {}, error {}, {} of CPU time", scene.accuracy,
-                                 name_of(list, *best), error_text(list, *best), in_time_units(median(*best)));
+                                 name_of_price(list, *best), error_text(list, *best), in_time_units(median(*best)));
   if (own && own != best) {
-    text += fmt::format("; {} takes {:.2f} times that, for an error of {}", name_of(list, *own), median(*own) / median(*best),
+    text += fmt::format("; {} takes {:.2f} times that, for an error of {}", name_of_price(list, *own), median(*own) / median(*best),
                         error_text(list, *own));
   }
   return wrapped(text, 2) + '\n';

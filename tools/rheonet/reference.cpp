@@ -15,7 +15,7 @@ struct Row {
   std::string name, symbol, quantity, units, bounds, fallback, description;
 };
 
-std::string number(double x) { return fmt::format("{:g}", x); }
+std::string short_number(double x) { return fmt::format("{:g}", x); }
 
 const Parameter* find_parameter(const Declaration& declaration, const std::string& name) {
   const auto found = std::find_if(declaration.parameters.begin(), declaration.parameters.end(),
@@ -60,17 +60,17 @@ std::string bounds(const Parameter& p) {
   if (p.kind == Parameter::Kind::signal) return "a signal";
   std::string text;
   if (std::isinf(p.lower)) {
-    text = std::isinf(p.upper) ? "any" : "<= " + number(p.upper);
+    text = std::isinf(p.upper) ? "any" : "<= " + short_number(p.upper);
   } else {
-    text = (p.lower_open ? "> " : ">= ") + number(p.lower);
-    if (!std::isinf(p.upper)) text += ", <= " + number(p.upper);
+    text = (p.lower_open ? "> " : ">= ") + short_number(p.lower);
+    if (!std::isinf(p.upper)) text += ", <= " + short_number(p.upper);
   }
   if (p.may_be_infinite) text += ", or inf";
   return text;
 }
 
 std::string fallback(const Parameter& p, const Declaration& declaration) {
-  if (p.fallback) return number(*p.fallback);
+  if (p.fallback) return short_number(*p.fallback);
   if (!p.same_as.empty()) return (p.opposite ? "-" : "") + p.same_as;
   if (p.kind == Parameter::Kind::initial) return "not given";
   const std::vector<std::string>& choice = declaration.one_of;

@@ -15,7 +15,7 @@
 namespace rheonet::tool {
 namespace {
 
-const RunFigure figures[] = {
+const SweepFigure figures[] = {
     {"energy dissipated", [](const Summary& s) { return s.dissipated; }, true},
     {"energy supplied", [](const Summary& s) { return s.supplied; }, true},
     {"energy stored", [](const Summary& s) { return s.stored; }, true},
@@ -42,7 +42,7 @@ std::variant<SweepTable, NoVariation> SweepTable::make(const std::vector<std::st
     measure.text = text;
     if (text.find('(') != text.npos) continue;
     std::vector<std::string> names;
-    for (const RunFigure& figure : figures) {
+    for (const SweepFigure& figure : figures) {
       names.emplace_back(figure.name);
       if (text == figure.name) measure.figure = &figure;
     }

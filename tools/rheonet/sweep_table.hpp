@@ -11,7 +11,7 @@
 namespace rheonet::tool {
 
 /// A figure of a run that is no record's: of the energy, or of the work that it took.
-struct RunFigure {
+struct SweepFigure {
   const char* name;
   double (*of)(const Summary&);
   bool of_energy = false;  ///< takes the energy account of a run
@@ -46,7 +46,7 @@ class SweepTable {
  private:
   struct Measure {
     std::string text;
-    const RunFigure* figure = nullptr;  ///< nullptr: of a record
+    const SweepFigure* figure = nullptr;  ///< nullptr: of a record
   };
 
   std::vector<std::string> paths_;

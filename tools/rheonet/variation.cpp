@@ -34,7 +34,7 @@ std::optional<End> read_end(const std::string& text) {
   return end;
 }
 
-std::string with_unit(const std::string& number, const std::string& unit) {
+std::string joined(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
 
@@ -55,7 +55,7 @@ double between(double from, double to, double fraction, bool logarithmic) {
 /// as tell neighbours apart. Absent if no number of digits does.
 std::optional<std::vector<std::string>> spread(const End& from, const End& to, long count, bool logarithmic) {
   for (int digits = 6; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    std::vector<std::string> values{with_unit(from.number, to.unit)};
+    std::vector<std::string> values{joined(from.number, to.unit)};
     double last = from.value;
     const auto goes_on = [&](double value) { return from.value < to.value ? last < value : last > value; };
     bool apart = true;
@@ -65,9 +65,9 @@ std::optional<std::vector<std::string>> spread(const End& from, const End& to, l
       const auto read = read_end(number);  // what is simulated; rounded beyond the largest number it is none
       apart = read && goes_on(read->value);
       if (read) last = read->value;
-      values.push_back(with_unit(number, to.unit));
+      values.push_back(joined(number, to.unit));
     }
-    values.push_back(with_unit(to.number, to.unit));
+    values.push_back(joined(to.number, to.unit));
     if (apart && goes_on(to.value)) return values;
   }
   return {};
@@ -155,7 +155,7 @@ std::string Range::at(double fraction) const {
     const double index = std::floor(fraction * static_cast<double>(values.size()));
     return values[std::min(static_cast<std::size_t>(index), values.size() - 1)];
   }
-  return with_unit(fmt::format("{}", between(from, to, fraction, logarithmic)), unit);
+  return joined(fmt::format("{}", between(from, to, fraction, logarithmic)), unit);
 }
 
 std::variant<Range, NoVariation> read_range(const std::string& text) {

@@ -14,8 +14,8 @@ namespace {
 using nlohmann::json;
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_bytes = 1u << 20;  // of a body
-constexpr std::size_t most_scenes = 4, most_curves = 200, longest_name = 1000;
+constexpr std::size_t longest_body = 1u << 20;  // of a body
+constexpr std::size_t most_compared = 4, most_curves = 200, longest_name = 1000;
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
@@ -29,7 +29,7 @@ std::optional<json> read(httplib::Response& response, const httplib::ContentRead
   std::string text;
   bool too_large = false;
   const bool whole = body([&](const char* data, std::size_t size) {
-    too_large = text.size() + size > most_bytes;
+    too_large = text.size() + size > longest_body;
     if (!too_large) text.append(data, size);
     return !too_large;
   });
@@ -67,7 +67,7 @@ std::optional<json> task_of(const json& request, const Folder& folder) {
   }
   if ((kind != "report" && kind != "figure") || !request.contains("scenes") || !request["scenes"].is_array()) return {};
   json task{{"task", kind}, {"scenes", json::array()}, {"curves", json::array()}};
-  if (request["scenes"].empty() || request["scenes"].size() > most_scenes) return {};
+  if (request["scenes"].empty() || request["scenes"].size() > most_compared) return {};
   for (const json& scene : request["scenes"]) {
     std::optional<json> one = scene_of(scene, folder);
     if (!one) return {};

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_scenes = 1000, most_visited = 20'000;
+constexpr std::size_t most_listed = 1000, most_visited = 20'000;
 constexpr int deepest = 6;
-constexpr std::size_t most_bytes = 1u << 20, most_looked_at = 20u << 20;
+constexpr std::size_t largest_file = 1u << 20, most_looked_at = 20u << 20;
 
 bool is_within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
@@ -43,7 +43,7 @@ std::optional<std::string> text_of(const fs::path& path) {
   std::string text;
   if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
     std::array<char, 1u << 16> piece;
-    while (!whole && text.size() <= most_bytes) {
+    while (!whole && text.size() <= largest_file) {
       const ssize_t count = ::read(file, piece.data(), piece.size());
       if (count < 0 && errno == EINTR) continue;
       if (count < 0) break;
@@ -52,7 +52,7 @@ std::optional<std::string> text_of(const fs::path& path) {
     }
   }
   ::close(file);
-  if (!whole || text.size() > most_bytes) return {};
+  if (!whole || text.size() > largest_file) return {};
   return text;
 }
 
@@ -98,7 +98,7 @@ std::vector<Folder::Entry> Folder::scenes() const {
   std::error_code failed;
   std::size_t visited = 0, looked_at = 0;
   fs::recursive_directory_iterator item(path_, fs::directory_options::skip_permission_denied, failed), end;
-  for (; !failed && item != end && found.size() < most_scenes && ++visited < most_visited; item.increment(failed)) {
+  for (; !failed && item != end && found.size() < most_listed && ++visited < most_visited; item.increment(failed)) {
     const fs::path name = item->path().lexically_relative(path_);
     if (item->is_directory(failed) && (is_hidden(name) || item.depth() >= deepest)) item.disable_recursion_pending();
     if (!fault_of_name(name.string()).empty()) continue;

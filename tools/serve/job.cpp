@@ -11,7 +11,7 @@ using Clock = Pool::Clock;
 
 namespace {
 
-constexpr std::size_t most_bytes = 64u << 20;  // of an answer
+constexpr std::size_t longest_answer = 64u << 20;  // of an answer
 constexpr auto tick = 20ms;                    // after which a cancelled task is noticed
 constexpr int most_tries = 20;                 // for a worker that takes the task
 constexpr double longer_aside = 3;             // times as long may it take on what others leave
@@ -66,9 +66,9 @@ bool Job::follow(Worker& worker) {
       case Worker::Answer::end:
         return true;
       case Worker::Answer::message:
-        if (const std::size_t bytes = told_ + message.size(); bytes > most_bytes) {
+        if (const std::size_t bytes = told_ + message.size(); bytes > longest_answer) {
           fail(fmt::format("the result comes to {} MB so far, and a page may have {} MB: record fewer quantities, or at fewer output "
-                           "times; `rheonet run` has no such limit", bytes >> 20U, most_bytes >> 20U));
+                           "times; `rheonet run` has no such limit", bytes >> 20U, longest_answer >> 20U));
           return false;
         }
         tell(message);
