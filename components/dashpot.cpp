@@ -69,7 +69,7 @@ const RegisterComponent register_dashpot({
             .law = "f = B abs(w)^n sgn(w)",
             .equation = R"(f = B\,|w|^{n}\operatorname{sgn} w)",
             .source = "I. Newton 1687, W. Ostwald 1925, A. de Waele 1923; P. L. Dahl 1982, Eqs. 2, 3",
-            .notes = "Dissipates f w, stores nothing. The unit of B goes with n: N*(s/m)^n.",
+            .notes = "Dissipates f w, stores nothing. The unit of B depends on n: N*(s/m)^n.",
         },
     .role = Role::rate,
     .limits = {{.when = "damping = 0", .becomes = "", .applies = no_damping, .values = {}},

@@ -208,13 +208,13 @@ const RegisterComponent register_davidenkov({
                      .description = "slope df/dd at the start and just after each reversal; 0 means no force"},
                     {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
                      .symbol = "Fc",
-                     .description = "force at which the slope has come to 0 and it flows; 0 means no force"},
+                     .description = "force at which the slope is 0 and the element flows; 0 means no force"},
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 2.0, .lower = 1,
                      .may_be_infinite = true, .symbol = "n",
                      .description = "shape of the loop: 2 is made of parabolas, inf is Prandtl's elastic-plastic law"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial, .lower = -infinity,
                      .symbol = "f0",
-                     .description = "force at the start (0 unless given), to which it was loaded once, within +-Fc"},
+                     .description = "force at the start (0 unless given), reached by a first loading, within +-Fc"},
                 },
             .check = start_within_bound,
             .effects = friction_effects(),
@@ -223,17 +223,16 @@ const RegisterComponent register_davidenkov({
             .equation = R"(f = f_r + 2 s\,g\!\left(\frac{|d - d_r|}{2}\right)\ \text{after a reversal},\qquad g(x) = \sigma\left(x - \frac{x^{n}}{n X^{n-1}}\right))",
             .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; "
                       "energies: W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
-            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and Fc from there. After "
-                     "each reversal the same curve, twice as large, from (d_r, f_r); where it comes back to a point at "
-                     "which an earlier branch turned, it goes on as that one would have. In a cycle of amplitude a < X, "
-                     "which need not be known beforehand, this is Davidenkov's loop "
-                     "f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)], upper signs while d grows, with "
-                     "eta = (2 X)^(1-n); for given eta, coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)). Such a loop "
-                     "dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)), at Fc z^n per travel, z being the part of the "
-                     "way to flow.",
+            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and constant from there. After "
+                     "each reversal the force follows the same curve, drawn twice as large, from the turning point (d_r, f_r). "
+                     "Where an inner loop closes, the force continues on the branch that the loop had left. A cycle of "
+                     "amplitude a < X is Davidenkov's loop f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with "
+                     "eta = (2 X)^(1-n), upper signs while d grows; the law need not know the amplitude. For a given eta "
+                     "choose coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)). A loop dissipates "
+                     "sigma eta (2 a)^(n+1) (n-1)/(n (n+1)). With `exponent` = inf the law is an sfm of exponent 0.",
         },
     .role = Role::deflection,
-    .limits = spring_to_slider({{.when = "exponent = inf (`exponent` is 0 there)", .becomes = "sfm",
+    .limits = spring_to_slider({{.when = "exponent = inf", .becomes = "sfm",
                                  .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
                                  .values = [](std::span<const double> v) {
                                    return std::vector<double>{v[0], v[1], 0, v[3]};

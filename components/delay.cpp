@@ -11,7 +11,7 @@ const RegisterComponent register_delay({
             .ports = Declaration::Ports::block,
             .parameters =
                 {
-                    {.name = "delay", .quantity = Quantity::time, .lower_open = false, .symbol = "T", .description = "the input is put out so much later; 0: at once"},
+                    {.name = "delay", .quantity = Quantity::time, .lower_open = false, .symbol = "T", .description = "time between input and output; 0: none"},
                     block_initial("output until the first of the input comes through"),
                 },
             .effects = {{Effect::delay, "delay", 0}},
@@ -19,7 +19,7 @@ const RegisterComponent register_delay({
             .law = "y(t) = u(t - T), y0 before",
             .equation = R"(y(t) = u(t - T),\quad y_0\ \text{before})",
             .source = "definition",
-            .notes = "What a function of time alone puts in comes out to the last digit. Of other inputs the integrator remembers each step, for as long as the delay. Steps may be longer than a delay, unless a prescribed motion follows from it or what goes in has no mass that keeps it from jumping. A jump, a corner, an event comes out at its time exactly.",
+            .notes = "An input that is a function of time alone is delayed exactly. For other inputs the integrator stores the steps of the last T seconds. A step may be longer than the delay, unless the output prescribes a motion, or the input can jump because no mass keeps it from doing so. Jumps, corners and events leave the delay exactly T later.",
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.delay = v[0], .initial = v[1]}; },

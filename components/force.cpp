@@ -17,7 +17,7 @@ const RegisterComponent register_force({
             .law = "F(t) given, or the output of a block",
             .equation = R"(F(t)\ \text{given, or the output of a block})",
             .source = "definition",
-            .notes = "Its force is the one applied, F(t).",
+            .notes = "Its force is the applied force F(t).",
         },
     .role = Role::force,
     .drawing = {.lines = "M0 .5 H.8", .solid = "M1 .5 L.72 .36 V.64 Z"},

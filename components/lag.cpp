@@ -11,15 +11,15 @@ const RegisterComponent register_lag({
             .ports = Declaration::Ports::block,
             .parameters =
                 {
-                    {.name = "time_constant", .quantity = Quantity::time, .symbol = "T", .description = "time in which a step is followed to 1 - 1/e"},
-                    block_gain("output for each unit of a steady input", 1.0),
+                    {.name = "time_constant", .quantity = Quantity::time, .symbol = "T", .description = "time after which the output has covered 1 - 1/e of a step"},
+                    block_gain("output per unit of a steady input", 1.0),
                     block_initial(),
                 },
             .summary = "first-order lag",
             .law = "T y' + y = K u, y = y0 at the start",
             .equation = R"(T\,\dot y + y = K\,u,\qquad y(t_0) = y_0)",
             .source = "definition",
-            .notes = "A state: what it puts out never jumps. It makes a loop solvable that would else have no time to go round.",
+            .notes = "The output is a state: it never jumps. A lag breaks an algebraic loop.",
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.gain = v[1] / v[0], .state = true, .leak = 1 / v[0], .initial = v[2]}; },

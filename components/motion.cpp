@@ -22,8 +22,8 @@ const RegisterComponent register_motion({
             .law = "x(t) or v(t) given, or the output of a block",
             .equation = R"(x(t)\ \text{or}\ v(t)\ \text{given, or the output of a block})",
             .source = "definition",
-            .notes = "Its force is what it applies to the node; the power that it supplies is that force times the velocity. "
-                     "A block that gives it must be one whose rate is known: see the netlist format.",
+            .notes = "Its force is the force that it applies to the node; it supplies that force times the velocity. "
+                     "A block that prescribes it must have a known rate: see the netlist format.",
         },
     .role = Role::motion,
     .drawing = {.lines = "M0 .22 V.78 M0 .5 H.8", .solid = "M1 .5 L.72 .36 V.64 Z"},

@@ -22,7 +22,7 @@ const RegisterComponent register_slider({
                             .symbol = "Fc", .description = "force of sliding; 0 means no force, inf a rigid link"},
                            {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
                             .same_as = "coulomb", .symbol = "Fs",
-                            .description = "force at which it breaks away, not less than `coulomb`"}},
+                            .description = "force at which it breaks away, at least `coulomb`"}},
             .check = breakaway_above_coulomb,
             .effects = {{Effect::dry_friction, "coulomb", 0}},
             .absences = {{{Effect::dry_friction}, {{"breakaway", 0}}}},
@@ -30,8 +30,8 @@ const RegisterComponent register_slider({
             .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w)",
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
-            .notes = "Stores nothing, dissipates f w. Between nodes whose forces leave its own open, the forces of least "
-                     "norm.",
+            .notes = "Stores nothing, dissipates f w. Where the balance of forces does not determine how sticking sliders share a load, "
+                     "they share it with the least sum of squares within their bounds.",
         },
     .role = Role::slip,
     .limits = {{.when = "breakaway = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[1] == 0; },

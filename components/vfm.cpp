@@ -58,7 +58,7 @@ const RegisterComponent register_vfm({
                     {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
                      .description = "force per displacement just after a reversal (rest stiffness); 0 means no force"},
                     {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false, .symbol = "TD",
-                     .description = "transport delay: the velocity is felt so much later"},
+                     .description = "transport delay of the velocity"},
                     {.name = "f0", .quantity = Quantity::force, .kind = Parameter::Kind::initial,
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "f0",
                      .description = "force at the start (0 unless given)"},
@@ -68,13 +68,13 @@ const RegisterComponent register_vfm({
                         {Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()},
                         {Effect::delay, "delay", 0}},
             .absences = {{{Effect::elasticity}, {{"delay", 0}}}},
-            .summary = "viscous friction model: a lag in front of Newton's law",
+            .summary = "viscous friction model: Newton's law with a lag",
             .law = "(B/sigma) df/dt + f = B w(t - TD)",
             .equation = R"(\frac{B}{\sigma}\,\frac{\mathrm{d}f}{\mathrm{d}t} + f = B\,w(t - T_D))",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24, 62 (J. C. Maxwell 1867 by its form)",
-            .notes = "Stores f^2/(2 sigma), dissipates f^2/B. Before the run nothing has moved. With a delay it takes up f w at once and "
-                     "may give some of it back: it is not passive, and can drive an oscillation. Where an end "
-                     "neither has a mass nor a given motion, no step is longer than a third of the delay: a very short one costs time there.",
+            .notes = "Stores f^2/(2 sigma), dissipates f^2/B. The delayed velocity is 0 before the start. With a delay the element is not "
+                     "passive: it can return energy and drive an oscillation. Next to a node with neither mass nor prescribed "
+                     "motion, no step is longer than a third of the delay, so that a very short delay costs time.",
         },
     .role = Role::deflection,
     .limits = {{.when = "damping = 0 or stiffness = 0", .becomes = "", .applies = no_force, .values = {}},
