@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "core/dae/dae.hpp"
 #include "core/network/around.hpp"
@@ -17,7 +18,8 @@ Dae::Subject Dae::subject(int unknown) const {
   if (const std::size_t n = index_of(ix_); n < ix_.size()) return {node, network_->scene_node[n]};
   if (const std::size_t j = index_of(ip_); j < ip_.size()) return {element, network_->deflections[j].element};
   if (const std::size_t r = index_of(if_); r < if_.size()) return {element, network_->rates[r].element};
-  return {element, network_->blocks.blocks[at(drive_->blocks().block_of_state(index_of(iz_)))].element};
+  if (const std::size_t s = index_of(iz_); s < iz_.size()) return {element, network_->blocks.blocks[at(drive_->blocks().block_of_state(s))].element};
+  throw std::logic_error(fmt::format("unknown {} belongs to no node and no element", unknown));
 }
 
 std::string Dae::describe(int unknown) const {

@@ -301,7 +301,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
   std::string member_path;
   const Mistakes::Within within(mistakes, member_path);
   const std::size_t elements_before = scene_.elements.size();
-  NodeId before = ends[0];
+  NodeId before = ends.empty() ? ground : ends[0];  // a block has none
   bool good = true;
   for (std::size_t i = 0; i < count && good; ++i) {
     number = Number{.value = static_cast<double>(i), .dimension = {}};

@@ -360,7 +360,10 @@ void Planner::read_repeat(Plan& plan, Keys& keys) {
     return;
   Keys repeat_keys(entry->value, "`repeat`");
   Repeat repeat;
-  const bool chainable = !plan.at && (plan.kind != Plan::Kind::instance || plan.model->ports.size() == 2);
+  const auto is_block = [&] { return context_.declarations[static_cast<std::size_t>(plan.declaration)]->ports == Declaration::Ports::block; };
+  const bool chainable = plan.kind == Plan::Kind::element    ? !plan.at && !is_block()
+                         : plan.kind == Plan::Kind::instance ? plan.model->ports.size() == 2
+                                                             : true;
   repeat.series = chainable;
   if (const TomlEntry* count = repeat_keys.require("count", entry->spot, "repeat = { count = 10 }"))
     repeat.count = Formula(count->value, "`count`", mistakes);

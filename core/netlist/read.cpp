@@ -139,6 +139,7 @@ class Reader {
 
   /// How the run is to be, what is recorded and claimed of it, and how it is shown.
   void read_questions(const TomlEntry* simulate, const Environment& environment, const std::set<std::string>& doubtful) {
+    scene_.stop = not_given;  // nothing is compared with it where [simulate] is missing or mistaken
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // A million default records of a scene that is refused would be for nothing.

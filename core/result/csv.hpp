@@ -15,8 +15,9 @@ struct WriteError : SimulationError {
   using SimulationError::SimulationError;
 };
 
-/// Writes rows, their numbers so that they read back as the same doubles. A row that comes more than a quarter of a second
-/// after the last writing is written at once with those before it; the last ones with `flush`, which the caller owes.
+/// Writes rows, their numbers so that they read back as the same doubles. Each goes to the buffer of the file as a whole,
+/// where another thread may flush it. A row that comes more than a quarter of a second after the last flush flushes the
+/// file; the last ones need `flush`, which the caller owes.
 /// Throws WriteError if that fails (disk full, pipe closed).
 class CsvWriter {
  public:
@@ -30,11 +31,14 @@ class CsvWriter {
  private:
   void begin_row(double time);
   void end_row();
+  void put_row();
+  [[noreturn]] void fail();
 
   std::FILE* file_;
   const char* what_;
-  fmt::memory_buffer buffer_;
-  double last_flush_ = 0;
+  fmt::memory_buffer row_;
+  std::size_t waiting_ = 0;  ///< bytes in the buffer of the file
+  double last_flush_ = 0;    ///< s
 };
 
 /// go(), and then the flush of `writer` that is owed, also where go() throws: what has been thrown is what is said then, and

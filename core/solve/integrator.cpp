@@ -239,7 +239,7 @@ struct Integrator::Implementation {
   /// The unknown with the largest error estimate, of those that `counts` is true of.
   template <class Counts>
   int worst(Counts counts) const {
-    if (IDAGetEstLocalErrors(ida, nw) < 0) return -1;
+    if (dae.unknowns() == 0 || IDAGetEstLocalErrors(ida, nw) < 0) return -1;
     int worst = -1;
     double largest = 0;
     for (std::size_t i = 0; i < work.size(); ++i) {

@@ -35,6 +35,25 @@ TEST_CASE("what changes too fast is told with all that has a part in it, at the 
            "`m`, `push`, `k`, or ask for a looser accuracy");
 }
 
+// Where all motion is given, the one equation that keeps the integrator going belongs to no node and no element: it was looked
+// up as the state of a block.
+TEST_CASE("where all motion is given a run that cannot go on is told with the motion and what it moves") {
+  const auto refusal_of = [](const Signal& velocity, double stop) {
+    SceneBuilder b;
+    b.motion("drive", "a", "velocity", velocity);
+    b.between("c", "dashpot", "a", "ground", {{"damping", 1.7}});
+    return attempt(b.finish(stop, 10, 1e-6)).refusal;
+  };
+  const auto square = [](double phase) { return Signal(Signal::Square{.amplitude = 1, .frequency = 3, .phase = phase, .time = 0, .offset = 0}); };
+  CHECK_EQ(refusal_of(square(1e3), 1), "");
+  for (const std::string& refusal : {refusal_of(square(1e300), 1), refusal_of(Signal(Signal::Constant{1}), 1e-320),
+                                     refusal_of(Signal(Signal::Ramp{1e300, 0, 0}), 1e10)}) {
+    CAPTURE(refusal);
+    const bool named = refusal.find("`drive`") != std::string::npos || refusal.find("`c.force`") != std::string::npos;
+    CHECK((refusal.empty() || named));
+  }
+}
+
 TEST_CASE("forces beyond all numbers are told as such where nothing can slip") {
   const Signal peak(Signal::Table{.times = {0, 1, 1.5}, .values = {0, 1e308, 0}, .time = 0, .offset = 0});
   CHECK_EQ(refused(peak, 0, 2), 

@@ -7,7 +7,9 @@ inline constexpr const char* footer_of_rheonet =
     "For instance:\n"
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet components spring\n"
-    "`rheonet run --help` says more of `run`, and so on.";
+    "`rheonet run --help` says more of `run`, and so on.\n\n"
+    "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, with exit status 1; the whole rows up to there are kept.\n"
+    "A second signal ends it at once.";
 inline constexpr const char* footer_of_run =
     "For instance:\n"
     "  rheonet run scene.toml -o result.csv\n"

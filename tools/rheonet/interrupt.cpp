@@ -1,22 +1,64 @@
 #include "tools/rheonet/interrupt.hpp"
 
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <thread>
+
+#include "tools/rheonet/arguments.hpp"
+#include "tools/rheonet/output.hpp"
+#include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
 namespace {
 
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+// Time that a command has to end by itself: enough for many steps of a simulation, half of the 2 s that are promised.
+constexpr std::chrono::milliseconds orderly_end{1000};
+
+std::atomic<bool> interrupted = false, ends_by_itself = false, told = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else, but post a semaphore");
+sem_t signalled;
+
+/// Ends the process while its other threads are still at work.
+[[noreturn]] void end_process() {
+  // Files end with a whole row: a write that has begun is completed, or its last half row is removed.
+  const std::string kept = Output::finish_all();
+  if (!told) say("{}error: interrupted\n{}", ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", kept);
+  ::_exit(not_simulated);
+}
+
+void wait_for_signal() {
+  while (::sem_wait(&signalled) != 0 && errno == EINTR) {
+  }
+  if (ends_by_itself) std::this_thread::sleep_for(orderly_end);
+  end_process();
+}
 
 }  // namespace
 
-const std::atomic<bool>& end_on_signals() {
+void answer_signals() {
+  ::sem_init(&signalled, 0, 0);
+  std::thread(wait_for_signal).detach();
   struct sigaction action {};
-  action.sa_handler = [](int) { interrupted = true; };
+  action.sa_handler = [](int) {
+    interrupted = true;
+    ::sem_post(&signalled);
+  };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+const std::atomic<bool>& end_on_signals() {
+  ends_by_itself = true;
   return interrupted;
+}
+
+void interrupt_is_told() {
+  if (interrupted) told = true;
 }
 
 void fail_writes_with_errors() {

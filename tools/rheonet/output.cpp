@@ -2,19 +2,42 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <climits>
 #include <cstring>
+#include <mutex>
 #include <string_view>
 #include <system_error>
+#include <thread>
+#include <vector>
 
 #include "core/netlist/characters.hpp"
 #include "tools/rheonet/say.hpp"
 
 namespace rheonet::tool {
+namespace {
+
+// How long the end of the process waits for a write to an output, or for the reader of a pipe.
+constexpr std::chrono::milliseconds wait_at_end{200};
+
+/// The outputs that are open.
+struct Open {
+  std::mutex mutex;
+  std::vector<Output*> outputs;
+};
+
+Open& all_open() {
+  static Open open;
+  return open;
+}
+
+}  // namespace
 
 Output::Output(const std::string& path)
     : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`") {
@@ -34,9 +57,11 @@ Output::Output(const std::string& path)
       .close = nullptr,
   };
   file_ = ::fopencookie(this, "w", functions);
-  if (file_ == nullptr || std::setvbuf(file_, nullptr, _IONBF, 0) != 0) {
+  if (file_ == nullptr || std::setvbuf(file_, nullptr, _IOFBF, buffered) != 0) {
     throw std::system_error(errno, std::generic_category());
   }
+  const std::scoped_lock lock(all_open().mutex);
+  all_open().outputs.push_back(this);
 }
 
 Output::Output(const std::string& path, std::size_t bytes, long lines) : Output(path) {
@@ -67,7 +92,11 @@ long Output::write(const char* text, std::size_t size) {
   }
   std::size_t written = 0;
   while (error_ == 0 && written < size) {
-    const ssize_t n = ::write(descriptor_, text + written, size - written);
+    if (finishing_ && is_stalled()) {
+      error_ = EAGAIN;
+      break;
+    }
+    const ssize_t n = ::write(descriptor_, text + written, finishing_ ? std::min<std::size_t>(size - written, PIPE_BUF) : size - written);
     if (n >= 0) {
       written += static_cast<std::size_t>(n);
     } else if (errno != EINTR) {
@@ -81,6 +110,34 @@ long Output::write(const char* text, std::size_t size) {
   return static_cast<long>(written);
 }
 
+/// The reader of a pipe takes nothing: writing PIPE_BUF bytes would wait for it.
+bool Output::is_stalled() const {
+  pollfd item{descriptor_, POLLOUT, 0};
+  return ::poll(&item, 1, static_cast<int>(wait_at_end.count())) <= 0;
+}
+
+bool Output::finish() {
+  // Whoever is writing holds this lock, and may wait for the reader of a pipe for good. It is never given back.
+  const auto until = std::chrono::steady_clock::now() + wait_at_end;
+  while (::ftrylockfile(file_) != 0) {
+    if (std::chrono::steady_clock::now() > until) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  finishing_ = true;
+  std::fflush(file_);
+  if (created_ && !touched_) ::unlink(path_.c_str());
+  return touched_;
+}
+
+std::string Output::finish_all() {
+  Open& open = all_open();
+  open.mutex.lock();  // for good: none is opened or closed any more
+  std::string kept;
+  for (Output* output : open.outputs)
+    if (output->finish()) kept += output->kept("row");
+  return kept;
+}
+
 // Half a number reads as another one.
 void Output::drop_begun_row() {
   struct stat status {};
@@ -92,6 +149,10 @@ void Output::drop_begun_row() {
 
 int Output::close() {
   if (file_ == nullptr) return error_;
+  {
+    const std::scoped_lock lock(all_open().mutex);
+    std::erase(all_open().outputs, this);
+  }
   std::fclose(file_);
   file_ = nullptr;
   // Some file systems report only here that the disk is full.

@@ -20,18 +20,26 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  std::FILE* file() { return file_; }  ///< unbuffered: who writes to it gathers rows
+  /// Its buffer holds `buffered` bytes; who writes to it flushes it before a row would be split.
+  std::FILE* file() { return file_; }
+  static constexpr std::size_t buffered = 1 << 17;
   bool is_terminal() const;
   const std::string& name() const { return name_; }          ///< for messages: "`out.csv`"
   long rows() const { return lines_ > 0 ? lines_ - 1 : 0; }  ///< written so far, without the header
   /// What of a task that ended early is in it, in words: "  the 3 rows up to there are in `out.csv`\n".
   std::string kept(const char* row) const;
 
+  /// Flushes all outputs of the process and blocks further writes, because the process is about to end. Any thread may call
+  /// it while others write. The text of `kept` for each output that has rows.
+  static std::string finish_all();
+
   /// Closes. The error of this or any earlier write (errno), 0 if all is written.
   int close();
 
  private:
+  bool finish();
   long write(const char* text, std::size_t size);
+  bool is_stalled() const;
   void drop_begun_row();
 
   std::string path_;
@@ -43,6 +51,7 @@ class Output {
   std::size_t begun_ = 0;  ///< bytes written since the last whole row
   bool created_ = false;
   bool touched_ = false;
+  bool finishing_ = false;  ///< no write may wait for a reader any more
   std::size_t kept_ = 0;  ///< bytes of an earlier writing
 };
 

@@ -15,7 +15,9 @@ int run_program(int count, char** words, const std::function<ExitStatus(const Ar
   try {
     const std::variant<Arguments, ExitStatus> read = read_arguments({words + 1, words + count});
     if (const ExitStatus* status = std::get_if<ExitStatus>(&read)) return *status;
-    const ExitStatus status = command(std::get<Arguments>(read));
+    const Arguments& arguments = std::get<Arguments>(read);
+    if (!arguments.serve.worker) answer_signals();  // a worker writes no file, and its server says what ended it
+    const ExitStatus status = command(arguments);
     if (std::fflush(stdout) != 0) {
       say("error: cannot write to standard output\n");
       return not_simulated;

@@ -6,6 +6,7 @@
 #include "core/netlist/characters.hpp"
 #include "core/netlist/loose_nodes.hpp"
 #include "core/network/component.hpp"
+#include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/library.hpp"
 #include "tools/rheonet/say.hpp"
 
@@ -74,6 +75,7 @@ void report(const SimulationError& error, const Sources& sources) {
   } else {
     say("error: {}\n", error.what());
   }
+  interrupt_is_told();
 }
 
 }  // namespace rheonet::tool

@@ -212,7 +212,7 @@ ExitStatus sweep_scene(const Arguments& arguments) {
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int jobs = arguments.sweep.jobs > 0 ? arguments.sweep.jobs : processors;
   const auto write = [&output](const std::string& text) {
-    return std::fwrite(text.data(), 1, text.size(), output->file()) == text.size();
+    return std::fwrite(text.data(), 1, text.size(), output->file()) == text.size() && std::fflush(output->file()) == 0;
   };
   Progress progress(!arguments.quiet && !output->is_terminal());
   const auto start = std::chrono::steady_clock::now();
@@ -237,6 +237,7 @@ ExitStatus sweep_scene(const Arguments& arguments) {
   }
   if (end < runs) {
     say("error: the sweep was interrupted after {} of {} runs\n{}", end, runs, output->kept("row"));
+    interrupt_is_told();
     if (arguments.output != "-") say("  with `--resume` it goes on there\n");
     return not_simulated;
   }

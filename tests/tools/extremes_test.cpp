@@ -1,0 +1,87 @@
+// Values and tables beyond any sense: a result or an error with its place and an exit status of the contract, never a signal and
+// never a run without end.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/program.hpp"
+
+using namespace rheonet::test;
+
+namespace {
+
+/// Runs a scene, and checks all that holds of any.
+Finished run_any(const std::string& scene) {
+  const Folder folder(scene);
+  Finished result = folder.shell("timeout 20 rheonet run scene.toml");
+  CAPTURE(scene);
+  CAPTURE(result.err);
+  CHECK(result.status <= 2);
+  CHECK((result.status == 0 || contains(result.err, "error: ")));
+  CHECK_FALSE(contains(result.err, "nan"));
+  const std::string rows = result.out.substr(std::min(result.out.find('\n'), result.out.size()));
+  CHECK_FALSE(contains(rows, "nan"));
+  CHECK_FALSE(contains(rows, "inf"));
+  return result;
+}
+
+const std::string dashpot = "k = { type = \"dashpot\", between = [\"a\", \"ground\"], damping = 1 }\n";
+
+std::string driven(const std::string& velocity, const std::string& stop) {
+  return "[elements]\nd = { type = \"motion\", at = \"a\", velocity = " + velocity + " }\n" + dashpot + "[simulate]\nstop = " + stop + "\n";
+}
+
+}  // namespace
+
+// The end of the run stood at 0 where no [simulate] said otherwise: `to` was not later than `from`, and neither was written
+// anywhere that could be shown.
+TEST_CASE("a claim without times in a scene without [simulate], or with a misspelt one") {
+  const std::string scene = R"([elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+d  = { type = "motion", at = "a", position = 1 }
+[expect]
+"k1.force" = [{ max = 1 }, { mean = 1, from = 0 }, { crosses = 1, at = 0.5 }]
+)";
+  for (const std::string simulate : {"", "[simulat]\nstop = 1\n", "[simulate]\nstp = 1\n", "[simulate]\nstop = -1\n"}) {
+    const Finished result = run_any(scene + simulate);
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, "scene.toml:"));
+    CHECK_FALSE(contains(result.err, "`from`"));
+  }
+}
+
+TEST_CASE("phases, times and slopes beyond all sense, where all motion is given") {
+  run_any(driven("{ square = 1, frequency = 3, phase = 1e300 }", "1"));
+  run_any(driven("{ triangle = 1, frequency = 3, phase = 1e300 }", "1"));
+  run_any(driven("{ pulse = 1, width = 0.1, frequency = 3, phase = 1e300 }", "1"));
+  run_any(driven("1", "1e-320"));
+  run_any(driven("1", "1e308"));
+  run_any(driven("{ ramp = 1e300 }", "1e10"));
+  run_any(driven("{ sine = 1, frequency = 1e300 }", "1"));
+}
+
+// The search for the next reversal went on by the rounding of time.
+TEST_CASE("a slider that is driven by 1e297 m") {
+  run_any(R"([elements]
+drive = { type = "motion", at = "shaft", position = { sine = "1e300 mm", frequency = "1 Hz" } }
+k1    = { type = "spring", between = ["shaft", "mid"],  stiffness = "1 N/mm" }
+s1    = { type = "slider", between = ["mid", "ground"], coulomb = "1 N" }
+[simulate]
+stop   = "3 s"
+record = ["k1.force"]
+)");
+}
+
+TEST_CASE("blocks that a motion of 1e-160 m/s sets moving after 1e160 s") {
+  run_any(R"([elements]
+drive = { type = "motion", at = "plate", velocity = 1e-160 }
+k1 = { type = "spring", between = ["plate", "first"], stiffness = 3 }
+m1 = { type = "mass", at = "first", mass = 0.2 }
+s1 = { type = "slider", between = ["first", "ground"], coulomb = 0.9, breakaway = 1.4 }
+k2 = { type = "spring", between = ["first", "second"], stiffness = 170 }
+m2 = { type = "mass", at = "second", mass = 0.2 }
+s2 = { type = "slider", between = ["second", "ground"], coulomb = 0.9, breakaway = 1.4 }
+[simulate]
+stop = "5e159 s"
+)");
+}
