@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
-#include <utility>
+
+#include "core/netlist/fresnel.hpp"
 
 namespace rheonet {
 
@@ -13,13 +14,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double endless = std::numeric_limits<double>::infinity();
-
-/// 10-point Gauss-Legendre on [-1, 1] (Abramowitz and Stegun, table 25.4), the positive half: abscissa, weight.
-constexpr std::pair<double, double> gauss[] = {{0.14887433898163121088, 0.29552422471475287017},
-                                               {0.43339539412924719080, 0.26926671930999635509},
-                                               {0.67940956829902440623, 0.21908636251598204400},
-                                               {0.86506336668898451073, 0.14945134915058059315},
-                                               {0.97390652851717172008, 0.06667134430868813759}};
 
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
@@ -246,18 +240,7 @@ double Piece::integral(double from, double to) const {
   if (amplitude == 0) return straight;
   if (chirp == 0)  // the difference of two cosines, without its cancellation
     return straight + amplitude * length * std::sin(phase + omega * (a + b) / 2) * sinc(omega * length / 2);
-  // 10 points integrate a quarter turn to rounding, even where the frequency passes through 0.
-  const double fastest = std::max(std::abs(omega + chirp * a), std::abs(omega + chirp * b));
-  const double panels = std::max(1.0, std::ceil(fastest * std::abs(length) / (pi / 2)));
-  const double half = length / panels / 2;
-  double sum = 0;
-  for (double panel = 0; panel < panels; ++panel) {
-    const double centre = a + (2 * panel + 1) * half;
-    for (const auto& [x, weight] : gauss)
-      for (const double tau : {centre - x * half, centre + x * half})
-        sum += weight * std::sin(phase + (omega + chirp * tau / 2) * tau);
-  }
-  return straight + amplitude * half * sum;
+  return straight + amplitude * integral_of_chirp(phase, omega, chirp, a, b);
 }
 
 double Piece::rounding(double t) const {
