@@ -43,6 +43,7 @@ class Divider {
 
   Division divide() {
     if (parts_.count < 2 && !any_idle()) return {};
+    join_bundles();
     join_by_claims();
     for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed}) {
       for (const Record& record : *records) ask(record);
@@ -130,6 +131,17 @@ class Divider {
     }
     for (int& part : found) part = joined_.find(part);
     return found;
+  }
+
+  /// Spring-slider pairs between the same two nodes are one element, with a closed form for all of them.
+  void join_bundles() {
+    std::vector<Reduced> laws;
+    for (const SceneElement& element : scene_.elements) laws.push_back(law_of(scene_, element));
+    std::map<std::pair<NodeId, NodeId>, int> part_between;
+    for (const Pair& pair : find_pairs(scene_, laws)) {
+      const int part = parts_.of_element[at(pair.slider)];
+      join(part_between.try_emplace(std::minmax(pair.spring_end, pair.slider_end), part).first->second, part);
+    }
   }
 
   /// A claim is looked at within one part, and so is a difference between two nodes.
@@ -250,9 +262,9 @@ class Divider {
       const auto job = job_.find(joined_.find(part));
       job_of[at(part)] = job == job_.end() ? jobs_ : job->second;
     }
-    const std::vector<Excerpt> excerpts = cut(scene_, parts_, job_of, unasked_.empty() ? jobs_ : jobs_ + 1, unasked_.empty() ? -1 : jobs_);
-    for (int job = 0; job < jobs_; ++job) division.excerpts.push_back(excerpts[at(job)]);
-    if (!unasked_.empty()) division.unasked.push_back(excerpts.back());
+    std::vector<Excerpt> excerpts = cut(scene_, parts_, job_of, unasked_.empty() ? jobs_ : jobs_ + 1, unasked_.empty() ? -1 : jobs_);
+    for (int job = 0; job < jobs_; ++job) division.excerpts.push_back(std::move(excerpts[at(job)]));
+    if (!unasked_.empty()) division.unasked.push_back(std::move(excerpts.back()));
     for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
       const int part = parts_.of_element[e];
       if (part >= 0 && job_of[at(part)] == jobs_) division.left_out.push_back(scene_.elements[e].name);

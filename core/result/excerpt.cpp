@@ -1,6 +1,8 @@
 #include "core/result/excerpt.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -12,34 +14,52 @@ namespace rheonet {
 
 namespace {
 
-/// Takes some of the nodes and elements of a scene, and what belongs to these.
+/// Indices into a scene, in its order, of the parts that an excerpt contains. Ground is always contained.
+struct Taking {
+  std::vector<int> nodes, elements, blocks, feeds;
+  /// For each assembly that a record, claim or block names: the terms of its force whose elements the excerpt contains.
+  std::vector<std::pair<int, SceneAssembly::Term>> terms;
+};
+
+/// For each node, element, assembly and block of a scene its index in the excerpt; -1: not contained. Excerpts are made one
+/// after the other with the same arrays, and each clears only the entries that it has set.
+struct Numbers {
+  explicit Numbers(const Scene& whole)
+      : node(whole.nodes.size(), -1), element(whole.elements.size(), -1), assembly(whole.assemblies.size(), -1), block(whole.blocks.size(), -1) {}
+  std::vector<int> node, element, assembly, block;
+};
+
+/// Copies an excerpt into a scene of its own. The cost grows with the excerpt, not with the whole scene.
 class Taker {
  public:
-  /// node(k), element(e): whether it is taken; ground always is.
-  template <class Node, class Element>
-  Taker(const Scene& whole, Node node, Element element)
-      : whole_(whole), node_(whole.nodes.size(), -1), element_(whole.elements.size(), -1) {
+  Taker(const Scene& whole, const Taking& taking, Numbers& numbers) : whole_(whole), taking_(taking), numbers_(numbers) {
     take_settings();
-    for (std::size_t k = 0; k < whole.nodes.size(); ++k) {
-      if (k != ground && !node(k)) continue;
-      node_[k] = static_cast<int>(scene_.nodes.size());
-      scene_.nodes.push_back(whole.nodes[k]);
+    number(taking.blocks, numbers.block);
+    take_node(ground);
+    for (const int k : taking.nodes) {
+      if (k != ground) take_node(k);
     }
-    for (std::size_t e = 0; e < whole.elements.size(); ++e) {
-      if (!element(e)) continue;
-      element_[e] = static_cast<int>(scene_.elements.size());
-      scene_.elements.push_back(whole.elements[e]);
-      scene_.elements.back().a = node_[at(whole.elements[e].a)];
-      if (!whole.elements[e].at) scene_.elements.back().b = node_[at(whole.elements[e].b)];
+    for (const int e : taking.elements) take_element(e);
+    for (const int k : taking.blocks) take_block(whole.blocks[at(k)]);
+    for (const int k : taking.feeds) {
+      const SceneFeed& feed = whole.feeds[at(k)];
+      scene_.feeds.push_back({numbers.element[at(feed.element)], numbers.block[at(feed.block)], feed.sign});
     }
-    take_assemblies();
-    take_blocks();
   }
+  ~Taker() {
+    numbers_.node[ground] = -1;
+    for (const int k : taking_.nodes) numbers_.node[at(k)] = -1;
+    for (const int k : taking_.elements) numbers_.element[at(k)] = -1;
+    for (const int k : taking_.blocks) numbers_.block[at(k)] = -1;
+    for (const int k : assemblies_) numbers_.assembly[at(k)] = -1;
+  }
+  Taker(const Taker&) = delete;
+  Taker& operator=(const Taker&) = delete;
 
   Scene& scene() { return scene_; }
 
   /// What there is here of a record of the whole.
-  std::optional<Record> taken(const Record& whole) const {
+  std::optional<Record> taken(const Record& whole) {
     Record record = whole;
     record.index = number(whole);
     if (record.index < 0) return {};
@@ -66,144 +86,227 @@ class Taker {
     scene_.output_events = whole_.output_events;
   }
 
-  void take_assemblies() {
-    assembly_.assign(whole_.assemblies.size(), -1);
-    for (std::size_t k = 0; k < whole_.assemblies.size(); ++k) {
-      SceneAssembly assembly = whole_.assemblies[k];
-      assembly.a = node_[at(assembly.a)];
-      assembly.b = node_[at(assembly.b)];
-      std::erase_if(assembly.force, [&](SceneAssembly::Term& term) { return (term.element = element_[at(term.element)]) < 0; });
-      if (assembly.force.empty() && (assembly.a < 0 || assembly.b < 0)) continue;
-      assembly_[k] = static_cast<int>(scene_.assemblies.size());
-      scene_.assemblies.push_back(std::move(assembly));
-    }
+  static void number(const std::vector<int>& taken, std::vector<int>& numbers) {
+    for (std::size_t k = 0; k < taken.size(); ++k) numbers[at(taken[k])] = static_cast<int>(k);
   }
 
-  void take_blocks() {
-    block_.assign(whole_.blocks.size(), -1);
-    int count = 0;
-    for (std::size_t k = 0; k < whole_.blocks.size(); ++k) {
-      if (element_[at(whole_.blocks[k].element)] >= 0) block_[k] = count++;
-    }
-    for (std::size_t k = 0; k < whole_.blocks.size(); ++k) {
-      if (block_[k] < 0) continue;
-      SceneBlock block = whole_.blocks[k];
-      block.element = element_[at(block.element)];
-      for (SceneBlock::Input& input : block.inputs) {
-        if (input.from_block) {
-          input.index = block_[at(input.index)];
-          continue;
-        }
-        Record sensed = whole_.sensed[at(input.index)];
-        sensed.index = number(sensed);
-        input.index = static_cast<int>(scene_.sensed.size());
-        scene_.sensed.push_back(std::move(sensed));
+  void take_node(int k) {
+    numbers_.node[at(k)] = static_cast<int>(scene_.nodes.size());
+    scene_.nodes.push_back(whole_.nodes[at(k)]);
+  }
+
+  void take_element(int e) {
+    numbers_.element[at(e)] = static_cast<int>(scene_.elements.size());
+    SceneElement& element = scene_.elements.emplace_back(whole_.elements[at(e)]);
+    element.a = numbers_.node[at(element.a)];
+    if (!element.at) element.b = numbers_.node[at(element.b)];
+  }
+
+  int take_assembly(int k) {
+    int& mine = numbers_.assembly[at(k)];
+    if (mine >= 0) return mine;
+    mine = static_cast<int>(scene_.assemblies.size());
+    assemblies_.push_back(k);
+    const SceneAssembly& whole = whole_.assemblies[at(k)];
+    SceneAssembly& assembly = scene_.assemblies.emplace_back(
+        SceneAssembly{.name = whole.name, .a = numbers_.node[at(whole.a)], .b = numbers_.node[at(whole.b)], .force = {}, .spot = whole.spot});
+    const auto before = [](const auto& term, int index) { return term.first < index; };
+    auto term = std::lower_bound(taking_.terms.begin(), taking_.terms.end(), k, before);
+    for (; term != taking_.terms.end() && term->first == k; ++term)
+      assembly.force.push_back({numbers_.element[at(term->second.element)], term->second.sign});
+    return mine;
+  }
+
+  void take_block(const SceneBlock& whole) {
+    SceneBlock block = whole;
+    block.element = numbers_.element[at(block.element)];
+    for (SceneBlock::Input& input : block.inputs) {
+      if (input.from_block) {
+        input.index = numbers_.block[at(input.index)];
+        continue;
       }
-      scene_.blocks.push_back(std::move(block));
+      Record sensed = whole_.sensed[at(input.index)];
+      sensed.index = number(sensed);
+      input.index = static_cast<int>(scene_.sensed.size());
+      scene_.sensed.push_back(std::move(sensed));
     }
-    for (const SceneFeed& feed : whole_.feeds) {
-      if (element_[at(feed.element)] >= 0) scene_.feeds.push_back({element_[at(feed.element)], block_[at(feed.block)], feed.sign});
-    }
+    scene_.blocks.push_back(std::move(block));
   }
 
-  int number(const Record& record) const {
+  int number(const Record& record) {
     switch (record.subject) {
       case Record::Subject::node:
-        return node_[at(record.index)];
+        return numbers_.node[at(record.index)];
       case Record::Subject::element:
-        return element_[at(record.index)];
+        return numbers_.element[at(record.index)];
       case Record::Subject::assembly:
-        return assembly_[at(record.index)];
+        return take_assembly(record.index);
       case Record::Subject::block:
         break;
     }
-    return block_[at(record.index)];
+    return numbers_.block[at(record.index)];
   }
 
   const Scene& whole_;
+  const Taking& taking_;
+  Numbers& numbers_;
   Scene scene_;
-  std::vector<int> node_, element_, assembly_, block_;  ///< the numbers that those of the whole have here; -1: none
+  std::vector<int> assemblies_;  ///< those that have been taken
 };
+
+/// The assemblies that anything asks for.
+std::vector<char> asked_assemblies(const Scene& scene) {
+  std::vector<char> asked(scene.assemblies.size(), 0);
+  for (const std::vector<Record>* records : {&scene.records, &scene.claimed, &scene.sensed}) {
+    for (const Record& record : *records) {
+      if (record.subject == Record::Subject::assembly) asked[at(record.index)] = 1;
+    }
+  }
+  return asked;
+}
 
 class Cutter {
  public:
   Cutter(const Scene& scene, const Parts& parts, const std::vector<int>& job_of, int jobs, int unasked)
-      : scene_(scene), jobs_(jobs), of_node_(scene.nodes.size()), of_element_(scene.elements.size()) {
-    const auto job = [&](int part) { return job_of[at(part)]; };
-    for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-      if (parts.of_element[e] < 0) continue;
-      const SceneElement& element = scene.elements[e];
-      of_element_[e].insert(job(parts.of_element[e]));
-      if (role(e) == Role::block) continue;
-      of_node_[at(element.a)].insert(job(parts.of_element[e]));
-      if (!element.at) of_node_[at(element.b)].insert(job(parts.of_element[e]));
+      : scene_(scene), numbers_(scene), jobs_of_node_(scene.nodes.size()), jobs_of_element_(scene.elements.size()), jobs_(at(jobs)) {
+    find_jobs(parts, job_of, unasked);
+    deal(jobs_of_node_, &Taking::nodes);
+    deal(jobs_of_element_, &Taking::elements);
+    for (std::size_t k = 0; k < scene.blocks.size(); ++k)
+      for (const int job : jobs_of_element_[at(scene.blocks[k].element)]) jobs_[at(job)].taking.blocks.push_back(static_cast<int>(k));
+    for (std::size_t k = 0; k < scene.feeds.size(); ++k)
+      for (const int job : jobs_of_element_[at(scene.feeds[k].element)]) jobs_[at(job)].taking.feeds.push_back(static_cast<int>(k));
+    const std::vector<char> asked = asked_assemblies(scene);
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      if (!asked[k]) continue;
+      for (const SceneAssembly::Term& term : scene.assemblies[k].force)
+        for (const int job : jobs_of_element_[at(term.element)]) jobs_[at(job)].taking.terms.emplace_back(static_cast<int>(k), term);
     }
-    for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-      if (parts.of_element[e] >= 0 || role(e) == Role::block) continue;
-      std::set<int>& there = of_node_[at(scene.elements[e].a)];
-      if (std::all_of(there.begin(), there.end(), [&](int j) { return j == unasked; })) there.insert(0);
-      if (role(e) == Role::motion) {
-        of_element_[e] = there;
-      } else {
-        of_element_[e].insert(*there.begin());
-      }
-    }
+    deal_records();
   }
 
   std::vector<Excerpt> cut() {
     std::vector<Excerpt> result;
-    for (int job = 0; job < jobs_; ++job) result.push_back(excerpt(job));
+    for (const Job& job : jobs_) result.push_back(excerpt(job));
     return result;
   }
 
  private:
+  struct Job {
+    Taking taking;
+    std::vector<std::size_t> records, claims;
+  };
+
   Role role(std::size_t e) const { return components()[at(scene_.elements[e].declaration)]->role; }
 
-  Excerpt excerpt(int job) {
-    Taker taker(scene_, [&](std::size_t node) { return of_node_[node].contains(job); },
-                [&](std::size_t element) { return of_element_[element].contains(job); });
-    Excerpt result;
-    take_records(result, taker);
-    result.scene = std::move(taker.scene());
-    return result;
+  void find_jobs(const Parts& parts, const std::vector<int>& job_of, int unasked) {
+    const auto job = [&](int part) { return job_of[at(part)]; };
+    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
+      if (parts.of_element[e] < 0) continue;
+      const SceneElement& element = scene_.elements[e];
+      jobs_of_element_[e].insert(job(parts.of_element[e]));
+      if (role(e) == Role::block) continue;
+      jobs_of_node_[at(element.a)].insert(job(parts.of_element[e]));
+      if (!element.at) jobs_of_node_[at(element.b)].insert(job(parts.of_element[e]));
+    }
+    for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
+      if (parts.of_element[e] >= 0 || role(e) == Role::block) continue;
+      std::set<int>& there = jobs_of_node_[at(scene_.elements[e].a)];
+      if (std::all_of(there.begin(), there.end(), [&](int j) { return j == unasked; })) there.insert(0);
+      if (role(e) == Role::motion) {
+        jobs_of_element_[e] = there;
+      } else {
+        jobs_of_element_[e].insert(*there.begin());
+      }
+    }
+  }
+
+  void deal(const std::vector<std::set<int>>& jobs_of, std::vector<int> Taking::*list) {
+    for (std::size_t k = 0; k < jobs_of.size(); ++k)
+      for (const int job : jobs_of[k]) (jobs_[at(job)].taking.*list).push_back(static_cast<int>(k));
   }
 
   /// A force may be a sum over jobs; all else is taken from the first job that has it.
-  bool sums(const Record& record) const { return record.channel == Record::Channel::force; }
+  static bool sums(const Record& record) { return record.channel == Record::Channel::force; }
 
-  void take_records(Excerpt& result, Taker& taker) {
-    Scene& s = taker.scene();
+  void deal_records() {
     for (std::size_t k = 0; k < scene_.records.size(); ++k) {
-      const auto record = taker.taken(scene_.records[k]);
-      if (!record || (!sums(*record) && recorded_.contains(k))) continue;
-      recorded_.insert(k);
-      result.records.push_back(k);
-      s.records.push_back(*record);
+      const std::set<int> jobs = jobs_of(scene_.records[k]);
+      for (const int job : jobs) {
+        jobs_[at(job)].records.push_back(k);
+        if (!sums(scene_.records[k])) break;
+      }
     }
-    std::vector<int> claimed(scene_.claimed.size(), -1);
-    const auto claim_record = [&](int whole) {
-      int& mine = claimed[at(whole)];
-      if (mine >= 0) return mine;
-      s.claimed.push_back(*taker.taken(scene_.claimed[at(whole)]));
-      return mine = static_cast<int>(s.claimed.size()) - 1;
-    };
     for (std::size_t k = 0; k < scene_.claims.size(); ++k) {
       const Claim& claim = scene_.claims[k];
-      const bool here = taker.taken(scene_.claimed[at(claim.record)]) && (claim.per < 0 || taker.taken(scene_.claimed[at(claim.per)]));
-      if (!here || !claimed_.insert(k).second) continue;
-      Claim mine = claim;
-      mine.record = claim_record(claim.record);
-      if (claim.per >= 0) mine.per = claim_record(claim.per);
-      result.claims.push_back(k);
-      s.claims.push_back(mine);
+      std::set<int> jobs = jobs_of(scene_.claimed[at(claim.record)]);
+      if (claim.per >= 0) jobs = common(jobs, jobs_of(scene_.claimed[at(claim.per)]));
+      if (!jobs.empty()) jobs_[at(*jobs.begin())].claims.push_back(k);
     }
   }
 
+  static std::set<int> common(const std::set<int>& one, const std::set<int>& other) {
+    std::set<int> both;
+    std::set_intersection(one.begin(), one.end(), other.begin(), other.end(), std::inserter(both, both.end()));
+    return both;
+  }
+
+  /// The jobs that contain the subject of a record, or a part of its force. For ground, which all contain, the first job.
+  std::set<int> jobs_of(const Record& record) const {
+    switch (record.subject) {
+      case Record::Subject::node:
+        return record.index == ground ? std::set<int>{0} : jobs_of_node_[at(record.index)];
+      case Record::Subject::element:
+        return jobs_of_element_[at(record.index)];
+      case Record::Subject::block:
+        return jobs_of_element_[at(scene_.blocks[at(record.index)].element)];
+      case Record::Subject::assembly:
+        break;
+    }
+    const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
+    if (sums(record)) {
+      std::set<int> jobs;
+      for (const SceneAssembly::Term& term : assembly.force) jobs.insert(jobs_of_element_[at(term.element)].begin(), jobs_of_element_[at(term.element)].end());
+      return jobs;
+    }
+    if (assembly.a == ground || assembly.b == ground) return jobs_of({.path = {}, .subject = Record::Subject::node, .index = assembly.a == ground ? assembly.b : assembly.a});
+    return common(jobs_of_node_[at(assembly.a)], jobs_of_node_[at(assembly.b)]);
+  }
+
+  Excerpt excerpt(const Job& job) {
+    Excerpt result{.scene = {}, .records = job.records, .claims = job.claims};
+    Taker taker(scene_, job.taking, numbers_);
+    Scene& s = taker.scene();
+    for (const std::size_t k : job.records) s.records.push_back(*taker.taken(scene_.records[k]));
+    std::map<int, int> claimed;
+    const auto claim_record = [&](int whole) {
+      const auto [mine, fresh] = claimed.try_emplace(whole, static_cast<int>(s.claimed.size()));
+      if (fresh) s.claimed.push_back(*taker.taken(scene_.claimed[at(whole)]));
+      return mine->second;
+    };
+    for (const std::size_t k : job.claims) {
+      Claim mine = scene_.claims[k];
+      mine.record = claim_record(mine.record);
+      if (mine.per >= 0) mine.per = claim_record(mine.per);
+      s.claims.push_back(mine);
+    }
+    result.scene = std::move(s);
+    return result;
+  }
+
   const Scene& scene_;
-  const int jobs_;
-  std::vector<std::set<int>> of_node_, of_element_;
-  std::set<std::size_t> recorded_, claimed_;
+  Numbers numbers_;
+  std::vector<std::set<int>> jobs_of_node_, jobs_of_element_;
+  std::vector<Job> jobs_;
 };
+
+std::vector<int> marked(const std::vector<char>& marks) {
+  std::vector<int> list;
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    if (marks[k]) list.push_back(static_cast<int>(k));
+  }
+  return list;
+}
 
 }  // namespace
 
@@ -212,7 +315,22 @@ std::vector<Excerpt> cut(const Scene& scene, const Parts& parts, const std::vect
 }
 
 Scene cut_out(const Scene& scene, const std::vector<char>& nodes, const std::vector<char>& elements) {
-  Taker taker(scene, [&](std::size_t node) { return nodes[node] != 0; }, [&](std::size_t element) { return elements[element] != 0; });
+  Taking taking{.nodes = marked(nodes), .elements = marked(elements), .blocks = {}, .feeds = {}, .terms = {}};
+  for (std::size_t k = 0; k < scene.blocks.size(); ++k) {
+    if (elements[at(scene.blocks[k].element)]) taking.blocks.push_back(static_cast<int>(k));
+  }
+  for (std::size_t k = 0; k < scene.feeds.size(); ++k) {
+    if (elements[at(scene.feeds[k].element)]) taking.feeds.push_back(static_cast<int>(k));
+  }
+  const std::vector<char> asked = asked_assemblies(scene);
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    if (!asked[k]) continue;
+    for (const SceneAssembly::Term& term : scene.assemblies[k].force) {
+      if (elements[at(term.element)]) taking.terms.emplace_back(static_cast<int>(k), term);
+    }
+  }
+  Numbers numbers(scene);
+  Taker taker(scene, taking, numbers);
   Scene& s = taker.scene();
   for (const Record& record : scene.records) s.records.push_back(*taker.taken(record));
   for (const Record& record : scene.claimed) s.claimed.push_back(*taker.taken(record));

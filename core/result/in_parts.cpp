@@ -119,10 +119,9 @@ class SideBySide {
       outcome.reached = fraction;
       if (settings_.progress) {
         const std::lock_guard lock(told_);
+        done_ += fraction - outcome.fraction;
         outcome.fraction = fraction;
-        double sum = 0;
-        for (const Outcome& other : outcomes_) sum += other.fraction;
-        settings_.progress(sum / static_cast<double>(outcomes_.size()));
+        settings_.progress(done_ / static_cast<double>(outcomes_.size()));
       }
     };
     try {
@@ -230,6 +229,7 @@ class SideBySide {
   std::vector<Outcome> outcomes_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex told_;
+  double done_ = 0;  ///< sum of the fractions that have been told
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/network/error.hpp"
 #include "core/result/division.hpp"
@@ -173,4 +174,66 @@ TEST_CASE("rows at events and steps are those of the whole") {
   Summary summary;
   simulate(scene, &summary);
   CHECK_EQ(summary.parts, 1);
+}
+
+// Each pair was a part of its own, with a list of all others in its scene: the memory grew with the square of the pairs. Pair j
+// of N yields at x = (j + 1/2)/N, so that with x = sin(2 pi t) the force is the sum of min(x, (j + 1/2)/N)/N.
+TEST_CASE("Spring-slider pairs between the same two nodes are one part to integrate") {
+  constexpr int pairs = 300;
+  const Scene scene = scene_of(R"([models.jenkins]
+ports = ["a", "b"]
+parameters = { k = 1, Fc = 1 }
+[models.jenkins.elements]
+s = { type = "spring", between = ["a", "mid"], stiffness = "k" }
+f = { type = "slider", between = ["mid", "b"], coulomb = "Fc" }
+[elements]
+drive = { type = "motion", at = "x", position = { sine = 1, frequency = 1 } }
+bundle = { type = "jenkins", between = ["x", "ground"], repeat = { count = 300, as = "j", arrange = "parallel" }, k = "1/300", Fc = "(j+0.5)/300/300" }
+[simulate]
+stop = 0.25
+output = { points = 51 }
+record = ["bundle.force"]
+)");
+  CHECK(divide(scene, {}).excerpts.empty());
+  Summary summary;
+  const Trajectory rows = simulate(scene, &summary);
+  CHECK_LE(summary.steps, 10);  // as many as for one pair: nothing but the drive moves
+  for (std::size_t k = 0; k < rows.time().size(); ++k) {
+    const double x = std::sin(2 * std::numbers::pi * rows.time()[k]);
+    double force = 0;
+    for (int j = 0; j < pairs; ++j) force += std::min(x, (j + 0.5) / pairs) / pairs;
+    CHECK(std::abs(rows["bundle.force"][k] - force) <= 1e-6 * 0.5);
+  }
+}
+
+TEST_CASE("what is cut out of a scene for its parts grows with the scene, not with its square") {
+  constexpr std::size_t count = 40;
+  Scene scene = scene_of(R"([models.rub]
+ports = ["a", "b"]
+[models.rub.elements]
+k = { type = "spring", between = ["a", "tip"], stiffness = 70 }
+m = { type = "mass", at = "tip", mass = 0.8 }
+f = { type = "slider", between = ["tip", "b"], coulomb = "1.3 N" }
+[elements]
+drive = { type = "motion", at = "x", velocity = { sine = 0.4, frequency = 1.5 } }
+block = { type = "rub", between = ["x", "ground"], repeat = { count = 40, as = "j", arrange = "parallel" } }
+[simulate]
+stop = 0.4
+output = { points = 9 }
+record = ["block.force", "block.3.force", "block.17.displacement", "block.39.tip.velocity"]
+)");
+  const Division division = divide(scene, {});
+  REQUIRE_EQ(division.excerpts.size(), count);
+  std::size_t elements = 0, nodes = 0, assemblies = 0, terms = 0;
+  for (const Excerpt& excerpt : division.excerpts) {
+    elements += excerpt.scene.elements.size();
+    nodes += excerpt.scene.nodes.size();
+    assemblies += excerpt.scene.assemblies.size();
+    for (const SceneAssembly& assembly : excerpt.scene.assemblies) terms += assembly.force.capacity();
+  }
+  CHECK_EQ(elements, 4 * count);  // the drive in each
+  CHECK_EQ(nodes, 3 * count);
+  CHECK_EQ(assemblies, count + 2);  // what each has of the bundle's force, and the two that are recorded by themselves
+  CHECK_LE(terms, 2 * count);
+  check_same(scene, whole(scene));
 }
