@@ -18,12 +18,15 @@ constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon();
 // So many whole steps of Newton's method where all is linear: what is left is rounding.
 constexpr int enough_full_steps = 3;
+// Where branches let go one after the other, each because of the one before it, those that were apart before all let go after
+// so many times. Fewer would change the way in which small problems are solved, for nothing.
+constexpr int short_cascade = 6;
 // So many rounds in which what is left does not fall to half: it is rounding, or more than the laws can take.
 constexpr int most_stagnant = 60;
 // What decides among equals, relative to the smallest of the slopes that count.
 constexpr double weak_share = 1e-9;
-// Where there is no slope around, what it adds to the bounds of a branch: more than a balance is off by, and less than what
-// bounds may differ by and decide.
+// The most that such a slope adds to the bounds of a branch, relative to them: above the round-off of a balance, and below the
+// difference of two bounds that decides which of them gives way.
 constexpr double weak_force = 1e-11;
 // A law with a slope this much smaller than its other one is flat to that side.
 constexpr double flat_law_share = 1e-14;
@@ -114,9 +117,9 @@ void ConvexNetwork::choose_weak() {
     double bounds = 0;
     for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
     const bool by_bounds = farthest > 0 && bounds > 0;
-    b.weak = around < none ? weak_share * around
-             : by_bounds   ? weak_force * bounds / farthest
-                           : weak_share * (least_of_all < none ? least_of_all : 1);
+    // The slope of a mass is inertia over time step: 1e-9 of it is a large force at the velocity that the mass has already.
+    b.weak = std::min(weak_share * around, by_bounds ? weak_force * bounds / farthest : none);
+    if (b.weak == none) b.weak = weak_share * (least_of_all < none ? least_of_all : 1);
   }
 }
 
@@ -255,8 +258,9 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   double least = std::numeric_limits<double>::infinity();  // of what was left, since the last release
   int stagnant = 0;
   bool looked_again = false;  // since the last step
+  int releases = 0;
   const std::size_t rounds = 200 + 20 * branches_.size();
-  for (std::size_t round = 0; round < rounds; ++round) {
+  for (rounds_ = 0; rounds_ < rounds; ++rounds_) {
     merge();
     while (stick_where_met()) merge();  // several may come together in one step
     bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
@@ -290,6 +294,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       full_steps_ = idle = stagnant = 0;
       least = std::numeric_limits<double>::infinity();
       if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
+      if (++releases == short_cascade) release_as_before();
       continue;
     }
     released_.clear();

@@ -36,6 +36,8 @@ class ConvexNetwork {
   void set_inertia(int node, double inertia) { inertia_[at(node)] = inertia; }
   /// Returns the index of the branch.
   int add(int a, int b, Law law);
+  /// A guess that only saves time: the branch, whose law jumps, had its ends apart before, to this side.
+  void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
   enum class Outcome {
     solved,
@@ -55,6 +57,8 @@ class ConvexNetwork {
   int direction(int branch) const;
   /// After `solve`: branches that join their ends hold these nodes together.
   bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
+  /// That `solve` took.
+  std::size_t rounds() const { return rounds_; }
   /// Nodes that ran away, if the outcome is `unbounded`.
   const std::vector<int>& runaways() const { return runaways_; }
 
@@ -67,6 +71,7 @@ class ConvexNetwork {
     bool stuck = false;
     bool apart = false;  ///< before the last step
     int side = 1;  ///< where it is free and w is 0
+    int before = 0;  ///< see was_apart; 0: no guess
   };
   double difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
@@ -85,6 +90,7 @@ class ConvexNetwork {
   bool direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants);
   Outcome search(const std::vector<double>& d);
   bool release();
+  void release_as_before();
   bool run_away();
   bool flattened(const std::vector<double>& gradient);
   double power() const;
@@ -101,6 +107,7 @@ class ConvexNetwork {
   int columns_ = 0;
   std::vector<int> released_;  ///< at the last release, the worst first
   int full_steps_ = 0;  ///< in a row
+  std::size_t rounds_ = 0;
   std::vector<int> runaways_;
   std::vector<double> bond_force_;  ///< of each branch that sticks
 };

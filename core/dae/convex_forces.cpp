@@ -89,6 +89,17 @@ bool ConvexNetwork::release() {
   return !beyond.empty();
 }
 
+/// Lets go of all branches whose ends were apart before. Those that do not move stick again, like any other branch.
+void ConvexNetwork::release_as_before() {
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    Branch& b = branches_[k];
+    if (!b.stuck || b.before == 0) continue;
+    b.stuck = false;
+    b.side = b.before;
+    released_.push_back(static_cast<int>(k));
+  }
+}
+
 /// Sum of the magnitudes of the powers of all branches and loads.
 double ConvexNetwork::power() const {
   double sum = 0;

@@ -212,6 +212,7 @@ void Instant::add_sliders(Onset& onset) const {
       (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
     }
     onset.slider[k] = onset.problem.add(slot(b.a), slot(b.b), law);
+    if (!fired) onset.problem.was_apart(onset.slider[k], onset.modes.slider[k]);
     onset.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
   }
 }

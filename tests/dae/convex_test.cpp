@@ -1,0 +1,60 @@
+#include "core/dae/convex.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace rheonet;
+
+// A chain of springs from a node that moves at v, with a slider to ground at each node. The first `sliding` are at their bounds,
+// which leave a motion forth free; the others hold whatever comes. Between the moved node and the first that holds, springs
+// share the motion alike: node j moves at v (1 - j/(sliding + 1)).
+TEST_CASE("Sliders along a chain that slide on are found in a few rounds, however many they are") {
+  constexpr int nodes = 300, sliding = 250;
+  constexpr double v = 0.7, slope = 3e-5, bound = 0.2;
+  std::size_t rounds[2];
+  for (const bool guessed : {false, true}) {
+    CAPTURE(guessed);
+    ConvexNetwork problem(nodes + 2);
+    const auto node = [](int j) { return j + 1; };  // 0 is ground, node(0) is moved
+    problem.fix(0, 0);
+    problem.fix(node(0), v);
+    int sliders[nodes + 1] = {};
+    for (int j = 1; j <= nodes; ++j) {
+      problem.add(node(j - 1), node(j), {.backward = slope, .forward = slope});
+      const bool slides = j <= sliding;
+      sliders[j] = problem.add(node(j), 0, {.low = -2 * bound, .high = slides ? 0 : bound});
+      if (guessed && slides) problem.was_apart(sliders[j], 1);
+    }
+    REQUIRE(problem.solve() == ConvexNetwork::Outcome::solved);
+    rounds[guessed ? 1 : 0] = problem.rounds();
+    for (int j = 1; j <= nodes; ++j) {
+      CAPTURE(j);
+      const bool slides = j <= sliding;
+      CHECK(problem.value(node(j)) == doctest::Approx(slides ? v * (1 - j / (sliding + 1.0)) : 0).epsilon(1e-6));
+      CHECK_EQ(problem.direction(sliders[j]), slides ? 1 : 0);
+    }
+  }
+  CHECK_GE(rounds[0], sliding);  // else it was no chain of causes
+  CHECK_LE(rounds[1], 20);
+}
+
+// A load on the first of ten without force left pulls the others along; those before it hold. Every guess is wrong.
+TEST_CASE("Sliders are found whatever was guessed of them") {
+  constexpr int nodes = 40, held = 30;
+  constexpr double slope = 3e-5, bound = 0.2, load = 1e-3;
+  ConvexNetwork problem(nodes + 2);
+  problem.fix(0, 0);
+  problem.fix(1, -0.7);
+  int sliders[nodes + 1] = {};
+  for (int j = 1; j <= nodes; ++j) {
+    problem.add(j, j + 1, {.backward = slope, .forward = slope});
+    sliders[j] = problem.add(j + 1, 0, {.low = -2 * bound, .high = j <= held ? bound : 0});
+    problem.was_apart(sliders[j], j <= held && j % 2 ? 1 : -1);
+  }
+  problem.load(held + 2, load);
+  REQUIRE(problem.solve() == ConvexNetwork::Outcome::solved);
+  for (int j = 1; j <= nodes; ++j) {
+    CAPTURE(j);
+    CHECK_EQ(problem.direction(sliders[j]), j <= held ? 0 : 1);
+    CHECK(problem.value(j + 1) == doctest::Approx(j <= held ? 0 : load / slope).epsilon(1e-6));
+  }
+}
