@@ -18,7 +18,7 @@ namespace {
 // Time that a command has to end by itself: enough for many steps of a simulation, half of the 2 s that are promised.
 constexpr std::chrono::milliseconds orderly_end{1000};
 
-std::atomic<bool> interrupted = false, ends_by_itself = false, told = false;
+std::atomic<bool> interrupted = false, ends_by_itself = false, reported = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else, but post a semaphore");
 sem_t signalled;
 
@@ -26,7 +26,7 @@ sem_t signalled;
 [[noreturn]] void end_process() {
   // Files end with a whole row: a write that has begun is completed, or its last half row is removed.
   const std::string kept = Output::finish_all();
-  if (!told) say("{}error: interrupted\n{}", ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", kept);
+  if (!reported) say("{}error: interrupted\n{}", ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "", kept);
   ::_exit(not_simulated);
 }
 
@@ -58,7 +58,7 @@ const std::atomic<bool>& end_on_signals() {
 }
 
 void interrupt_is_told() {
-  if (interrupted) told = true;
+  if (interrupted) reported = true;
 }
 
 void fail_writes_with_errors() {
