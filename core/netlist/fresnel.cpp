@@ -10,7 +10,6 @@ namespace rheonet {
 
 namespace {
 
-using std::numbers::pi;
 using Complex = std::complex<double>;
 
 /// 10-point Gauss-Legendre on [-1, 1] (Abramowitz and Stegun, table 25.4), the positive half: abscissa, weight.
@@ -20,7 +19,7 @@ constexpr std::pair<double, double> gauss[] = {{0.14887433898163121088, 0.295524
                                                {0.86506336668898451073, 0.14945134915058059315},
                                                {0.97390652851717172008, 0.06667134430868813759}};
 // 10 points integrate a quarter turn to rounding, even where the frequency passes through 0.
-constexpr double panel_angle = pi / 2;
+constexpr double panel_angle = std::numbers::pi / 2;
 // Up to here the panels are taken, and beyond it the closed form: a difference of two tails, which over less than a turn
 // loses digits.
 constexpr double most_panels = 4;
@@ -51,24 +50,24 @@ struct Sweep {
 
 }  // namespace
 
-// F(x), which is 1/sqrt(pi) exp(-i pi/4) times the integral of exp(i t^2) from x on, by the trapezium rule with the poles of
+// F(x), which is 1/sqrt(std::numbers::pi) exp(-i std::numbers::pi/4) times the integral of exp(i t^2) from x on, by the trapezium rule with the poles of
 // its integrand taken off: Alazah, Chandler-Wilde and La Porte, Numer. Math. 128 (2014) 635, equation (11), with
-// G(z) = sqrt(2 pi) exp(i (pi/4 - x^2)) F(x), x = z/sqrt(2).
+// G(z) = sqrt(2 std::numbers::pi) exp(i (std::numbers::pi/4 - x^2)) F(x), x = z/sqrt(2).
 Complex fresnel_tail(double z) {
   constexpr double furthest = 1e9;  // G is i/z to round-off: the next term of its series is 1/z^3
   if (z > furthest) return {0, 1 / z};
   struct Node { double t2, weight; };
   constexpr int nodes = 12;  // the error is then below round-off for all x
-  static const double A = std::sqrt((nodes + 0.5) * pi);
+  static const double A = std::sqrt((nodes + 0.5) * std::numbers::pi);
   static const std::array<Node, nodes> table = [] {
     std::array<Node, nodes> result;
     for (int k = 0; k < nodes; ++k) {
-      const double t = (k + 0.5) * pi / A;
+      const double t = (k + 0.5) * std::numbers::pi / A;
       result[static_cast<std::size_t>(k)] = {t * t, std::exp(-t * t)};
     }
     return result;
   }();
-  static const Complex factor = std::polar(std::sqrt(2 * pi), pi / 4);
+  static const Complex factor = std::polar(std::sqrt(2 * std::numbers::pi), std::numbers::pi / 4);
   const double x = z / std::numbers::sqrt2, x2 = x * x;
   Complex sum = 0;
   for (const auto& [t2, weight] : table) {
