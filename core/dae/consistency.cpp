@@ -62,8 +62,10 @@ void Consistency::eliminate(double t) {
 
 double Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
   wake();
-  // A law with a corner takes some more than a smooth one; where all are as good as linear there is no more to gain.
-  const int most_iterations = dae_.rough() ? 30 : 2;
+  // A law with a corner takes some more than a smooth one, of which a change this small, or one no smaller than the one before, is
+  // rounding.
+  constexpr int most_iterations = 30;
+  constexpr double rounding = 1e-13;
   const std::size_t n = y.size();
   std::vector<double> change(n), scale(n, 0);
   double last = 0;
@@ -79,12 +81,14 @@ double Consistency::collocate(double t, double rate, std::vector<double>& y, std
       if (scale[i] > 0) size = std::max(size, std::abs(change[i]) / scale[i]);
     }
     const double damping = iteration > 0 && size > 0.9 * last ? 0.5 : 1;
+    const bool done = size <= 4 * std::numeric_limits<double>::epsilon() ||
+                      (iteration > 0 && !dae_.rough() && (size <= rounding || size > last / 2));
     last = size;
     for (std::size_t i = 0; i < n; ++i) {
       y[i] += damping * change[i];
       yp[i] += damping * rate * change[i];
     }
-    if (size <= 4 * std::numeric_limits<double>::epsilon()) break;
+    if (done) break;
   }
   return last;
 }

@@ -56,7 +56,29 @@ class Spool {
   std::FILE* file_;
 };
 
-/// A run to one tolerance, its output held back.
+/// Writes the first so many values of rows as they come.
+class FirstColumns {
+ public:
+  FirstColumns(const Scene& scene, std::FILE* file) : count_(scene.records.size()), csv_(file, "the results") {
+    for (const Record& record : scene.records) names_.push_back(record.path);
+  }
+  void row(double time, const std::vector<double>& values) {
+    if (!std::exchange(begun_, true)) csv_.header(names_);
+    csv_.row(time, first(values));
+  }
+  std::vector<double> first(const std::vector<double>& values) const {
+    return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count_)};
+  }
+  void flush() { csv_.flush(); }
+
+ private:
+  std::size_t count_;
+  CsvWriter csv_;
+  std::vector<std::string> names_;
+  bool begun_ = false;
+};
+
+/// A run to one tolerance, its output held back. Its records are the scene's, and behind them forces that have to balance.
 struct Attempt {
   double tolerance = 0;
   Yardstick yardstick;
@@ -64,7 +86,7 @@ struct Attempt {
   std::optional<Yardstick> other;  ///< the same by another order, where that is needed to measure others
   std::exception_ptr failure;      ///< none if it has come to the end
 
-  void hand_over(const RunSettings& settings) {
+  void hand_over(const Scene& scene, const RunSettings& settings) {
     // What cannot be written of the one must not cost the other.
     try {
       events.copy_to(settings.events, "the events");
@@ -74,15 +96,16 @@ struct Attempt {
     }
     rows.copy_to(settings.csv, "the results");
     if (!settings.row) return;
+    const FirstColumns own(scene, nullptr);
     const Course& course = yardstick.course;
-    for (std::size_t i = 0; i < course.times.size(); ++i) settings.row(course.times[i], course.rows[i]);
+    for (std::size_t i = 0; i < course.times.size(); ++i) settings.row(course.times[i], own.first(course.rows[i]));
   }
 };
 
 class Certification {
  public:
   Certification(const Scene& scene, const RunSettings& settings)
-      : scene_(scene), settings_(settings), shift_(scene.accuracy * (scene.stop - scene.start)) {}
+      : scene_(scene), settings_(settings), balances_(scene), shift_(scene.accuracy * (scene.stop - scene.start)) {}
 
   Certificate go() {
     auto [measured, tighter] = both(std::max(scene_.accuracy, factor * tightest));
@@ -100,7 +123,7 @@ class Certification {
       }
     }
     if (!kept_) kept_ = measured;
-    kept_->hand_over(settings_);
+    kept_->hand_over(scene_, settings_);
     if (kept_->failure) std::rethrow_exception(kept_->failure);
     result_.summary = kept_->yardstick.course.summary;
     if (tighter->failure) say_why(tighter->failure);
@@ -112,10 +135,12 @@ class Certification {
     auto result = std::make_shared<Attempt>();
     result->tolerance = tolerance;
     settings.tolerance = tolerance;
-    settings.csv = settings.csv ? result->rows.file() : nullptr;
+    FirstColumns rows(scene_, settings.csv ? result->rows.file() : nullptr);
+    settings.csv = nullptr;
+    settings.row = [&rows](double time, const std::vector<double>& values) { rows.row(time, values); };
     settings.events = settings.events ? result->events.file() : nullptr;
     try {
-      result->yardstick = run_as_yardstick(scene_, shift_, std::move(settings));
+      result->yardstick = flushed(rows, [&] { return run_as_yardstick(balances_.scene(), shift_, std::move(settings)); });
     } catch (const SimulationError&) {
       result->failure = std::current_exception();
     }
@@ -162,6 +187,7 @@ class Certification {
     const Course& course = measured->yardstick.course;
     std::vector<RecordError> errors = record_errors(scene_, course, tighter.yardstick, as_promised);
     if (tighter.other) count_other(errors, record_errors(scene_, course, *tighter.other, as_promised));
+    const std::optional<Imbalance> imbalance = balances_.raise(course, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
     result_.rounds.push_back({measured->tolerance, worst, error});
@@ -174,6 +200,7 @@ class Certification {
     kept_ = measured;
     result_.kept = result_.rounds.size() - 1;
     result_.until = until;
+    result_.imbalance = result_.holds ? std::nullopt : imbalance;
     result_.errors = std::move(errors);
     return result_.holds;
   }
@@ -203,6 +230,7 @@ class Certification {
 
   const Scene& scene_;
   const RunSettings& settings_;
+  const Balances balances_;
   const double shift_;  ///< of a jump, as much as the accuracy allows [s]
   std::shared_ptr<Attempt> kept_;
   Certificate result_;
@@ -217,10 +245,11 @@ Summary run_certified(const Scene& asked, const RunSettings& settings) {
   scene.accuracy = settings.tolerance.value_or(scene.accuracy);
   Certificate certificate = certify(scene, settings);
   if (!certificate.holds) {
-    throw SimulationError(certificate.rounds.empty()
-                              ? fmt::format("not certified: no run was there to measure it by: {}", certificate.obstacle)
-                              : fmt::format("not certified: {} `{}` may be off by more", at_time(scene, certificate.until - scene.start),
-                                            scene.records[certificate.result().worst].path));
+    if (certificate.rounds.empty())
+      throw SimulationError(fmt::format("not certified: no run was there to measure it by: {}", certificate.obstacle));
+    throw SimulationError(fmt::format("not certified: {} `{}` may be off by more{}", at_time(scene, certificate.until - scene.start),
+                                      scene.records[certificate.result().worst].path,
+                                      certificate.imbalance ? ": " + describe(scene, *certificate.imbalance) : ""));
   }
   certificate.summary.cpu_seconds = certificate.cpu_seconds;
   return certificate.summary;

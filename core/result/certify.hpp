@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/result/balances.hpp"
 #include "core/result/run.hpp"
 #include "core/result/yardstick.hpp"
 
@@ -34,6 +36,7 @@ struct Certificate {
   std::size_t kept = 0;             ///< the round of whose run the rows are
   std::vector<RecordError> errors;  ///< of that run, of each record of the scene; empty without a round
   double until = not_given;         ///< if it does not hold: the first time at which an error is more than asked for [s]
+  std::optional<Imbalance> imbalance;  ///< if it does not hold because forces at a node are out of balance: the worst
   std::string obstacle;             ///< why no tighter run could measure: what ended it; "" if none was needed, or the
                                     ///< limit of double precision has been reached
   Summary summary;                  ///< of the run whose rows are kept
@@ -47,7 +50,8 @@ struct Certificate {
 /// made. Rows, events and calls of `row` are those of one run, which another, to a tolerance a hundred times tighter, has
 /// shown to be as accurate as that; they go on at once, `progress` being told of the tighter. Where it is not, the tighter
 /// run takes its place, and is measured by one tighter still, down to the limit of double precision; at last the tightest one
-/// there can be measures one a hundred times looser. If none ever is, the rows are those of the most accurate run. `tolerance`
+/// there can be measures one a hundred times looser. Forces that do not balance at a massless node, in the rows that are
+/// written, are errors too: all runs may share them. If none ever is, the rows are those of the most accurate run. `tolerance`
 /// and `state` of the settings are not used.
 ///
 /// Rows are held in memory until they are known to be good. Throws SimulationError as `run` does where the scene itself

@@ -57,6 +57,22 @@ bool own_displacement(const Network& network, int element) {
   return false;
 }
 
+/// Some massless node balances the force of a law with a memory: unknowns that lie on polynomials between steps leave it out of
+/// balance there.
+bool bent(const Dae& dae) {
+  const Structure& structure = dae.structure();
+  const auto massless = [&](NodeId node) {
+    return structure.kind[at(node)] == Kind::viscous || structure.kind[at(node)] == Kind::floating;
+  };
+  for (const Laws<DeflectionBatch>& laws : dae.network().deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = structure.deflections[at(laws.first) + i];
+      if (laws.batch->events(i) > 0 && b.a != b.b && (massless(b.a) || massless(b.b))) return true;
+    }
+  }
+  return false;
+}
+
 bool is_place(const Record& record) {
   return record.channel == Record::Channel::position || record.channel == Record::Channel::displacement;
 }
@@ -130,6 +146,7 @@ void Channels::attach(Dae& dae, Consistency& consistency) {
     const Pair& pair = network_.pairs[at(-1 - node)];
     return floating_node(pair.spring_end) || floating_node(pair.slider_end);
   };
+  bent_ = bent(dae);
   rates_needed_ = false;
   for (const Record& record : records_) {
     if (record.channel != Record::Channel::velocity) continue;
@@ -219,7 +236,7 @@ double Channels::velocity(const Record& record, const Dae::View& view) const {
 
 const std::vector<double>& Channels::read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                           double rate) {
-  if ((dae_->rough() || dae_->follows_time()) && rate > 0) {
+  if ((dae_->rough() || dae_->follows_time() || bent_) && rate > 0) {
     y_ = y;
     slope_ = yp;
     consistency_->collocate(t, rate, y_, slope_);

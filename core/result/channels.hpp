@@ -43,6 +43,7 @@ class Channels {
   const std::vector<Gauge> gauges_;
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
+  bool bent_ = false;          ///< between steps forces are out of balance at some massless node
   bool rates_needed_ = false;  ///< a record needs y' of a floating node
   std::vector<double> y_, slope_, yp_, row_;
 };

@@ -15,7 +15,8 @@ Course run_to_memory(const Scene& scene, RunSettings settings) {
 
 Course run_to_memory_in(const Manner& manner, const Scene& scene, RunSettings settings) {
   Course course;
-  settings.row = [&course](double time, const std::vector<double>& values) {
+  settings.row = [&course, also = std::move(settings.row)](double time, const std::vector<double>& values) {
+    if (also) also(time, values);
     course.times.push_back(time);
     course.rows.push_back(values);
   };

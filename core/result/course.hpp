@@ -14,7 +14,7 @@ struct Course {
   Summary summary;
 };
 
-/// Simulates, with settings of which `row` is taken. Throws SimulationError.
+/// Simulates. Rows also go to the `row` of the settings as they come. Throws SimulationError.
 Course run_to_memory(const Scene& scene, RunSettings settings = {});
 
 /// How far the course of a record is from that of another, SI.

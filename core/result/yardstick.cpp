@@ -17,10 +17,6 @@ using Instants = std::vector<Yardstick::Instant>;
 constexpr double explained = 2;
 // Roundings of the largest value of its kind that a record may be off by: it may be a difference of such values.
 constexpr double record_grains = 16;
-// A record of less than this share of the accuracy, of the largest of its kind, of which no digit is certain, is nothing
-// but the error of the others: it has no size of its own.
-constexpr double record_noise_share = 1e-4;
-
 // What is over within this share of the time to the events before and after is as good as a jump.
 constexpr double share_of_stretches = 1e-2;
 
@@ -118,7 +114,7 @@ void visit_common(const Course& a, const Course& b, Visit visit) {
 /// Of each record the largest value of any that has its unit.
 std::vector<double> largest_of_kind(const Scene& scene, const std::vector<double>& largest) {
   std::map<std::string, double> of_unit;
-  for (std::size_t k = 0; k < largest.size(); ++k) {
+  for (std::size_t k = 0; k < scene.records.size(); ++k) {
     double& most = of_unit[unit_text(scene, scene.records[k])];
     most = std::max(most, largest[k]);
   }
@@ -156,7 +152,7 @@ std::vector<RecordError> record_errors(const Scene& scene, const Course& course,
       error.largest = off;
       error.time = t;
     });
-    const double noise = record_noise_share * measure.allowed * kind[k];
+    const double noise = RecordError::share_of_kind * measure.allowed * kind[k];
     if (error.largest > error.scale / 2 && std::max(error.largest, error.scale) <= noise) {
       error.scale = kind[k];
       error.beyond = not_given;

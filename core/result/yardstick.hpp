@@ -20,7 +20,7 @@ struct Yardstick {
   std::vector<Instant> instants;  ///< in order of time
 };
 
-/// Simulates, with settings of which `row` and `state` are taken. Instants are kept that are within `near` [s] of a row.
+/// Simulates, with settings of which `state` is taken. Instants are kept that are within `near` [s] of a row.
 /// Throws SimulationError.
 Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings = {});
 
@@ -28,6 +28,10 @@ Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings
 /// where the record jumps no further away than `shift` [s], from its value on either side of the jump; where it takes some of
 /// that time for it, from its values on the way.
 struct RecordError {
+  /// A record of less than this share of the accuracy, of the largest of its kind, of which no digit is certain, is nothing
+  /// but the error of the others: it has no size of its own.
+  static constexpr double share_of_kind = 1e-4;
+
   double largest = 0;    ///< SI
   double time = 0;       ///< of that [s]
   double scale = 0;      ///< largest magnitude of the record in the run, SI
@@ -43,7 +47,8 @@ struct ErrorMeasure {
   double factor = 1;      ///< enlarges each distance, for what the yardstick itself may be wrong
 };
 
-/// Of each record of the scene. Rows at times that only one of the runs has (events) are left out.
+/// One for each record of the scene, though the runs may have more records behind these. Rows at times that only one of the runs has
+/// (events) are left out.
 std::vector<RecordError> record_errors(const Scene& scene, const Course& course, const Yardstick& truth,
                                        const ErrorMeasure& measure);
 

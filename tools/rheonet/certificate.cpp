@@ -69,6 +69,7 @@ std::string failure(const Scene& scene, const Certificate& certificate) {
                      path_of_worst(scene, kept), relative(kept.error.relative()), kept.error.time, scene.accuracy) +
          fmt::format("  before {:g} s all records are within that; the rows are those of a run to {:g}\n", certificate.until,
                      kept.tolerance) +
+         (certificate.imbalance ? fmt::format("  {}\n", wrapped(rheonet::describe(scene, *certificate.imbalance), 2)) : "") +
          fmt::format("  {}\n{}  {}\n", wrapped(reason(certificate), 2), table_of_rounds(scene, certificate), cost(certificate));
 }
 

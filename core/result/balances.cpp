@@ -1,0 +1,159 @@
+#include "core/result/balances.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "core/network/component.hpp"
+#include "core/network/index.hpp"
+#include "core/network/linear_law.hpp"
+#include "core/network/listed.hpp"
+#include "core/network/network.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Roundings of the largest force at a node that the sum of its forces may be off by.
+constexpr double grains = 16;
+
+/// Both ends of an element; of one that is `at` a node, that node twice.
+std::pair<NodeId, NodeId> ends_of(const SceneElement& element) { return {element.a, element.at ? element.a : element.b}; }
+
+/// Of each node whether nothing but forces decides how it moves: it has neither mass nor a motion, and is not ground.
+std::vector<char> massless_nodes(const Scene& scene) {
+  std::vector<char> massless(scene.nodes.size(), 1);
+  massless[at(ground)] = 0;
+  for (const SceneElement& element : scene.elements) {
+    const Component* component = law_of(scene, element).component;
+    if (component && (component->role == Role::mass || component->role == Role::motion)) massless[at(element.a)] = 0;
+  }
+  return massless;
+}
+
+/// The nodes that records have to do with: visit(record, its place, node).
+template <class Visit>
+void visit_nodes(const Scene& scene, Visit visit) {
+  for (std::size_t k = 0; k < scene.records.size(); ++k) {
+    const Record& record = scene.records[k];
+    const auto both = [&](std::pair<NodeId, NodeId> ends) {
+      visit(record, k, ends.first);
+      if (ends.second != ends.first) visit(record, k, ends.second);
+    };
+    switch (record.subject) {
+      case Record::Subject::node:
+        visit(record, k, record.index);
+        break;
+      case Record::Subject::element:
+        both(ends_of(scene.elements[at(record.index)]));
+        break;
+      case Record::Subject::assembly:
+        if (record.channel == Record::Channel::force) {
+          for (const SceneAssembly::Term& term : scene.assemblies[at(record.index)].force) both(ends_of(scene.elements[at(term.element)]));
+        } else {
+          both({scene.assemblies[at(record.index)].a, scene.assemblies[at(record.index)].b});
+        }
+        break;
+      case Record::Subject::block:
+        break;
+    }
+  }
+}
+
+}  // namespace
+
+Balances::Balances(const Scene& scene) : scene_(scene), asked_(scene.records.size()) { find_nodes(scene); }
+
+void Balances::find_nodes(const Scene& scene) {
+  const std::vector<char> massless = massless_nodes(scene);
+  std::map<NodeId, std::size_t> place;
+  visit_nodes(scene, [&](const Record& record, std::size_t k, NodeId id) {
+    if (!massless[at(id)]) return;
+    const auto [found, fresh] = place.try_emplace(id, nodes_.size());
+    if (fresh) nodes_.push_back({id, {}, {}, {}});
+    Node& node = nodes_[found->second];
+    std::vector<std::size_t>& records = record.channel == Record::Channel::force ? node.forces : node.movements;
+    if (records.empty() || records.back() != k) records.push_back(k);
+  });
+  std::map<int, std::size_t> force_of;  // of an element: its record
+  for (std::size_t k = 0; k < asked_; ++k) {
+    const Record& record = scene.records[k];
+    if (record.subject == Record::Subject::element && record.channel == Record::Channel::force) force_of.insert({record.index, k});
+  }
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+    const SceneElement& element = scene.elements[e];
+    const Component* component = law_of(scene, element).component;
+    if (!component || component->role == Role::block || component->role == Role::nothing) continue;
+    // What is applied at a node pushes it; what an element carries holds its first end back.
+    const double sign = component->role == Role::force ? -1 : 1;
+    const auto meet = [&](NodeId id, double s) {
+      const auto found = place.find(id);
+      if (found == place.end()) return;
+      const auto [record, fresh] = force_of.try_emplace(static_cast<int>(e), scene_.records.size());
+      if (fresh) {
+        scene_.records.push_back({.path = element.name + ".force", .subject = Record::Subject::element,
+                                  .index = static_cast<int>(e), .channel = Record::Channel::force});
+      }
+      nodes_[found->second].terms.push_back({record->second, s});
+    };
+    meet(element.a, sign);
+    if (!element.at) meet(element.b, -sign);
+  }
+}
+
+std::optional<Imbalance> Balances::raise(const Course& course, double allowed, std::vector<RecordError>& errors) const {
+  std::optional<Imbalance> worst;
+  double most = allowed;
+  for (const Node& node : nodes_) {
+    double largest = 0, sum = 0, time = 0;
+    for (const std::vector<double>& row : course.rows) {
+      for (const Term& term : node.terms) largest = std::max(largest, std::abs(row[term.record]));
+    }
+    const double rounding = grains * std::numeric_limits<double>::epsilon() * largest;
+    // The largest imbalance, and when one is first more than a record allows.
+    std::vector<double> first(node.forces.size() + node.movements.size(), not_given);
+    const auto allows = [&](std::size_t i) {
+      return i < node.forces.size() ? allowed * errors[node.forces[i]].scale : allowed * largest;
+    };
+    for (std::size_t i = 0; i < course.rows.size(); ++i) {
+      double left = 0;
+      for (const Term& term : node.terms) left += term.sign * course.rows[i][term.record];
+      left = std::abs(left);
+      if (left <= rounding) continue;
+      for (std::size_t k = 0; k < first.size(); ++k) {
+        if (std::isnan(first[k]) && left > allows(k)) first[k] = course.times[i];
+      }
+      if (left <= sum) continue;
+      sum = left;
+      time = course.times[i];
+    }
+    if (sum == 0) continue;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      const bool force = k < node.forces.size();
+      RecordError& error = errors[force ? node.forces[k] : node.movements[k - node.forces.size()]];
+      const double off = force ? sum : sum / largest * error.scale;
+      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= RecordError::share_of_kind * allowed * largest;
+      if (off <= error.largest || (force && sizeless)) continue;
+      error.beyond = std::fmin(error.beyond, first[k]);
+      error.largest = off;
+      error.time = time;
+      if (error.relative() <= most) continue;
+      most = error.relative();
+      worst = {scene_.nodes[at(node.id)].name, {}, sum, largest, time};
+      for (const Term& term : node.terms) worst->elements.push_back(scene_.elements[at(scene_.records[term.record].index)].name);
+    }
+  }
+  return worst;
+}
+
+std::string describe(const Scene& scene, const Imbalance& imbalance) {
+  return fmt::format("the forces of {} at node `{}` sum to {}, {:.2g} of the largest of them, {}", listed(imbalance.elements),
+                     imbalance.node, with_unit(scene, imbalance.sum, Quantity::force), imbalance.sum / imbalance.largest,
+                     at_time(scene, imbalance.time - scene.start));
+}
+
+}  // namespace rheonet

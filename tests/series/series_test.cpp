@@ -1,0 +1,120 @@
+// Elements in series without a mass between them have one force.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/network/error.hpp"
+#include "core/result/certify.hpp"
+#include "tests/series/chain.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+constexpr double accuracies[] = {1e-3, 1e-6, 1e-9};
+// Of the accuracy asked that rows of a run that is not certified may be off by.
+constexpr double plain_share = 10;
+
+struct Rows {
+  std::vector<double> times;
+  std::vector<std::vector<double>> values;
+  void operator()(double t, const std::vector<double>& row) {
+    times.push_back(t);
+    values.push_back(row);
+  }
+};
+
+double worst_of(const Chain& chain, const Rows& rows) {
+  const double apart = stages_apart(chain, rows.values);
+  return chain.kind == Chain::Kind::steady ? std::max(apart, off_closed_form(chain, rows.times, rows.values)) : apart;
+}
+
+struct Tally { int refused = 0, not_certified = 0; };
+
+/// Runs a chain as it is, and certified.
+void judge(const Chain& chain, Tally& tally) {
+  CAPTURE(chain.toml);
+  for (const double accuracy : accuracies) {
+    CAPTURE(accuracy);
+    const Scene scene = scene_of(chain.toml, accuracy);
+    try {
+      Rows plain;
+      run(scene, {.row = std::ref(plain)});
+      CHECK(worst_of(chain, plain) <= plain_share * accuracy);
+      Rows certified;
+      if (certify(scene, {.row = std::ref(certified)}).holds) {
+        CHECK(worst_of(chain, certified) <= accuracy);
+      } else {
+        ++tally.not_certified;
+      }
+    } catch (const SimulationError& error) {
+      // What is pushed by more than friction can take moves beyond all bounds.
+      CHECK_MESSAGE(chain.kind == Chain::Kind::pushed, error.what());
+      ++tally.refused;
+    }
+  }
+}
+
+void judge_all(int count) {
+  Tally tally;
+  for (int number = 0; number < count; ++number) judge(random_chain(number), tally);
+  MESSAGE(count << " chains: " << tally.not_certified << " runs not certified, " << tally.refused << " refused");
+  CHECK(tally.not_certified < count / 10);
+}
+
+struct Pair { const char* what; const char* toml; };
+
+const Pair pairs[] = {
+    {"friction that relaxes rises between two steps of the integrator, in series with a dashpot to ground", R"([elements]
+push = { type = "motion", at = "end", position = { ramp = 9.65, time = 0.189 } }
+oil = { type = "dashpot", between = ["mid", "ground"], damping = 3.41e3 }
+grip = { type = "cfm", between = ["end", "mid"], coulomb = 0.000233, stiffness = 0.144, damping = 2.59e5, exponent = 1 }
+[simulate]
+stop = 1
+output = { points = 201 }
+record = ["oil.force", "grip.force"]
+)"},
+    {"a slider holds so little that both ends of the dashpot move alike to nine digits", R"([elements]
+pull = { type = "motion", at = "end", velocity = { step = 558, time = 0.1 } }
+oil = { type = "dashpot", between = ["end", "mid"], damping = 2.2e3 }
+grip = { type = "slider", between = ["mid", "ground"], coulomb = 1.44e-6 }
+[simulate]
+stop = 1
+output = { points = 401 }
+record = ["oil.force", "grip.force"]
+)"},
+};
+
+}  // namespace
+
+TEST_CASE("two elements in series have one force, certified or not") {
+  for (const auto& [what, toml] : pairs) {
+    CAPTURE(what);
+    for (const double accuracy : accuracies) {
+      CAPTURE(accuracy);
+      const Scene scene = scene_of(toml, accuracy);
+      Rows plain, certified;
+      run(scene, {.row = std::ref(plain)});
+      const bool holds = certify(scene, {.row = std::ref(certified)}).holds;
+      CHECK(holds);
+      for (const auto& [rows, share] : {std::pair{&plain, plain_share}, std::pair{&certified, 1.0}}) {
+        double scale = 0, apart = 0;
+        for (const std::vector<double>& row : rows->values) {
+          scale = std::max(scale, std::abs(row[1]));
+          apart = std::max(apart, std::abs(row[0] - row[1]));
+        }
+        CHECK(scale > 0);
+        CHECK(apart <= share * accuracy * scale);
+      }
+    }
+  }
+}
+
+TEST_CASE("random chains in series have one force, that of the closed form where there is one") { judge_all(60); }
+
+TEST_CASE("a thousand random chains in series" * doctest::skip()) { judge_all(1000); }
+
+}  // namespace rheonet::test
