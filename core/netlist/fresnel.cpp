@@ -50,9 +50,9 @@ struct Sweep {
 
 }  // namespace
 
-// F(x), which is 1/sqrt(std::numbers::pi) exp(-i std::numbers::pi/4) times the integral of exp(i t^2) from x on, by the trapezium rule with the poles of
+// F(x), which is 1/sqrt(pi) exp(-i pi/4) times the integral of exp(i t^2) from x on, by the trapezium rule with the poles of
 // its integrand taken off: Alazah, Chandler-Wilde and La Porte, Numer. Math. 128 (2014) 635, equation (11), with
-// G(z) = sqrt(2 std::numbers::pi) exp(i (std::numbers::pi/4 - x^2)) F(x), x = z/sqrt(2).
+// G(z) = sqrt(2 pi) exp(i (pi/4 - x^2)) F(x), x = z/sqrt(2).
 Complex fresnel_tail(double z) {
   constexpr double furthest = 1e9;  // G is i/z to round-off: the next term of its series is 1/z^3
   if (z > furthest) return {0, 1 / z};
