@@ -114,6 +114,8 @@ FuzzCase FuzzCases::make(std::uint64_t seed, long number, bool mild) const {
   if (mild) {
     if (kind < 3) return {print_netlist(generated_scene(random)), from.folder};
     TomlValue tree = from.tree;
+    // What a sound scene claims is seldom true of another.
+    if (random.below(4) > 0) std::erase_if(tree.entries, [](const TomlEntry& e) { return e.key == "expect" || e.key == "exact"; });
     for (int changes = 1 + random.below(3); changes > 0; --changes) change_mildly(tree, random);
     return {print_netlist(tree), from.folder};
   }
@@ -247,12 +249,13 @@ void FuzzCases::join_names(TomlValue& tree, Random& random) const {
 }
 
 void FuzzCases::change_mildly(TomlValue& tree, Random& random) const {
-  switch (random.below(10)) {
+  switch (random.below(30)) {
     case 0:
-      return add_elements(tree, random);
     case 1:
-      return join_names(tree, random);
+      return add_elements(tree, random);
     case 2:
+      return join_names(tree, random);
+    case 3:
       return change_tree(tree, random);
     default:
       break;
@@ -264,10 +267,6 @@ void FuzzCases::change_mildly(TomlValue& tree, Random& random) const {
       if (e.value.kind == TomlValue::Kind::number || (e.value.is_string() && std::isdigit(static_cast<unsigned char>(e.value.text[0])))) numbers.push_back(&e);
   if (numbers.empty()) return change_tree(tree, random);
   TomlEntry& entry = *any_of(numbers, random);
-  if (random.below(3) == 0) {
-    entry.value = other_of(entry.key, random);
-    return;
-  }
   const double factor = std::pow(10, random.below(3) == 0 ? random.uniform(-200, 200) : random.uniform(-4, 4));
   const double other = random.below(4) == 0 ? std::abs(odd_number(random)) : 0;
   if (entry.value.kind == TomlValue::Kind::number) {

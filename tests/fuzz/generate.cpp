@@ -126,12 +126,17 @@ double odd_number(Random& random) {
 TomlValue generated_scene(Random& random) {
   Entries elements;
   std::vector<std::string> blocks, paths;
-  for (int k = 1; k <= 5; ++k) {
-    paths.push_back(fmt::format("n{}.velocity", k));
-    paths.push_back(fmt::format("n{}.position", k));
-  }
-  const int count = 1 + random.below(9);
   const Domain domain = random.below(5) == 0 ? Domain::rotation : Domain::translation;
+  const int count = 1 + random.below(9);
+  // With a mass its motion is determined.
+  for (int k = 1; k <= 5; ++k)
+    if (random.below(3) > 0) {
+      paths.push_back(fmt::format("n{}.velocity", k));
+      paths.push_back(fmt::format("n{}.position", k));
+      elements.emplace_back(fmt::format("m{}", k), table_value({{"type", string_value(domain == Domain::rotation ? "inertia" : "mass")},
+                                                                {"at", string_value(fmt::format("n{}", k))},
+                                                                {domain == Domain::rotation ? "inertia" : "mass", number_value(value(random))}}));
+    }
   const Declarations all = declarations();
   for (int k = 0; k < count; ++k) {
     const Declaration& declaration = *all[static_cast<std::size_t>(random.below(static_cast<int>(all.size())))];
