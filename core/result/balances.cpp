@@ -19,10 +19,10 @@ namespace rheonet {
 namespace {
 
 // Roundings of the largest force at a node that the sum of its forces may be off by.
-constexpr double grains = 16;
+constexpr double sum_grains = 16;
 
 /// Both ends of an element; of one that is `at` a node, that node twice.
-std::pair<NodeId, NodeId> ends_of(const SceneElement& element) { return {element.a, element.at ? element.a : element.b}; }
+std::pair<NodeId, NodeId> nodes_of(const SceneElement& element) { return {element.a, element.at ? element.a : element.b}; }
 
 /// Of each node whether nothing but forces decides how it moves: it has neither mass nor a motion, and is not ground.
 std::vector<char> massless_nodes(const Scene& scene) {
@@ -49,11 +49,11 @@ void visit_nodes(const Scene& scene, Visit visit) {
         visit(record, k, record.index);
         break;
       case Record::Subject::element:
-        both(ends_of(scene.elements[at(record.index)]));
+        both(nodes_of(scene.elements[at(record.index)]));
         break;
       case Record::Subject::assembly:
         if (record.channel == Record::Channel::force) {
-          for (const SceneAssembly::Term& term : scene.assemblies[at(record.index)].force) both(ends_of(scene.elements[at(term.element)]));
+          for (const SceneAssembly::Term& term : scene.assemblies[at(record.index)].force) both(nodes_of(scene.elements[at(term.element)]));
         } else {
           both({scene.assemblies[at(record.index)].a, scene.assemblies[at(record.index)].b});
         }
@@ -113,7 +113,7 @@ std::optional<Imbalance> Balances::raise(const Course& course, double allowed, s
     for (const std::vector<double>& row : course.rows) {
       for (const Term& term : node.terms) largest = std::max(largest, std::abs(row[term.record]));
     }
-    const double rounding = grains * std::numeric_limits<double>::epsilon() * largest;
+    const double rounding = sum_grains * std::numeric_limits<double>::epsilon() * largest;
     // The largest imbalance, and when one is first more than a record allows.
     std::vector<double> first(node.forces.size() + node.movements.size(), not_given);
     const auto allows = [&](std::size_t i) {
