@@ -78,7 +78,7 @@ Complex fresnel_tail(double z) {
   constexpr double last_residue = 40;  // its exponent: exp(-40) is below round-off of the sum
   const double exponent = std::numbers::sqrt2 * A * x;
   const Complex residue = exponent > last_residue ? 0 : std::polar(1.0, -x2) / (1.0 + std::polar(std::exp(exponent), -exponent));
-  return factor * (residue + x / A * sum);
+  return factor * (residue + std::polar(x / A, std::numbers::pi / 4) * sum);
 }
 
 double integral_of_chirp(double phase, double omega, double chirp, double a, double b) {

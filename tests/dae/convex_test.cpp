@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 using namespace rheonet;
 
 // A chain of springs from a node that moves at v, with a slider to ground at each node. The first `sliding` are at their bounds,
@@ -10,6 +12,7 @@ using namespace rheonet;
 TEST_CASE("Sliders along a chain that slide on are found in a few rounds, however many they are") {
   constexpr int nodes = 300, sliding = 250;
   constexpr double v = 0.7, slope = 3e-5, bound = 0.2;
+  constexpr double weak = 1e-9 * sliding * sliding;  // what the slope that decides among equals adds up to along the chain
   std::size_t rounds[2];
   for (const bool guessed : {false, true}) {
     CAPTURE(guessed);
@@ -29,7 +32,7 @@ TEST_CASE("Sliders along a chain that slide on are found in a few rounds, howeve
     for (int j = 1; j <= nodes; ++j) {
       CAPTURE(j);
       const bool slides = j <= sliding;
-      CHECK(problem.value(node(j)) == doctest::Approx(slides ? v * (1 - j / (sliding + 1.0)) : 0).epsilon(1e-6));
+      CHECK(std::abs(problem.value(node(j)) - (slides ? v * (1 - j / (sliding + 1.0)) : 0)) <= weak * v);
       CHECK_EQ(problem.direction(sliders[j]), slides ? 1 : 0);
     }
   }
