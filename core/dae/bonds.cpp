@@ -1,111 +1,85 @@
 #include "core/dae/bonds.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/network/around.hpp"
 #include "core/network/index.hpp"
-#include "core/network/sets.hpp"
+#include "core/network/listed.hpp"
 
 namespace rheonet {
 
-// Balance at each node: left + sum of +-f = 0. Of all solutions f = A phi, differences of one potential phi at the nodes, is
-// the one of least norm. phi is 0 at known nodes, which take any force, and at one node of every other cluster, whose
-// balance is the sum of the others'.
-Bonds::Bonds(const Network& network, const Structure& structure) {
-  row_.assign(structure.kind.size(), -1);
+namespace {
+
+struct Joined {
+  std::vector<std::size_t> sliders;
+  std::vector<NodeId> nodes;
+  std::vector<BoxedBranch> branches;
+};
+
+/// What sticking sliders join. The node that stands for a cluster takes what its balance leaves, which is that of the others'.
+Joined joined(const Network& network, const Structure& structure) {
+  Joined result;
+  std::vector<int> row(structure.kind.size(), -1);
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    if (!structure.stuck[k]) continue;
     const Network::Slider& s = network.sliders[k];
-    if (structure.stuck[k]) sliders_.push_back({k, s.branch.a, s.branch.b, s.law.breakaway});
-  }
-  for (const Bond& bond : sliders_) {
-    for (NodeId node : {bond.a, bond.b}) {
-      if (structure.kind[at(node)] != Kind::joined || row_[at(node)] >= 0) continue;
-      row_[at(node)] = static_cast<int>(node_.size());
-      node_.push_back(node);
+    for (const NodeId node : {s.branch.a, s.branch.b}) {
+      if (structure.kind[at(node)] != Kind::joined || row[at(node)] >= 0) continue;
+      row[at(node)] = static_cast<int>(result.nodes.size());
+      result.nodes.push_back(node);
     }
+    result.sliders.push_back(k);
+    result.branches.push_back({row[at(s.branch.a)], row[at(s.branch.b)], -s.law.breakaway, s.law.breakaway});
   }
-  if (!node_.empty()) laplacian_.compute(laplacian(std::vector<char>(sliders_.size(), 0)));
+  return result;
 }
 
-Bonds::Matrix Bonds::laplacian(const std::vector<char>& clamped) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t k = 0; k < sliders_.size(); ++k) {
-    if (clamped[k]) continue;
-    const int a = row_[at(sliders_[k].a)], b = row_[at(sliders_[k].b)];
-    if (a >= 0) entries.emplace_back(a, a, 1);
-    if (b >= 0) entries.emplace_back(b, b, 1);
-    if (a >= 0 && b >= 0) {
-      entries.emplace_back(a, b, -1);
-      entries.emplace_back(b, a, -1);
-    }
+}  // namespace
+
+Bonds::Bonds(const Network& network, const Structure& structure) : network_(network), problem_(0, {}) {
+  Joined all = joined(network, structure);
+  slider_ = std::move(all.sliders);
+  node_ = std::move(all.nodes);
+  load_.resize(node_.size());
+  force_.resize(slider_.size());
+  if (slider_.size() == 1 && node_.size() == 1) {
+    side_ = all.branches[0].a >= 0 ? 1 : -1;
+  } else {
+    problem_ = BoxedForces(static_cast<int>(node_.size()), std::move(all.branches));
   }
-  const auto n = static_cast<Eigen::Index>(node_.size());
-  Matrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
 }
 
-/// Every node still has a way to one whose potential is given.
-bool Bonds::still_joined(const std::vector<char>& clamped) const {
-  // Number n stands for all nodes with a given potential.
-  const std::size_t n = node_.size();
-  Sets sets(n + 1);
-  const auto number = [&](NodeId node) { return row_[at(node)] < 0 ? static_cast<int>(n) : row_[at(node)]; };
-  for (std::size_t k = 0; k < sliders_.size(); ++k) {
-    if (!clamped[k]) sets.join(number(sliders_[k].a), number(sliders_[k].b));
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    if (sets.find(static_cast<int>(k)) != sets.find(static_cast<int>(n))) return false;
-  }
-  return true;
-}
-
-void Bonds::solve(const std::vector<double>& left, std::vector<double>& force) const {
-  if (node_.empty()) {
-    for (const Bond& bond : sliders_) force[bond.slider] = 0;
+void Bonds::solve(double t, const std::vector<double>& left, std::vector<double>& force) {
+  if (side_ != 0) {  // a block that sticks by itself: there is nothing to share
+    force[slider_[0]] = -side_ * left[at(node_[0])];
     return;
   }
-  if (sliders_.size() == 1 && node_.size() == 1) {  // a block that sticks by itself: there is nothing to share
-    const Bond& bond = sliders_.front();
-    force[bond.slider] = row_[at(bond.a)] >= 0 ? -left[at(bond.a)] : left[at(bond.b)];
+  double sum = 0;
+  for (std::size_t n = 0; n < node_.size(); ++n) sum += load_[n] = -left[at(node_[n])];
+  if (!std::isfinite(sum)) {  // the integrator tries a step too far: it takes no state that is not finite
+    for (const std::size_t k : slider_) force[k] = std::numeric_limits<double>::quiet_NaN();
     return;
   }
-  std::vector<char> clamped(sliders_.size(), 0);
-  const auto distribute = [&](const auto& factor) {
-    Eigen::VectorXd phi(static_cast<Eigen::Index>(node_.size()));
-    for (std::size_t r = 0; r < node_.size(); ++r) phi[static_cast<Eigen::Index>(r)] = -left[at(node_[r])];
-    const auto add = [&](NodeId node, double f) {
-      if (row_[at(node)] >= 0) phi[row_[at(node)]] -= f;
-    };
-    for (std::size_t k = 0; k < sliders_.size(); ++k) {
-      if (!clamped[k]) continue;
-      add(sliders_[k].a, force[sliders_[k].slider]);
-      add(sliders_[k].b, -force[sliders_[k].slider]);
-    }
-    phi = factor.solve(phi);
-    const auto potential = [&](NodeId node) { return row_[at(node)] < 0 ? 0 : phi[row_[at(node)]]; };
-    for (std::size_t k = 0; k < sliders_.size(); ++k) {
-      if (!clamped[k]) force[sliders_[k].slider] = potential(sliders_[k].a) - potential(sliders_[k].b);
-    }
-  };
-  distribute(laplacian_);
-  if (sliders_.size() == node_.size()) return;  // a tree leaves nothing open
-  // What would be beyond its bound stays there, as long as the others can take the rest.
-  for (bool again = true; again;) {
-    again = false;
-    for (std::size_t k = 0; k < sliders_.size(); ++k) {
-      double& f = force[sliders_[k].slider];
-      if (clamped[k] || std::abs(f) <= sliders_[k].bound) continue;
-      clamped[k] = 1;
-      if (!still_joined(clamped)) {
-        clamped[k] = 0;
-        continue;
-      }
-      f = std::copysign(sliders_[k].bound, f);
-      again = true;
-    }
-    if (again) distribute(Eigen::SimplicialLDLT<Matrix>(laplacian(clamped)));
+  if (problem_.solve(load_, force_) == BoxedForces::Outcome::failed) report_unbalanced(t);
+  for (std::size_t k = 0; k < slider_.size(); ++k) force[slider_[k]] = force_[k];
+}
+
+void Bonds::report_unbalanced(double t) const {
+  std::string what;
+  if (const int n = problem_.failed_node(); n >= 0) {
+    const NodeId node = node_[at(n)];
+    what = fmt::format("the forces at node {} cannot be balanced: the bounds of {}", network_.node_name(node),
+                       listed(elements_at(network_, {node})));
+  } else {
+    const Branch& b = network_.sliders[slider_[at(problem_.failed_branch())]].branch;
+    what = fmt::format("the force of `{}`, which sticks beside other sliders, is not the one of least norm: the bounds of {}",
+                       network_.name_of(b), listed(elements_at(network_, {b.a, b.b})));
   }
+  throw SimulationError(fmt::format("{} {} may lie too far apart for double precision; check them", at_time(*network_.scene, t), what));
 }
 
 }  // namespace rheonet

@@ -1,32 +1,33 @@
 #pragma once
 
-#include <Eigen/Sparse>
-#include <Eigen/SparseCholesky>
 #include <vector>
 
 #include "core/network/structure.hpp"
+#include "core/nonsmooth/boxed_forces.hpp"
 
 namespace rheonet {
 
-/// Forces of the sliders that stick, from the balance of forces at the nodes that they join. Where they form loops, or
-/// lead to several known nodes, the balance leaves forces open: then those of least sum of squares within the bounds.
+/// Forces of the sliders that stick, from the balance of forces at the nodes that they join. Where sliders form loops, or
+/// lead to several known nodes, the balance leaves forces open: then the forces are those of least norm within the bounds. Where
+/// the load is more than the sliders can take, as it is between the instant of an event and the step that finds it, every node
+/// still balances, and the sliders of the overloaded cut exceed their bounds.
 class Bonds {
  public:
   Bonds(const Network& network, const Structure& structure);
-  bool empty() const { return sliders_.empty(); }
+  bool empty() const { return slider_.empty(); }
 
-  /// `left[n]` is the sum of all other forces at node n, inertia included [N]. Writes the forces of the sliders that stick.
-  void solve(const std::vector<double>& left, std::vector<double>& force) const;
+  /// `left[n]` is the sum of all other forces at node n at the time t, inertia included [N]. Writes the forces of the sliders
+  /// that stick. Throws SimulationError where the forces do not meet their conditions to round-off.
+  void solve(double t, const std::vector<double>& left, std::vector<double>& force);
 
  private:
-  struct Bond { std::size_t slider; NodeId a, b; double bound; };
-  using Matrix = Eigen::SparseMatrix<double>;
-  Matrix laplacian(const std::vector<char>& clamped) const;
-  bool still_joined(const std::vector<char>& clamped) const;
-  std::vector<Bond> sliders_;
-  std::vector<int> row_;  ///< of each node: its potential's index, -1 for one whose balance is free or follows
-  std::vector<NodeId> node_;  ///< of each row
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> laplacian_;
+  [[noreturn]] void report_unbalanced(double t) const;
+  const Network& network_;
+  std::vector<std::size_t> slider_;  ///< of each branch of the problem
+  std::vector<NodeId> node_;         ///< of each node of the problem; known nodes, and one of every other cluster, are none
+  BoxedForces problem_;
+  double side_ = 0;  ///< of a single slider with a single node: its sign there
+  std::vector<double> load_, force_;
 };
 
 }  // namespace rheonet

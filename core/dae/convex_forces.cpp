@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/dae/convex.hpp"
-#include "core/dae/symmetric.hpp"
+#include "core/nonsmooth/symmetric.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/dae/convex.hpp"
-#include "core/dae/symmetric.hpp"
+#include "core/nonsmooth/symmetric.hpp"
 
 namespace rheonet {
 

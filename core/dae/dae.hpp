@@ -248,7 +248,7 @@ class Dae {
   void sum_forces();
   void evaluate_forces(double t, const double* y);
   // view.cpp
-  void share_among_joined();
+  void share_among_joined(double t);
   void view_velocities(const double* yp);
   std::vector<double> places(const State& state) const;
   void set_rate_forms();

@@ -6,7 +6,7 @@
 namespace rheonet {
 
 /// The same at each node for itself: what sticks carries what is left.
-void Dae::share_among_joined() {
+void Dae::share_among_joined(double t) {
   std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
   std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
   const auto add = [&](const Branch& b, double f) {
@@ -27,7 +27,7 @@ void Dae::share_among_joined() {
   for (std::size_t n = 0; n < left.size(); ++n) {
     left[n] = view_.nodal[n] - view_.applied[n] + structure_->own_mass[n] * view_.acceleration[n];
   }
-  bonds_.solve(left, view_.slider_force);
+  bonds_.solve(t, left, view_.slider_force);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
   }
@@ -51,7 +51,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       view_.acceleration[n] = view_.acceleration[leader];
       view_.velocity[n] = view_.velocity[leader];
     }
-    share_among_joined();
+    share_among_joined(t);
   }
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = structure_->sliders[k];

@@ -163,19 +163,12 @@ double Channels::element_force(int element, const Dae::View& view) const {
     return (element == pair.pair.spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.force();
   }
   switch (place.role) {
-    case Role::deflection: {
-      // Where it comes to its bound the event is found by a rounding too late.
-      std::size_t i = 0;
-      const double bound = network.batch_of(place.index, i).steady(i).bound;
-      return std::clamp(view.f[at(place.index)], -bound, bound);
-    }
+    case Role::deflection:
+      return view.f[at(place.index)];
     case Role::rate:
       return view.rate_force[at(place.index)];
-    case Role::slip: {
-      // While it sticks its force may be beyond the bound by a rounding, just before it breaks away.
-      const double limit = network.sliders[at(place.index)].law.breakaway;
-      return std::clamp(view.slider_force[at(place.index)], -limit, limit);
-    }
+    case Role::slip:
+      return view.slider_force[at(place.index)];
     case Role::mass: {
       const Network::Mass& m = network.masses[at(place.index)];
       return m.mass * view.acceleration[at(m.node)];

@@ -11,6 +11,7 @@
 #include "tests/wiring/agreement.hpp"
 #include "tests/wiring/overload.hpp"
 #include "tests/wiring/refusals.hpp"
+#include "tests/wiring/sticking.hpp"
 
 namespace rheonet::test {
 
@@ -97,6 +98,9 @@ Judgement judge(const Wiring& wiring, bool closer) {
   const Scene scene = scene_of(netlist_of(wiring), closer ? 1e-9 : 0);
   const Attempt run = attempt(scene);
   Judgement result;
+  // How sticking sliders share a load the reference does not know; balance and least norm do.
+  result.text = wrong_sticking(scene, run.rows);
+  if (!result.text.empty()) return result;
   for (const int more : {closer ? 4 : 0, 2, 4}) {
     ReferenceSettings settings;
     settings.halvings += more;

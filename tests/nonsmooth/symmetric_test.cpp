@@ -1,4 +1,4 @@
-#include "core/dae/symmetric.hpp"
+#include "core/nonsmooth/symmetric.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/nonsmooth/overloaded_cut.hpp"
+
+namespace rheonet {
+
+/// Forces in boxes that balance the loads at the nodes of a graph; where the balance leaves them open, those of least norm:
+///
+///     minimise 1/2 sum f_k^2     subject to     sum of +-f_k = load_n  at every node,     low_k <= f_k <= high_k
+///
+/// Its dual is convex, piecewise quadratic and without constraints. Its unknowns are potentials phi of the nodes (0 where a
+/// node is held), and f_k = clamp(phi_a - phi_b, low_k, high_k). Newton's method on the active set, with exact line search, finds
+/// its minimum, where every node balances. (A quadratic network flow: Bertsekas, Network Optimization, 1998, chapter 8.)
+///
+/// Where the dual has no minimum, a cut is overloaded. The branches of that cut then exceed their bounds, all by the same share,
+/// so that every node still balances.
+class BoxedForces {
+ public:
+  /// Every node has a way along branches to a held one.
+  BoxedForces(int nodes, std::vector<BoxedBranch> branches);
+  BoxedForces(BoxedForces&&) noexcept;
+  BoxedForces& operator=(BoxedForces&&) noexcept;
+  ~BoxedForces();
+
+  enum class Outcome {
+    within,  ///< every force is in its box
+    beyond,  ///< cuts are overloaded: see `cuts`
+    failed,  ///< a condition is not met to round-off: see `failed_node` and `failed_branch`
+  };
+  /// `load`: of each node [N], finite. Writes the force of each branch.
+  Outcome solve(const std::vector<double>& load, std::vector<double>& force);
+
+  const std::vector<OverloadedCut>& cuts() const { return cuts_; }
+  /// A node that does not balance, or -1.
+  int failed_node() const { return failed_node_; }
+  /// A branch whose force is not that of least norm, or -1.
+  int failed_branch() const { return failed_branch_; }
+
+ private:
+  struct Factors;
+  double difference(const BoxedBranch& b, const std::vector<double>& of_nodes) const;
+  double force_at(std::size_t k, double step) const;
+  double round_off(std::size_t node) const;
+  bool balanced(const std::vector<double>& load, const std::vector<double>& force);
+  bool without_bounds(const std::vector<double>& load, std::vector<double>& force);
+  double find_direction();
+  double slope_at(double step) const;
+  double minimum_along() const;
+  void move(double step);
+  void give_way(const OverloadedCut& cut, std::vector<double>& load, std::vector<double>& force);
+  bool of_least_norm(const std::vector<double>& force);
+
+  std::vector<BoxedBranch> branches_;
+  std::unique_ptr<Factors> factors_;  ///< of the Laplacian of all branches
+  std::vector<double> difference_;    ///< of each branch: phi_a - phi_b, which may be far smaller than the round-off of phi
+  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the direction of its difference
+  std::vector<double> left_, magnitude_;         ///< of each node: what is out of balance, and the sum of the terms [N]
+  std::vector<int> terms_;                       ///< of each node: how many
+  std::vector<char> held_;  ///< of each node: its balance follows from those of others
+  std::vector<char> open_;  ///< of each branch: it is in no overloaded cut
+  double grain_ = 0;        ///< round-off of a difference of potentials [N]
+  std::vector<OverloadedCut> cuts_;
+  int failed_node_ = -1, failed_branch_ = -1;
+};
+
+}  // namespace rheonet

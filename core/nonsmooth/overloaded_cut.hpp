@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace rheonet {
+
+/// A branch of a graph, whose force f acts on node a and -f on node b, and lies between `low` and `high` [N] (either may be
+/// infinite). A node of -1 is held: it takes any force.
+struct BoxedBranch { int a, b; double low, high; };
+
+/// A set of nodes whose load is more than the branches that leave the set can carry. The set and the rest of the graph, with
+/// its held nodes, each hang together.
+struct OverloadedCut {
+  std::vector<char> inside;   ///< of each node
+  int side = 1;               ///< the direction in which the load pushes the set
+  std::vector<int> branches;  ///< that leave the set
+  double excess = 0;          ///< of the load over what the branches can carry [N]
+};
+
+/// Loads at the nodes of a graph, held up by branches. `open`: of each branch whether it takes part; `held`: of each node
+/// whether it takes any force. All must outlive this.
+class CutSearch {
+ public:
+  CutSearch(const std::vector<BoxedBranch>& branches, const std::vector<char>& open, const std::vector<char>& held,
+            const std::vector<double>& load)
+      : branches_(branches), open_(open), held_(held), load_(load) {}
+
+  /// An overloaded cut between nodes that move apart in this direction, of each node (0 where it is held), if there is one by more
+  /// than round-off. Looks where they are apart by at least this share of the whole range.
+  std::optional<OverloadedCut> along(const std::vector<double>& direction, double share) const;
+
+ private:
+  struct Balance { double excess, rounding; };
+  Balance balance(const std::vector<char>& inside, int side) const;
+  bool overloaded(const std::vector<char>& inside, int side) const;
+  OverloadedCut simple(std::vector<char> inside, int side) const;
+  std::vector<std::vector<char>> pieces(const std::vector<char>& of, char value) const;
+  bool within(const std::vector<char>& inside, int node) const { return node >= 0 && inside[static_cast<std::size_t>(node)] != 0; }
+
+  const std::vector<BoxedBranch>& branches_;
+  const std::vector<char>& open_;
+  const std::vector<char>& held_;
+  const std::vector<double>& load_;
+};
+
+}  // namespace rheonet
