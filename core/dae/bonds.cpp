@@ -20,7 +20,8 @@ struct Joined {
   std::vector<BoxedBranch> branches;
 };
 
-/// What sticking sliders join. The node that stands for a cluster takes what its balance leaves, which is that of the others'.
+/// The nodes that sticking sliders join. The leading node of each cluster is left out: its balance is the sum of the balances of the
+/// other nodes.
 Joined joined(const Network& network, const Structure& structure) {
   Joined result;
   std::vector<int> row(structure.kind.size(), -1);

@@ -14,13 +14,13 @@ namespace rheonet {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Gaps between nodes in a direction that are searched for an overloaded cut where others keep the dual bounded, as a share of the
-// whole range: a cut that does not take part in the balance of the others shows up as one of the widest.
+// Width of the gaps in a direction that are searched for an overloaded cut while the dual is bounded along that direction, as a
+// share of the whole range. The nodes of an overloaded cut run ahead of all other nodes.
 constexpr double wide_gap = 0.1;
 // Newton's steps, for each branch, and for the smallest graphs: a grid of 2,500 nodes took 0.001 to 0.02 a branch where bounds are of
 // a kind, and 0.2 where they differ by 12 decades.
 constexpr std::size_t steps_a_branch = 4, least_steps = 100;
-// Of a direct solution: each gains the digits that its factors have.
+// Refinements of a direct solution. Each one gains the digits of the factors.
 constexpr int refinements = 3;
 
 }  // namespace
@@ -116,7 +116,7 @@ bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<do
   return false;
 }
 
-/// Of the sum of the forces at a node.
+/// Round-off of the sum of the forces at a node [N].
 double BoxedForces::round_off(std::size_t n) const { return (terms_[n] + 1) * eps * magnitude_[n]; }
 
 bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<double>& force) {
@@ -135,7 +135,7 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
     add(branches_[k].a, force[k]);
     add(branches_[k].b, -force[k]);
   }
-  // What is left at other nodes may be far less than round-off at this one.
+  // Round-off at this node may exceed the imbalance of other nodes: set it to 0.
   failed_node_ = -1;
   for (std::size_t n = 0; n < load.size(); ++n) {
     if (held_[n] || std::abs(left_[n]) <= round_off(n)) {
@@ -160,7 +160,7 @@ double BoxedForces::find_direction() {
     if (open_[k] && within(k)) parts.join(slot(branches_[k].a), slot(branches_[k].b));
   }
   const int firm = parts.find(nodes);
-  // The node with the largest terms takes what is left of the balance of its part.
+  // The node with the largest terms takes the imbalance of its part.
   std::vector<int> taking(phi_.size() + 1, -1);
   for (int n = 0; n < nodes; ++n) {
     int& most = taking[at(parts.find(n))];
@@ -237,7 +237,8 @@ void BoxedForces::move(double step) {
   grain_ += eps * largest;
 }
 
-/// The branches of the cut carry all of the load that pushes it, which they take away from `load`: each beyond its bound by the same share (where the bounds are 0, by as much).
+/// The branches of the cut carry the load of its nodes, each beyond its bound by the same share (where all bounds are 0, by the same
+/// force). Their forces are taken away from `load`.
 void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, std::vector<double>& force) {
   const auto bound = [&](int k) {
     const BoxedBranch& b = branches_[at(k)];

@@ -55,7 +55,7 @@ class BoxedForces {
 
   std::vector<BoxedBranch> branches_;
   std::unique_ptr<Factors> factors_;  ///< of the Laplacian of all branches
-  std::vector<double> difference_;    ///< of each branch: phi_a - phi_b, which may be far smaller than the round-off of phi
+  std::vector<double> difference_;    ///< of each branch: phi_a - phi_b, kept apart as phi has larger round-off
   std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the direction of its difference
   std::vector<double> left_, magnitude_;         ///< of each node: what is out of balance, and the sum of the terms [N]
   std::vector<int> terms_;                       ///< of each node: how many

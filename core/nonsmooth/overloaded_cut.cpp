@@ -24,7 +24,7 @@ std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& directi
     if (level > below) gaps.push_back({level - below, level > 0 ? level : below});
     below = level;
   };
-  bool passed = false;  // the level of what is held
+  bool passed = false;  // the level 0 of the held nodes
   for (const int n : order) {
     if (direction[at(n)] > 0 && !passed) meet(0);
     passed = passed || direction[at(n)] > 0;
@@ -69,7 +69,7 @@ bool CutSearch::overloaded(const std::vector<char>& inside, int side) const {
   return std::isfinite(excess) && excess > rounding;
 }
 
-/// The parts that the nodes with this value hang together in; those that hang together with what is held are left out.
+/// The connected parts of the nodes with this value, without the part that reaches a held node.
 std::vector<std::vector<char>> CutSearch::pieces(const std::vector<char>& of, char value) const {
   const std::size_t nodes = of.size();
   Sets sets(nodes + 1);  // the last one is held
@@ -93,8 +93,8 @@ std::vector<std::vector<char>> CutSearch::pieces(const std::vector<char>& of, ch
   return result;
 }
 
-/// Of a set that is overloaded the part that is so the most, with what hangs on it alone; or a part of that which is overloaded
-/// the other way.
+/// The connected part of an overloaded set with the largest excess, and the nodes that only this part connects to held ones. If
+/// such nodes are overloaded the other way, they are the cut instead.
 OverloadedCut CutSearch::simple(std::vector<char> inside, int side) const {
   double most = -std::numeric_limits<double>::infinity();
   for (std::vector<char>& piece : pieces(std::vector<char>(inside), 1)) {

@@ -49,7 +49,10 @@ class Guess {
       }
     }
     scale_ = 0;
-    const auto phi = [&](int n) { return n < 0 ? 0 : a[static_cast<std::size_t>(n)][nodes_] / a[static_cast<std::size_t>(n)][static_cast<std::size_t>(n)]; };
+    const auto phi = [&](int node) {
+      const auto n = static_cast<std::size_t>(node);
+      return node < 0 ? 0 : a[n][nodes_] / a[n][n];
+    };
     for (std::size_t n = 0; n < nodes_; ++n) scale_ = std::max(scale_, std::abs(phi(static_cast<int>(n))));
     for (std::size_t k = 0; k < u_.size(); ++k) u_[k] = phi(branches_[k].a) - phi(branches_[k].b);
     return true;
@@ -106,12 +109,12 @@ std::optional<ReferenceForces> reference_forces(int nodes, const std::vector<Box
   if (largest_excess(nodes, branches, load) > 0) return std::nullopt;
   Guess guess(nodes, branches, load);
   std::vector<int> side(branches.size(), 0);
-  // Most answers are found by taking what was beyond a bound for what is at it, over and over.
+  // First guess: forces beyond their bounds without bounds. The next guesses follow from the one before.
   for (int k = 0; k < 20 && guess.solve(side); ++k) {
     if (guess.meets(side)) return guess.answer(side);
     for (std::size_t b = 0; b < side.size(); ++b) side[b] = guess.side(b);
   }
-  // The others by trying all.
+  // Then every guess.
   std::fill(side.begin(), side.end(), -1);
   for (;;) {
     if (guess.solve(side) && guess.meets(side)) return guess.answer(side);

@@ -15,7 +15,7 @@ namespace {
 
 // Times the accuracy asked for: each of the forces at a node is within 1 of the truth by what the simulator promises.
 constexpr double of_accuracy = 20;
-// Of the largest force: potentials of a few nodes, summed along paths.
+// Round-off of the potentials of a few nodes, as a share of the largest force.
 constexpr double potential_rounding = 1e-11;
 
 struct Force {

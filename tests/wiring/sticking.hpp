@@ -6,9 +6,8 @@
 
 namespace rheonet::test {
 
-/// Judges the forces of the sliders that stick, of rows that hold every force and velocity: every node where one ends balances, to
-/// the accuracy of the run, and of all forces within the bounds that balance the same, theirs have the least norm. "" or what is
-/// wrong.
+/// Judges the printed forces of sliders that stick: the nodes at their ends balance to the accuracy of the run, and the forces are
+/// those of least norm within the bounds. The rows hold every force and velocity. Returns "" or what is wrong.
 std::string wrong_sticking(const Scene& scene, const Trajectory& rows);
 
 }  // namespace rheonet::test
