@@ -117,7 +117,9 @@ bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<do
 }
 
 /// Round-off of the sum of the forces at a node [N].
-double BoxedForces::round_off(std::size_t n) const { return (terms_[n] + 1) * eps * magnitude_[n]; }
+double BoxedForces::round_off(std::size_t n) const {
+  return std::max((terms_[n] + 1) * eps * magnitude_[n], std::numeric_limits<double>::min());
+}
 
 bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<double>& force) {
   for (std::size_t n = 0; n < load.size(); ++n) {
