@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/netlist/csv_fields.hpp"
+#include "tests/support/figure.hpp"
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
 
@@ -60,7 +61,8 @@ TEST_CASE("sweep: a grid, the last value first; measures, values in SI, one row 
   CHECK(contains(result.err, "scene.toml: 6 runs\n"));
   const auto rows = table(folder.read("sweep.csv"));
   REQUIRE(rows.size() == 7);
-  CHECK(rows[0] == Row{"run", "parameters.B", "simulate.stop", "max(c.force)", "energy dissipated", "mean(a.position)", "error"});
+  CHECK(rows[0] == Row{"run", "parameters.B [N*s/m]", "simulate.stop", "max(c.force) [N]", "energy dissipated [J]",
+                       "mean(a.position) [m]", "error"});
   int run = 0;
   for (const double B : {0.1, 1.0, 10.0})
     for (const double stop : {1.0, 2.0}) {
@@ -295,4 +297,65 @@ TEST_CASE("sweep: its table can be drawn, measures with their units, a failed ru
   folder.shell("rheonet sweep scene.toml --vary parameters.B=1,-2,3,4 --measure 'max(c.force)' 'time of max(a.position, from 1 s)' -o sweep.csv -q", 1);
   folder.shell("rheonet plot sweep.csv -x parameters.B -y 'max(c.force)' --domain translation -o force.svg", 0);
   CHECK(contains(folder.read("force.svg"), "force [N]"));
+}
+
+TEST_CASE("sweep: its headings have units, of values, measures and records; `--list` and `plot` read them") {
+  const Folder folder(dragged);
+  const auto header = [&folder](const std::string& options) {
+    return table(folder.shell("rheonet sweep scene.toml -q -o - " + options, 0).out)[0];
+  };
+  CHECK(header("--vary 'parameters.B=1 N*s/m,2000 g/s' --measure 'time of max(c.force)' steps 'value(a.position, 1 s)'") ==
+        Row{"run", "parameters.B [N*s/m]", "time of max(c.force) [s]", "steps", "value(a.position, 1 s) [m]", "error"});
+  // A plain number is in SI, and its own heading says no more; one in a column with others has their unit.
+  CHECK(header("--vary 'parameters.B=1,2 N*s/m' --vary simulate.stop=1,2") ==
+        Row{"run", "parameters.B [N*s/m]", "simulate.stop", "time [s]", "c.force [N]", "a.position [m]", "error"});
+  // In a scene of rotation.
+  folder.write("turned.toml", "domain = \"rotation\"\n" + std::string(dragged));
+  const std::vector<Row> turned = table(folder.shell("rheonet sweep turned.toml -q -o - --vary 'parameters.B=1 N*m*s/rad,2e7 dyn*cm*s/rad' "
+                                                     "--measure 'max(c.force)' 'max(a.position)'", 0).out);
+  CHECK(turned[0] == Row{"run", "parameters.B [N*m*s/rad]", "max(c.force) [N*m]", "max(a.position) [rad]", "error"});
+  CHECK(number(turned[2][1]) == 2);
+  CHECK(number(turned[2][2]) == doctest::Approx(4));
+  // The column of values is a list.
+  folder.write("again.csv", turned[0][1] + "\n" + turned[1][1] + "\n" + turned[2][1] + "\n");
+  const std::vector<Row> again = table(folder.shell("rheonet sweep turned.toml -q -o - --list again.csv --measure 'max(c.force)' "
+                                                    "'max(a.position)'", 0).out);
+  CHECK(again == turned);
+  // The first run may be one that cannot be read.
+  CHECK(table(folder.shell("rheonet sweep scene.toml -q -o - --vary parameters.B=-1,2 --measure 'max(c.force)'", 1).out)[0][2] ==
+        "max(c.force) [N]");
+}
+
+TEST_CASE("sweep: a measure with a comma in it is a column that can be drawn, and no `--domain` is asked for") {
+  const Folder folder(dragged);
+  folder.shell("rheonet sweep scene.toml --vary parameters.B=1,2,3 --measure 'value(c.force, 2 s)' 'max(a.position, from 1 s, to 2 s)' -o s.csv -q", 0);
+  const Finished drawn = folder.shell("rheonet plot s.csv -x parameters.B -y 'value(c.force, 2 s),max(a.position, from 1 s, to 2 s)' -o s.svg", 0);
+  CHECK(drawn.err == "");
+  CHECK(contains(folder.read("s.svg"), "force [N]"));
+  CHECK(contains(folder.read("s.svg"), ">value(c.force, 2 s)<"));
+  CHECK(contains(folder.read("s.svg"), ">max(a.position, from 1 s, to 2 s)<"));
+}
+
+TEST_CASE("sweep: of rows of many runs each run is a curve of its own, called by its values") {
+  const Folder folder(dragged);
+  folder.shell("rheonet sweep scene.toml --vary 'parameters.B=1 N*s/m,-1 N*s/m,2 N*s/m' -o rows.csv -q", 1);
+  const std::string force = folder.shell("rheonet plot rows.csv -y c.force -o -", 0).out;
+  CHECK(contains(force, "<desc>force [N] against time [s]: parameters.B = 1 N·s/m, parameters.B = 2 N·s/m</desc>"));
+  // Both go from left to right only: nothing leads back from the end of one to the start of the next.
+  const std::vector<std::string> curves = matches(force, "<path d=\"([^\"]*)\" stroke=\"[^\"]*\" stroke-width=\"1.6\"");
+  CHECK(curves.size() == 2);
+  // All records, if nothing is chosen; not the values, nor the number of the run.
+  const std::string all = folder.shell("rheonet plot rows.csv -o -", 0).out;
+  CHECK(contains(all, ">c.force: parameters.B = 1 N·s/m<"));
+  CHECK(contains(all, ">a.position: parameters.B = 2 N·s/m<"));
+  CHECK_FALSE(contains(all, ">run"));
+  // If there are many runs, some are drawn, with the first and the last.
+  folder.shell("rheonet sweep scene.toml --vary parameters.B=1:40:40 -o many.csv -q", 0);
+  const Finished some = folder.shell("rheonet plot many.csv -y c.force -o -", 0);
+  CHECK(some.err == "note: `many.csv` has 40 runs; 12 of them are drawn, from the first to the last\n");
+  CHECK(contains(some.out, ">parameters.B = 1<"));
+  CHECK(contains(some.out, ">parameters.B = 40<"));
+  // A table of measures has a row for each run: no curve of a single point.
+  folder.shell("rheonet sweep scene.toml --vary parameters.B=1,2,3 --measure 'max(c.force)' -o s.csv -q", 0);
+  CHECK(matches(folder.shell("rheonet plot s.csv -x parameters.B -y 'max(c.force)' -o -", 0).out, "stroke-width=\"1.6\"").size() == 1);
 }

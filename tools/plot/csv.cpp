@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -35,11 +36,29 @@ bool next(std::ifstream& in, std::string& line, long& number) {
   return false;
 }
 
+/// The quantity of a sweep's measure: that of k1.force for "max(k1.force, from 1 s)". Absent for a heading of another form.
+std::optional<Measure> measure_of_figure(const CsvHeading& heading, std::optional<Domain> domain) {
+  if (heading.square || heading.unit.empty()) return {};
+  const auto record = measure_of_record(std::string(heading.unit.substr(0, heading.unit.find(','))), domain);
+  return record && heading.name.starts_with("time of ") ? measure("time", "s") : record;
+}
+
+/// The quantity of a record, or of a measure of a record, in this unit: `k1.force` in N*m is a torque. A column that is neither
+/// keeps its name.
+std::string quantity_of(const std::string& name, const std::string& unit, const Unit& size) {
+  const Measure given{name, unit, size};
+  for (const Domain domain : {Domain::translation, Domain::rotation})
+    for (const auto& known : {measure_of_record(name, domain), measure_of_figure(csv_heading(name), domain)})
+      if (known && compatible(*known, given)) return known->quantity;
+  return name;
+}
+
 Measure measure_of(const std::string& name, std::string_view unit, bool square, const std::string& place,
                    std::optional<Domain> domain) {
   if (!unit.empty()) {
     const std::variant<Unit, TextError> size = parse_unit(unit);
-    if (const Unit* known = std::get_if<Unit>(&size)) return {name, std::string(unit), *known};
+    if (const Unit* known = std::get_if<Unit>(&size))
+      return {quantity_of(name, std::string(unit), *known), std::string(unit), *known};
     if (square) {
       const TextError& wrong = std::get<TextError>(size);
       throw Mistake(fmt::format("{}: `{}` is no unit: {}", place, unit, wrong.message), wrong.hint);
@@ -49,13 +68,6 @@ Measure measure_of(const std::string& name, std::string_view unit, bool square, 
   if (name == "time") return measure("time", "s");
   if (const auto record = measure_of_record(name, domain)) return *record;
   return {name, "", {}};
-}
-
-/// What a measure of a sweep measures: "max(k1.force, from 1 s)" what k1.force does. Nothing of another heading.
-std::optional<Measure> measure_of_figure(const CsvHeading& heading, std::optional<Domain> domain) {
-  if (heading.square) return {};
-  const auto record = measure_of_record(std::string(heading.unit.substr(0, heading.unit.find(','))), domain);
-  return record && heading.name.starts_with("time of ") ? measure("time", "s") : record;
 }
 
 }  // namespace
@@ -95,6 +107,28 @@ CsvFile::CsvFile(const std::string& path, std::optional<Domain> domain) : path_(
     const std::string name(heading.name.empty() ? field.text : heading.name);
     columns_.push_back({name, measure_of(name, heading.unit, heading.square, place, domain)});
   }
+  find_runs();
+}
+
+void CsvFile::find_runs() {
+  const auto time = std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "time"; });
+  if (columns_.front().name != "run" || columns_.back().name != "error" || time == columns_.end()) return;
+  const auto time_column = static_cast<std::size_t>(time - columns_.begin());
+  std::ifstream in = open(path_);
+  std::string line;
+  for (long number = 0; next(in, line, number);) {
+    if (number <= header_line_) continue;
+    const std::vector<CsvField> fields = csv_fields(line);
+    if (fields.size() != columns_.size()) return;  // reading the rows says so
+    if (fields[time_column].text.empty()) continue;  // it failed
+    const std::string run(fields.front().text);
+    if (!runs_.empty() && runs_.back().number == run) continue;
+    runs_.push_back({run, ""});
+    for (std::size_t k = 1; k < time_column; ++k)
+      runs_.back().values += fmt::format("{}{} = {}{}{}", k > 1 ? ", " : "", columns_[k].name, fields[k].text,
+                                         columns_[k].measure.unit.empty() ? "" : " ", in_print(columns_[k].measure.unit));
+  }
+  for (std::size_t k = time_column + 1; k + 1 < columns_.size(); ++k) recorded_.push_back({time_column, k});
 }
 
 bool CsvFile::has_numbers(std::size_t column) const {
@@ -108,9 +142,10 @@ bool CsvFile::has_numbers(std::size_t column) const {
   return false;
 }
 
-std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs) const {
+std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs, const std::vector<std::size_t>& of_runs) const {
   std::ifstream in = open(path_);
-  std::vector<Trace> traces(pairs.size());
+  const std::size_t runs = std::max<std::size_t>(of_runs.size(), 1);
+  std::vector<Trace> traces(runs * pairs.size());
   std::vector<char> wanted(columns_.size(), 0);
   for (const auto& [x, y] : pairs) wanted[x] = wanted[y] = 1;
   std::vector<double> values(columns_.size(), 0);
@@ -131,8 +166,12 @@ std::vector<Trace> CsvFile::read(const std::vector<ColumnPair>& pairs) const {
                                   printable(fields[k].text)));
       values[k] = multiplied(*value, columns_[k].measure.size ? columns_[k].measure.size->factor : 1);
     }
-    for (std::size_t k = 0; k < pairs.size(); ++k) traces[k].add({values[pairs[k].first], values[pairs[k].second]});
     ++rows;
+    const auto same = [&](std::size_t run) { return runs_[run].number == fields.front().text; };
+    const auto run = std::find_if(of_runs.begin(), of_runs.end(), same);
+    if (!of_runs.empty() && run == of_runs.end()) continue;
+    const std::size_t first = static_cast<std::size_t>(run - of_runs.begin()) * pairs.size();
+    for (std::size_t k = 0; k < pairs.size(); ++k) traces[first + k].add({values[pairs[k].first], values[pairs[k].second]});
   }
   if (rows == 0) throw Mistake(fmt::format("`{}` has a header, but no rows", path_));
   return traces;

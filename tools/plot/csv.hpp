@@ -37,14 +37,28 @@ class CsvFile {
   /// Whether a column has a number in any row.
   bool has_numbers(std::size_t column) const;
 
-  /// Reads the rows: a trace in SI for each pair of columns. Throws Mistake: no rows, a row of another length, a field
-  /// that is no number. Fields that are empty, and values that are not finite,
-  /// interrupt a curve.
-  std::vector<Trace> read(const std::vector<ColumnPair>& pairs) const;
+  /// A run of a sweep whose rows are in the file.
+  struct Run {
+    std::string number;
+    std::string values;  ///< the values that were varied: "c1.damping = 2 N·s/m"
+  };
+  /// The runs that did not fail, in order. Empty if the file is not a table of a sweep, or a table of measures.
+  const std::vector<Run>& runs() const { return runs_; }
+  /// The columns of a record against time, for each record of those runs.
+  const std::vector<ColumnPair>& recorded() const { return recorded_; }
+
+  /// Reads the rows: a trace in SI for each pair of columns. If `of_runs` has positions in `runs`, each of these runs has its own
+  /// traces: first those of all pairs for the first run, then for the next. Throws Mistake: no rows, a row of another length, a
+  /// field that is no number. Empty fields and values that are not finite interrupt a curve.
+  std::vector<Trace> read(const std::vector<ColumnPair>& pairs, const std::vector<std::size_t>& of_runs = {}) const;
 
  private:
+  void find_runs();
+
   std::string path_;
   std::vector<Column> columns_;
+  std::vector<Run> runs_;
+  std::vector<ColumnPair> recorded_;
   long header_line_ = 0;
 };
 

@@ -26,43 +26,42 @@ using File = std::unique_ptr<std::FILE, Close>;
 
 std::string text_of(std::FILE* file) {
   std::rewind(file);
-  char buffer[512];
-  const std::size_t size = std::fread(buffer, 1, sizeof buffer, file);
-  std::string text(buffer, size);
-  while (text.ends_with('\n')) text.pop_back();
+  std::string text;
+  char piece[1U << 16U];
+  for (std::size_t size = 0; (size = std::fread(piece, 1, sizeof piece, file)) > 0;) text.append(piece, size);
   return text;
 }
 
 }  // namespace
 
-std::optional<std::string> write_png(const std::string& svg, const std::string& path) {
+std::variant<Png, NoPng> png(const std::string& svg) {
   // Files without a name in place of pipes: nothing can block, or be left behind.
-  const File input(std::tmpfile()), errors(std::tmpfile());
-  if (!input || !errors || std::fwrite(svg.data(), 1, svg.size(), input.get()) != svg.size() ||
+  const File input(std::tmpfile()), output(std::tmpfile()), errors(std::tmpfile());
+  if (!input || !output || !errors || std::fwrite(svg.data(), 1, svg.size(), input.get()) != svg.size() ||
       std::fflush(input.get()) != 0)
-    return std::string("a temporary file cannot be written: ") + std::strerror(errno);
+    return NoPng{std::string("a temporary file cannot be written: ") + std::strerror(errno)};
   std::rewind(input.get());
 
-  const std::string output = "--output=" + path;
-  const char* const words[] = {"rsvg-convert", "--format=png", "--zoom=1.5", output.c_str(), nullptr};
+  const char* const words[] = {"rsvg-convert", "--format=png", "--zoom=1.5", nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(input.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, ::fileno(output.get()), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(errors.get()), STDERR_FILENO);
   pid_t process = 0;
   const int failed = ::posix_spawnp(&process, words[0], &actions, nullptr, const_cast<char* const*>(words), environ);
   posix_spawn_file_actions_destroy(&actions);
   if (failed == ENOENT)
-    return "a .png is made by rsvg-convert, which is not installed (Debian: apt-get install librsvg2-bin); an .svg "
-           "needs "
-           "nothing";
-  if (failed != 0) return std::string("rsvg-convert cannot be started: ") + std::strerror(failed);
+    return NoPng{
+        "a .png is made by rsvg-convert, which is not installed (Debian: apt-get install librsvg2-bin); an .svg needs nothing"};
+  if (failed != 0) return NoPng{std::string("rsvg-convert cannot be started: ") + std::strerror(failed)};
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
-  const std::string said = text_of(errors.get());
-  return "rsvg-convert could not make the .png" + (said.empty() ? "" : ": " + said);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return Png{text_of(output.get())};
+  std::string said = text_of(errors.get());
+  while (said.ends_with('\n')) said.pop_back();
+  return NoPng{"rsvg-convert could not make the .png" + (said.empty() ? "" : ": " + said)};
 }
 
 }  // namespace rheonet::plot

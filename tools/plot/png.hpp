@@ -1,12 +1,21 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <variant>
 
 namespace rheonet::plot {
 
-/// Turns an SVG document into a PNG file by rsvg-convert (Debian: librsvg2-bin), three pixels to two px, which is 144
-/// to the inch. What went wrong if it did: the program is missing, or what it says itself.
-std::optional<std::string> write_png(const std::string& svg, const std::string& path);
+/// The bytes of a picture.
+struct Png {
+  std::string bytes;
+};
+
+/// Why there is none: rsvg-convert is missing, or what it says itself.
+struct NoPng {
+  std::string why;
+};
+
+/// Turns an SVG document into a PNG by rsvg-convert (Debian: librsvg2-bin), three pixels to two px, which is 144 to the inch.
+std::variant<Png, NoPng> png(const std::string& svg);
 
 }  // namespace rheonet::plot

@@ -24,11 +24,24 @@ std::string in_script(const std::string& json) {
   return text;
 }
 
-/// Puts a text in the place of a mark.
-void replace(std::string& page, std::string_view mark, const std::string& by) {
-  const std::size_t at = page.find(mark);
-  if (at == std::string::npos) throw std::logic_error("the page of reports has no place for its data");
-  page.replace(at, mark.size(), by);
+/// A text for the place that a mark stands at.
+struct Filling {
+  std::string_view mark;
+  std::string text;
+};
+
+/// The page with its marks replaced, which come in this order. Marks are looked for in the page alone: a text that looks like
+/// one stays what it is.
+std::string filled(std::string_view page, const std::vector<Filling>& fillings) {
+  std::string result;
+  for (const auto& [mark, text] : fillings) {
+    const std::size_t at = page.find(mark);
+    if (at == std::string_view::npos) throw std::logic_error("the page of reports has no place for its data");
+    result += page.substr(0, at);
+    result += text;
+    page.remove_prefix(at + mark.size());
+  }
+  return result.append(page);
 }
 
 }  // namespace
@@ -40,10 +53,7 @@ std::string document(const std::string& title, const std::vector<std::vector<std
     for (std::size_t i = 0; i < scenes[k].size(); ++i) data += (i > 0 ? "," : "") + scenes[k][i];
     data += "]";
   }
-  std::string page(web::report_page().text);
-  replace(page, "<!-- title -->", plot::escaped(title));
-  replace(page, "/* data */", in_script(data + "]}"));
-  return page;
+  return filled(web::report_page().text, {{"<!-- title -->", plot::escaped(title)}, {"/* data */", in_script(data + "]}")}});
 }
 
 }  // namespace rheonet::report

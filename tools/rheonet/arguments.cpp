@@ -15,6 +15,7 @@
 #include "tools/rheonet/footers.hpp"
 #include "tools/rheonet/repeated_options.hpp"
 #include "tools/rheonet/say.hpp"
+#include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
 namespace {
@@ -122,13 +123,20 @@ ExitStatus report_mistake(const WrongCommandLine& mistake, const CLI::App& app) 
   return wrong_input;
 }
 
-// An option that may be repeated, each time with one value, or several between commas.
-CLI::Option* add_list(CLI::App* command, const char* names, std::vector<std::string>& values, const char* description,
-                      const char* type, bool commas = true) {
-  CLI::Option* option = command->add_option(names, values, description);
-  option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false)->type_name(type);
-  if (commas) option->delimiter(',');
-  return option;
+// An option that may be repeated, each time with one value, or several between commas. A comma in brackets does not separate:
+// `value(k1.force, 2 s)` is the name of one column.
+void add_list(CLI::App* command, const char* names, std::vector<std::string>& values, const char* description,
+              const char* type, bool commas = true) {
+  const auto take = [&values, commas](const std::vector<std::string>& given) {
+    for (const std::string& text : given)
+      for (std::string& part : commas ? split_outside_brackets(text) : std::vector<std::string>{text})
+        values.push_back(std::move(part));
+  };
+  command->add_option_function<std::vector<std::string>>(names, take, description)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false)
+      ->type_name(type);
 }
 
 void add_figure(CLI::App* command, Arguments& arguments) {

@@ -21,8 +21,9 @@ std::string unit_of(const Record& record, const Scene& scene) {
   return unit_text(scene, record);
 }
 
-/// Of what is claimed.
-std::string unit_of(const Claim& claim, const Scene& scene) {
+}  // namespace
+
+std::string unit_of_claim(const Claim& claim, const Scene& scene) {
   if (is_time(claim.figure)) return "s";
   const Record& record = record_of(scene, claim.record);
   if (claim.per < 0) return unit_of(record, scene);
@@ -33,6 +34,8 @@ std::string unit_of(const Claim& claim, const Scene& scene) {
     if (dimension.same(dimension_of(known, scene.domain))) return rheonet::unit_of(known, scene.domain);
   return to_string(dimension);
 }
+
+namespace {
 
 /// "k1.force at 0.2 s", "largest k1.force from 1 s to 2 s".
 std::string name_of_claim(const Claim& claim, const Scene& scene) {
@@ -74,7 +77,7 @@ std::string claimed_of(const Claim& claim, const Finding& finding, const std::st
 }  // namespace
 
 ClaimInWords in_words(const Scene& scene, const Claim& claim, const Finding& finding) {
-  const std::string unit = unit_of(claim, scene);
+  const std::string unit = unit_of_claim(claim, scene);
   const std::string never = claim.per < 0 ? "never comes" : "is no number";
   return {name_of_claim(claim, scene), claimed_of(claim, finding, unit),
           std::isnan(finding.found) ? never : with_unit(finding.found, unit), finding.holds};
@@ -85,7 +88,7 @@ bool report_claims(const Scene& scene, const Summary& summary, const Sources& so
   for (std::size_t i = 0; i < scene.claims.size(); ++i) {
     const Claim& claim = scene.claims[i];
     const Finding& finding = summary.findings[i];
-    const std::string unit = unit_of(claim, scene);
+    const std::string unit = unit_of_claim(claim, scene);
     const auto [name, claimed, found, holds] = in_words(scene, claim, finding);
     if (holds) {
       if (!quiet) say("  holds: {} is {}, claimed {}\n", name, found, claimed);

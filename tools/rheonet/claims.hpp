@@ -16,6 +16,9 @@ struct ClaimInWords {
 };
 ClaimInWords in_words(const Scene& scene, const Claim& claim, const Finding& finding);
 
+/// The SI unit of a claim's figure, as a user would type it; "1" for a number.
+std::string unit_of_claim(const Claim& claim, const Scene& scene);
+
 /// Says of each claim of the scene's [expect] whether it holds, with the figures: those that fail as errors at their
 /// places, the others as lines unless `quiet`. Whether all hold.
 bool report_claims(const Scene& scene, const Summary& summary, const Sources& sources, bool quiet);

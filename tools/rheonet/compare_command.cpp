@@ -160,6 +160,7 @@ Findings compare_over(const Variation& variation, Compared compared, const Argum
 }
 
 ExitStatus compare(const Arguments& arguments) {
+  if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::optional<Variation> variation;
   if (!arguments.vary.empty()) {
     auto read = read_variation(arguments.vary);
@@ -172,7 +173,7 @@ ExitStatus compare(const Arguments& arguments) {
   }
   Compared compared = read_all(arguments, variation ? variation->path + '=' + variation->values.front() : "");
   std::unique_ptr<Output> output;
-  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Manner::complete))) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   const char* const row = variation ? "value" : "row";

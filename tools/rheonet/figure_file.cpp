@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <system_error>
 
@@ -16,15 +15,10 @@
 namespace rheonet::tool {
 namespace {
 
-ExitStatus write_svg(const std::string& text, const std::string& path) {
-  const std::unique_ptr<Output> output = open_output(path);
+ExitStatus write_picture(const std::string& text, const std::string& path) {
+  const std::unique_ptr<Output> output = open_output(path, Output::Manner::complete);
   if (!output) return wrong_input;
-  std::fwrite(text.data(), 1, text.size(), output->file());
-  if (const int error = output->close(); error != 0) {
-    say("error: cannot write to {}: {}\n", output->name(), std::strerror(error));
-    return not_simulated;
-  }
-  return done;
+  return write_all(*output, text, "line") ? done : not_simulated;
 }
 
 }  // namespace
@@ -40,7 +34,7 @@ bool can_be_figure(const std::string& path, const char* option) {
   const std::filesystem::file_type type = std::filesystem::status(path, error).type();
   const bool tried = type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular ||
                      type == std::filesystem::file_type::directory;
-  return !tried || open_output(path) != nullptr;
+  return !tried || open_output(path, Output::Manner::complete) != nullptr;
 }
 
 void report(const plot::Mistake& mistake) {
@@ -49,10 +43,13 @@ void report(const plot::Mistake& mistake) {
 }
 
 ExitStatus write_figure(const std::string& svg, const std::string& path) {
-  if (!path.ends_with(".png")) return write_svg(svg, path);
-  const std::optional<std::string> failed = plot::write_png(svg, path);
-  if (failed) say("error: `{}`: {}\n", printable(path), printable(*failed));
-  return failed ? not_simulated : done;
+  if (!path.ends_with(".png")) return write_picture(svg, path);
+  const std::variant<plot::Png, plot::NoPng> made = plot::png(svg);
+  if (const auto* failed = std::get_if<plot::NoPng>(&made)) {
+    say("error: `{}`: {}\n", printable(path), printable(failed->why));
+    return not_simulated;
+  }
+  return write_picture(std::get<plot::Png>(made).bytes, path);
 }
 
 ExitStatus write_figure(std::vector<plot::Measured> curves, const plot::Look& look, const std::string& path) {

@@ -14,6 +14,8 @@ inline constexpr const char* footer_of_run =
     "For instance:\n"
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
+    "Rows and events are CSV: FILE ends in .csv, .txt, .dat or has no ending. A run that is interrupted leaves the rows up to\n"
+    "there; with --certify it leaves an earlier file as it was.\n\n"
     "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
     "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
     "2 the scene or the command line is wrong.";
@@ -64,7 +66,8 @@ inline constexpr const char* footer_of_sweep =
     "row has paths, with units as in `k1.stiffness [N/m]`, and each other row the values of a run.\n\n"
     "Measures: max, min, mean, rms, final and `time of max`, `time of min` of a record, as in max(k1.force) or\n"
     "max(k1.force, from 1 s, to 2 s); value(k1.force, 0.2 s); time of crossing(k1.force, 2 N); energy dissipated, energy\n"
-    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`.\n\n"
+    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`. Headings have\n"
+    "the SI unit of a column, as in `max(k1.force) [N]`.\n\n"
     "Exit status: 0 every run is done; 1 one or more could not be read or simulated (the column `error` says why), or\n"
     "the sweep was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
 
@@ -74,8 +77,9 @@ inline constexpr const char* footer_of_plot =
     "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
     "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
     "A FILE that ends in .toml is a scene, which is simulated; any other is a CSV file whose first row names its\n"
-    "columns: rows of `run`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over the\n"
-    "first. Different quantities have a panel each, over one horizontal axis.\n\n"
+    "columns: rows of `run` or `sweep`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over\n"
+    "the first. Different quantities have a panel each, over one horizontal axis. Of the rows of a sweep each run is a\n"
+    "curve. A measure is a column: -y 'value(k1.force, 2 s)'.\n\n"
     "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
     "line is wrong.";
 
@@ -97,6 +101,8 @@ inline constexpr const char* footer_of_serve =
     "For instance:\n"
     "  rheonet serve\n"
     "  rheonet serve my-netlists --port 8080\n\n"
+    "The address that is printed ends with a token: open it as it is. Without the token nobody gets in, no other user of this\n"
+    "machine either.\n\n"
     "Exit status: 0 ended by Ctrl-C; 1 the address cannot be used, or the web pages are missing; 2 the command line is wrong.";
 
 }  // namespace rheonet::tool

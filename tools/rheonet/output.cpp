@@ -11,6 +11,7 @@
 #include <chrono>
 #include <climits>
 #include <cstring>
+#include <filesystem>
 #include <mutex>
 #include <string_view>
 #include <system_error>
@@ -39,8 +40,27 @@ Open& all_open() {
 
 }  // namespace
 
-Output::Output(const std::string& path)
-    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`") {
+namespace {
+
+bool is_regular(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+template <class... Args>
+std::unique_ptr<Output> opened(const std::string& path, Args... args) {
+  try {
+    return std::make_unique<Output>(path, args...);
+  } catch (const std::system_error& error) {
+    say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+Output::Output(const std::string& path, Manner manner)
+    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`"), manner_(manner) {
   if (path == "-") {
     descriptor_ = STDOUT_FILENO;
   } else {
@@ -69,26 +89,50 @@ Output::Output(const std::string& path, std::size_t bytes, long lines) : Output(
   lines_ = lines;
 }
 
-Output::~Output() { close(); }
+Output::~Output() {
+  abandoned_ = true;  // who has written everything has closed it
+  close();
+}
 
 bool Output::is_terminal() const { return ::isatty(descriptor_) != 0; }
 
 std::string Output::kept(const char* row) const {
+  if (left_alone_) return created_ ? fmt::format("  no file {} was made\n", name_) : fmt::format("  {} is as it was before\n", name_);
   if (rows() == 0) return fmt::format("  no {} was written to {}\n", row, name_);
   if (rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, name_);
   return fmt::format("  the {} {}s up to there are in {}\n", rows(), row, name_);
+}
+
+int Output::begin() {
+  if (path_ == "-" || !is_regular(descriptor_)) return 0;
+  if (manner_ == Manner::complete) {
+    try {
+      write_beside();
+      return 0;
+    } catch (const std::system_error&) {
+      // A folder that takes no new file may hold one that can be written.
+    }
+  }
+  const auto end = static_cast<off_t>(kept_);
+  return ::ftruncate(descriptor_, end) == 0 && ::lseek(descriptor_, end, SEEK_SET) == end ? 0 : errno;
+}
+
+void Output::write_beside() {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const fs::path file = fs::is_symlink(path_, failed) ? fs::canonical(path_) : fs::path(path_);
+  folder_ = ::open(file.has_parent_path() ? file.parent_path().c_str() : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder_ < 0) throw std::system_error(errno, std::generic_category());
+  replacement_.emplace(folder_, file.filename().string());
+  ::close(descriptor_);
+  descriptor_ = replacement_->descriptor();
 }
 
 long Output::write(const char* text, std::size_t size) {
   if (error_ != 0) return 0;
   if (!touched_) {
     touched_ = true;
-    struct stat status {};
-    if (path_ != "-" && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) &&
-        (::ftruncate(descriptor_, static_cast<off_t>(kept_)) != 0 ||
-         ::lseek(descriptor_, static_cast<off_t>(kept_), SEEK_SET) < 0)) {
-      error_ = errno;
-    }
+    error_ = begin();
   }
   std::size_t written = 0;
   while (error_ == 0 && written < size) {
@@ -124,6 +168,11 @@ bool Output::finish() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   finishing_ = true;
+  if (manner_ == Manner::complete && path_ != "-") {
+    replacement_.reset();  // removes the temporary file: what it holds is not complete
+    if (created_) ::unlink(path_.c_str());
+    return false;
+  }
   std::fflush(file_);
   if (created_ && !touched_) ::unlink(path_.c_str());
   return touched_;
@@ -155,12 +204,24 @@ int Output::close() {
   }
   std::fclose(file_);
   file_ = nullptr;
-  // Some file systems report only here that the disk is full.
-  if (path_ != "-") {
+  if (path_ == "-") return error_;
+  if (replacement_) {
+    if (error_ == 0 && !abandoned_) error_ = replacement_->commit();
+    left_alone_ = error_ != 0 || abandoned_;
+    replacement_.reset();
+  } else {
+    left_alone_ = manner_ == Manner::complete && !touched_;
+    // Some file systems report only here that the disk is full.
     if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
-    if (created_ && !touched_) ::unlink(path_.c_str());
   }
+  if (folder_ >= 0) ::close(folder_);
+  if (created_ && (!touched_ || left_alone_)) ::unlink(path_.c_str());
   return error_;
+}
+
+void Output::abandon() {
+  abandoned_ = !created_;
+  close();
 }
 
 bool write_all(Output& output, const std::string& text, const char* row) {
@@ -170,13 +231,21 @@ bool write_all(Output& output, const std::string& text, const char* row) {
   return error == 0;
 }
 
-std::unique_ptr<Output> open_output(const std::string& path, std::size_t bytes, long lines) {
-  try {
-    return std::make_unique<Output>(path, bytes, lines);
-  } catch (const std::system_error& error) {
-    say("error: cannot write to `{}`: {}\n", printable(path), error.code().message());
-    return nullptr;
-  }
+std::unique_ptr<Output> open_output(const std::string& path, Output::Manner manner) { return opened(path, manner); }
+
+std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines) {
+  return opened(path, bytes, lines);
+}
+
+bool can_be_table(const std::string& path, const char* option) {
+  namespace fs = std::filesystem;
+  std::error_code failed;
+  const std::string ending = fs::path(path).extension().string();
+  if (path == "-" || ending.empty() || ending == ".csv" || ending == ".txt" || ending == ".dat") return true;
+  if (fs::exists(path, failed) && !fs::is_regular_file(path, failed)) return true;  // a folder has a message of its own
+  say("error: `{} {}`: rows are written as CSV, and `{}` is another format\n"
+      "  name the file .csv (or .txt, .dat, or without an ending)\n", option, printable(path), printable(ending));
+  return false;
 }
 
 }  // namespace rheonet::tool

@@ -2,17 +2,23 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+
+#include "tools/rheonet/replacement.hpp"
 
 namespace rheonet::tool {
 
-/// Where the rows of a run go. Nothing of an existing file is lost before the first row comes, so a scene that cannot
-/// be started leaves earlier results alone. It counts the rows,
-/// and remembers why a write failed (disk full, reader gone); a file ends with a whole row also then.
+/// Where the results of a command go. It counts the rows, and remembers why a write failed (disk full, reader gone).
 class Output {
  public:
+  enum class Manner {
+    as_it_comes,  ///< an existing file is emptied when the first row comes, not before; a full disk leaves whole rows
+    complete,     ///< `close` replaces an existing file if every write succeeded; else the file stays as it is
+  };
+
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
-  explicit Output(const std::string& path);
+  explicit Output(const std::string& path, Manner manner = Manner::as_it_comes);
   /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
   /// stood there is lost before.
   Output(const std::string& path, std::size_t bytes, long lines);
@@ -35,11 +41,17 @@ class Output {
 
   /// Closes. The error of this or any earlier write (errno), 0 if all is written.
   int close();
+  /// Closes, and leaves a file that was there before as it was, if its manner is `complete`.
+  void abandon();
 
  private:
   bool finish();
   long write(const char* text, std::size_t size);
   bool is_stalled() const;
+  /// Before the first byte: makes room for it. The error (errno), 0 if it is done.
+  int begin();
+  /// Writes to a temporary file from now on.
+  void write_beside();
   void drop_begun_row();
 
   std::string path_;
@@ -53,13 +65,24 @@ class Output {
   bool touched_ = false;
   bool finishing_ = false;  ///< no write may wait for a reader any more
   std::size_t kept_ = 0;  ///< bytes of an earlier writing
+  Manner manner_;
+  bool abandoned_ = false;
+  bool left_alone_ = false;  ///< closed without a change of the file
+  int folder_ = -1;       ///< of the file, while it is replaced
+  std::optional<Replacement> replacement_;
 };
 
-/// Opens it, keeping so many bytes with so many lines of an earlier writing; nullptr, and an error message, if that is not
-/// possible.
-std::unique_ptr<Output> open_output(const std::string& path, std::size_t bytes = 0, long lines = 0);
+/// Opens it; nullptr, and an error message, if that is not possible.
+std::unique_ptr<Output> open_output(const std::string& path, Output::Manner manner);
+
+/// The same for rows as they come after so many bytes, with so many lines, of an earlier writing.
+std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines);
 
 /// Writes a text and closes; false, and an error message, if not all is written. `row`: what a line of it is called.
 bool write_all(Output& output, const std::string& text, const char* row);
+
+/// Whether rows can go to a file of this name: they are CSV. Says so if it ends as another format does; `option` is what
+/// names it: "--output".
+bool can_be_table(const std::string& path, const char* option);
 
 }  // namespace rheonet::tool

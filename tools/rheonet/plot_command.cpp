@@ -187,11 +187,15 @@ ExitStatus draw(const Arguments& arguments) {
   std::vector<plot::Measured> curves;
   const std::vector<std::string> short_name = short_names(sources);
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    std::vector<plot::Trace> traces = sources[i]->read(pairs[i]);
-    for (std::size_t k = 0; k < pairs[i].size(); ++k) {
-      const plot::Column &x = sources[i]->columns()[pairs[i][k].first], &y = sources[i]->columns()[pairs[i][k].second];
-      const std::string name = alone ? y.name : pairs[i].size() == 1 ? short_name[i] : short_name[i] + ": " + y.name;
-      curves.push_back({name, x, y, std::move(traces[k])});
+    for (PlotSource::Drawn& drawn : sources[i]->read(pairs[i])) {
+      const auto& [x_column, y_column] = pairs[i][drawn.pair];
+      const plot::Column &x = sources[i]->columns()[x_column], &y = sources[i]->columns()[y_column];
+      // Only what tells one curve from another.
+      std::vector<std::string> parts;
+      if (!alone) parts.push_back(short_name[i]);
+      if (pairs[i].size() > 1 || (alone && drawn.run.empty())) parts.push_back(y.name);
+      if (!drawn.run.empty()) parts.push_back(drawn.run);
+      curves.push_back({fmt::format("{}", fmt::join(parts, ": ")), x, y, std::move(drawn.trace)});
     }
   }
   if (!plot.names.empty() && plot.names.size() != curves.size())

@@ -4,17 +4,21 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/netlist/characters.hpp"
 #include "core/network/component.hpp"
 #include "core/result/run.hpp"
 #include "tools/plot/mistake.hpp"
 #include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/reading.hpp"
+#include "tools/rheonet/say.hpp"
 #include "tools/rheonet/watched.hpp"
 
 namespace rheonet::tool {
 namespace {
 
 class CsvSource final : public PlotSource {
+  static constexpr std::size_t room = 12;  // curves that can be told apart, as of the columns that nobody chose
+
  public:
   CsvSource(const std::string& file, const Arguments& arguments)
       : csv_(file, arguments.domain.empty()         ? std::optional<Domain>()
@@ -23,12 +27,32 @@ class CsvSource final : public PlotSource {
     file_ = file;
     title_ = std::filesystem::path(file).filename().string();
     columns_ = csv_.columns();
+    if (!arguments.plot.x.empty()) return;
+    for (const auto& [time, record] : csv_.recorded())
+      if (own_.curves.size() < room) own_.curves.push_back({columns_[time].name, columns_[record].name});
   }
 
   bool has_numbers(std::size_t column) const override { return csv_.has_numbers(column); }
-  std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override { return csv_.read(pairs); }
+
+  std::vector<Drawn> read(const std::vector<plot::ColumnPair>& pairs) override {
+    const std::vector<std::size_t> runs = some_runs();
+    std::vector<plot::Trace> traces = csv_.read(pairs, runs);
+    std::vector<Drawn> drawn;
+    for (std::size_t k = 0; k < traces.size(); ++k)
+      drawn.push_back({k % pairs.size(), runs.empty() ? "" : csv_.runs()[runs[k / pairs.size()]].values, std::move(traces[k])});
+    return drawn;
+  }
 
  private:
+  /// Positions of the runs that a figure has room for, spread evenly from the first to the last.
+  std::vector<std::size_t> some_runs() const {
+    const std::size_t count = csv_.runs().size();
+    std::vector<std::size_t> runs;
+    for (std::size_t k = 0; k < std::min(count, room); ++k) runs.push_back(count <= room ? k : k * (count - 1) / (room - 1));
+    if (count > room) say("note: `{}` has {} runs; {} of them are drawn, from the first to the last\n", printable(file_), count, room);
+    return runs;
+  }
+
   plot::CsvFile csv_;
 };
 
@@ -63,11 +87,12 @@ class SceneSource final : public PlotSource {
     columns_ = columns_of(*read_.scene);
   }
 
-  std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) override {
-    std::vector<plot::Trace> traces(pairs.size());
+  std::vector<Drawn> read(const std::vector<plot::ColumnPair>& pairs) override {
+    std::vector<Drawn> traces;
+    for (std::size_t k = 0; k < pairs.size(); ++k) traces.push_back({k, "", {}});
     BothSides drawn([&](double time, const std::vector<double>& values) {
       const auto value = [&](std::size_t column) { return column == 0 ? time : values[column - 1]; };
-      for (std::size_t k = 0; k < pairs.size(); ++k) traces[k].add({value(pairs[k].first), value(pairs[k].second)});
+      for (std::size_t k = 0; k < pairs.size(); ++k) traces[k].trace.add({value(pairs[k].first), value(pairs[k].second)});
     });
     const bool simulated = do_watched(read_.sources, [&](const auto& progress) {
       RunSettings settings{.progress = progress};

@@ -25,9 +25,15 @@ class PlotSource {
   /// Whether a column has a number in any row: one of words has not.
   virtual bool has_numbers(std::size_t) const { return true; }
 
-  /// Goes through the rows: a trace in SI for each pair of columns. Throws plot::Mistake; PlotEnded if a scene cannot
-  /// be simulated.
-  virtual std::vector<plot::Trace> read(const std::vector<plot::ColumnPair>& pairs) = 0;
+  /// A curve of a pair of columns.
+  struct Drawn {
+    std::size_t pair;  ///< its position
+    std::string run;   ///< what tells a run of a sweep from the others: "c1.damping = 2 N·s/m"; "": there is but one
+    plot::Trace trace;
+  };
+  /// Goes through the rows: traces in SI for each pair of columns, one for each run of a sweep. Throws plot::Mistake; PlotEnded
+  /// if a scene cannot be simulated.
+  virtual std::vector<Drawn> read(const std::vector<plot::ColumnPair>& pairs) = 0;
 
  protected:
   std::string file_, title_;

@@ -67,6 +67,12 @@ struct Outputs {
     say("error: cannot write to {}: {}\n{}", failed.name(), std::strerror(errors[0] != 0 ? errors[0] : errors[1]), kept());
     return false;
   }
+
+  /// Closes both, and leaves files that were there before as they were.
+  void abandon() const {
+    rows->abandon();
+    if (events) events->abandon();
+  }
 };
 
 /// A figure must not change the rows of a run: one is integrated in parts, or certified, only if nobody looks between its rows.
@@ -86,6 +92,7 @@ void draw_again(const Scene& scene, const Presentation& presentation, const RunS
 }  // namespace
 
 ExitStatus run_scene(const Arguments& arguments) {
+  if (!can_be_table(arguments.output, "--output") || !can_be_table(arguments.events, "--events")) return wrong_input;
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
   const bool drawn = !arguments.figure.empty();
@@ -96,10 +103,12 @@ ExitStatus run_scene(const Arguments& arguments) {
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
-  outputs.rows = open_output(arguments.output);
+  // The rows that are certified come when they are known to be good: an earlier result stays until then.
+  const auto manner = arguments.certify ? Output::Manner::complete : Output::Manner::as_it_comes;
+  outputs.rows = open_output(arguments.output, manner);
   if (!outputs.rows) return wrong_input;
   if (!arguments.events.empty()) {
-    outputs.events = open_output(arguments.events);
+    outputs.events = open_output(arguments.events, manner);
     if (!outputs.events) return wrong_input;
   }
   if (write_to_one_file(arguments)) return wrong_input;
@@ -137,6 +146,7 @@ ExitStatus run_scene(const Arguments& arguments) {
     return as_claimed && certified ? done : not_as_claimed;
   } catch (const SimulationError& error) {
     progress.erase();
+    if (arguments.certify && interrupted) outputs.abandon();
     const bool closed = outputs.close();
     // Why a file could not be written has then been said, with its name.
     if (closed || !dynamic_cast<const WriteError*>(&error)) report(error, read.sources);

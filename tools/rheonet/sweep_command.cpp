@@ -56,7 +56,7 @@ class Sweep {
       : arguments_(arguments), design_(std::move(design)), table_(std::move(table)) {}
 
   const Design& design() const { return design_; }
-  const SweepTable& table() const { return table_; }
+  std::string header() const { return table_.header({design_.point(0), design_.point(design_.runs() - 1)}); }
   std::string key(long run) const { return SweepTable::key(run + 1, design_.point(run)); }
 
   /// Reads the first run, with a report if that or every other is refused. False: nothing can be simulated. Then the columns of
@@ -123,17 +123,17 @@ bool Sweep::begin() {
     report_all(first_);
     return false;
   }
-  if (first_.scene) report_all(first_);
-  if (table_.measures()) return true;
   if (first_.scene) {
-    table_.set_records(first_.scene->records);
+    report_all(first_);
+    table_.set_scene(*first_.scene);
     return true;
   }
   for (long run = 1; run < design_.runs(); ++run)
     if (const ReadResult other = read(design_.point(run)); other.scene) {
-      table_.set_records(other.scene->records);
+      table_.set_scene(*other.scene);
       return true;
     }
+  if (table_.measures()) return true;  // each row says why it failed
   report_all(first_);
   return false;
 }
@@ -164,7 +164,7 @@ std::optional<std::string> Sweep::make(long run, const std::atomic<bool>& stop) 
 /// and the program are still those.
 std::variant<Left, NoVariation> resume(Sweep& sweep, const std::string& file) {
   if (file == "-") return NoVariation{"`--resume` needs the file to go on with", "-o sweep.csv"};
-  auto found = what_is_left(file, sweep.table().header(), sweep.design().runs(), [&](long run) { return sweep.key(run); });
+  auto found = what_is_left(file, sweep.header(), sweep.design().runs(), [&](long run) { return sweep.key(run); });
   const Left* left = std::get_if<Left>(&found);
   if (!left || left->last.empty()) return found;
   const auto again = sweep.make(left->runs, false);
@@ -190,6 +190,7 @@ void summarize(const Sweep& sweep, const Arguments& arguments, long first, long 
 }  // namespace
 
 ExitStatus sweep_scene(const Arguments& arguments) {
+  if (!can_be_table(arguments.output, "--output")) return wrong_input;
   auto design = Design::read(arguments.sweep);
   if (const auto* wrong = std::get_if<NoVariation>(&design)) return refuse(*wrong);
   auto table = SweepTable::make(std::get<Design>(design).paths(), arguments.sweep.measures);
@@ -205,7 +206,7 @@ ExitStatus sweep_scene(const Arguments& arguments) {
     if (const auto* wrong = std::get_if<NoVariation>(&found)) return refuse(*wrong);
     left = std::get<Left>(std::move(found));
   }
-  const std::unique_ptr<Output> output = open_output(arguments.output, left.bytes, left.lines);
+  const std::unique_ptr<Output> output = open_output_after(arguments.output, left.bytes, left.lines);
   if (!output) return wrong_input;
 
   const long runs = sweep.design().runs();
@@ -217,7 +218,7 @@ ExitStatus sweep_scene(const Arguments& arguments) {
   Progress progress(!arguments.quiet && !output->is_terminal());
   const auto start = std::chrono::steady_clock::now();
   long end = left.runs;
-  if (left.bytes > 0 || write(sweep.table().header()))
+  if (left.bytes > 0 || write(sweep.header()))
     end = do_in_order({.first = left.runs,
                        .end = runs,
                        .jobs = jobs,

@@ -5,28 +5,64 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/network/error.hpp"
+#include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/words.hpp"
 
 namespace rheonet::tool {
 namespace {
 
 const SweepFigure figures[] = {
-    {"energy dissipated", [](const Summary& s) { return s.dissipated; }, true},
-    {"energy supplied", [](const Summary& s) { return s.supplied; }, true},
-    {"energy stored", [](const Summary& s) { return s.stored; }, true},
-    {"steps", [](const Summary& s) { return static_cast<double>(s.steps); }},
-    {"events", [](const Summary& s) { return static_cast<double>(s.events); }},
+    {"energy dissipated", [](const Summary& s) { return s.dissipated; }, "J", true},
+    {"energy supplied", [](const Summary& s) { return s.supplied; }, "J", true},
+    {"energy stored", [](const Summary& s) { return s.stored; }, "J", true},
+    {"steps", [](const Summary& s) { return static_cast<double>(s.steps); }, "1"},
+    {"events", [](const Summary& s) { return static_cast<double>(s.events); }, "1"},
 };
 
 void append_number(std::string& text, double value) {
   text += ',';
   // There is none: what is never crossed, say.
   if (std::isfinite(value)) fmt::format_to(std::back_inserter(text), "{}", value + 0.0);  // no -0
+}
+
+/// The number that a value is; absent if it is none by itself.
+std::optional<Number> number_of(const std::string& value) {
+  const auto read = evaluate_text(value, Environment{});
+  const Number* number = std::get_if<Number>(&read);
+  return number ? std::optional(*number) : std::nullopt;
+}
+
+/// The SI unit of a number as a user would type it: that of a quantity which has its dimension, N*s/m rather than kg/s.
+std::string unit_of_number(const Number& number) {
+  constexpr Quantity quantities[] = {Quantity::number, Quantity::time,     Quantity::frequency, Quantity::position, Quantity::velocity,
+                                     Quantity::force,  Quantity::stiffness, Quantity::damping,  Quantity::mass};
+  for (const Domain domain : {Domain::translation, Domain::rotation})
+    for (const Quantity quantity : quantities) {
+      const std::string name = unit_of(quantity, domain);
+      const auto parsed = parse_unit(name);
+      const Unit* unit = std::get_if<Unit>(&parsed);
+      if (unit && unit->factor == 1 && unit->radian == number.radian && unit->hertz == number.hertz &&
+          unit->dimension.same(number.dimension))
+        return name;
+    }
+  return to_string(number.dimension);
+}
+
+/// The unit of the first of some values that has one; "1" if none has.
+std::string unit_of_values(const std::vector<std::vector<std::string>>& points, std::size_t column) {
+  for (const std::vector<std::string>& point : points)
+    if (const std::optional<Number> number = number_of(point[column]); number && !number->plain) return unit_of_number(*number);
+  return "1";
+}
+
+std::string heading(const std::string& name, const std::string& unit) {
+  return ',' + cell(unit.empty() || unit == "1" ? name : fmt::format("{} [{}]", name, unit));
 }
 
 }  // namespace
@@ -44,7 +80,9 @@ std::variant<SweepTable, NoVariation> SweepTable::make(const std::vector<std::st
     std::vector<std::string> names;
     for (const SweepFigure& figure : figures) {
       names.emplace_back(figure.name);
-      if (text == figure.name) measure.figure = &figure;
+      if (text != figure.name) continue;
+      measure.figure = &figure;
+      measure.unit = figure.unit;
     }
     if (measure.figure) continue;
     const std::string meant = nearest(text, names);
@@ -65,24 +103,28 @@ std::vector<std::string> SweepTable::record_measures() const {
   return texts;
 }
 
-void SweepTable::set_records(const std::vector<Record>& records) {
-  for (const Record& record : records) records_.push_back(record.path);
+void SweepTable::set_scene(const Scene& scene) {
+  std::size_t claim = 0;
+  for (Measure& measure : measures_)
+    if (!measure.figure) measure.unit = unit_of_claim(scene.claims[claim++], scene);
+  if (measures()) return;
+  for (const Record& record : scene.records)
+    records_.push_back({record.path, unit_of(scene, record).open ? "" : unit_text(scene, record)});
 }
 
-std::string SweepTable::header() const {
+std::string SweepTable::header(const std::vector<std::vector<std::string>>& points) const {
   std::string text = "run";
-  for (const std::string& path : paths_) text += ',' + cell(path);
-  if (!measures()) text += ",time";
-  for (const Measure& measure : measures_) text += ',' + cell(measure.text);
-  for (const std::string& record : records_) text += ',' + cell(record);
+  for (std::size_t k = 0; k < paths_.size(); ++k) text += heading(paths_[k], unit_of_values(points, k));
+  if (!measures()) text += heading("time", "s");
+  for (const Measure& measure : measures_) text += heading(measure.text, measure.unit);
+  for (const RecordColumn& record : records_) text += heading(record.path, record.unit);
   return text + ",error\n";
 }
 
 std::string SweepTable::key(long run, const std::vector<std::string>& values) {
   std::string text = fmt::format("{},", run);
   for (const std::string& value : values) {
-    const auto read = evaluate_text(value, Environment{});
-    const Number* number = std::get_if<Number>(&read);
+    const std::optional<Number> number = number_of(value);
     text += (number ? fmt::format("{}", number->value) : cell(value)) + ',';
   }
   return text;
@@ -106,7 +148,7 @@ void SweepTable::append(std::string& text, const std::string& key, double time, 
 
 void SweepTable::check_records(const std::vector<Record>& records) const {
   if (measures()) return;
-  const auto same = [](const std::string& path, const Record& record) { return path == record.path; };
+  const auto same = [](const RecordColumn& column, const Record& record) { return column.path == record.path; };
   if (std::equal(records_.begin(), records_.end(), records.begin(), records.end(), same)) return;
   throw SimulationError("it records other quantities than the first run, whose columns these are; `record` in [simulate] names some that all have");
 }

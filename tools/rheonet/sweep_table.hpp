@@ -14,11 +14,13 @@ namespace rheonet::tool {
 struct SweepFigure {
   const char* name;
   double (*of)(const Summary&);
+  const char* unit;
   bool of_energy = false;  ///< takes the energy account of a run
 };
 
 /// The columns of a sweep's table, and its rows as CSV: the number of the run, from 1 on, its values in SI (as text where
-/// that is no number), then for each run one row with its measures, or all of its rows; at last why a run failed.
+/// that is no number), then for each run one row with its measures, or all of its rows; at last why a run failed. Headings
+/// have units, as in `k1.force [N]`; a number has none.
 class SweepTable {
  public:
   /// What is wrong with a measure of the run as a whole is told from one of a record by its having no brackets.
@@ -30,10 +32,11 @@ class SweepTable {
   std::vector<std::string> record_measures() const;
   /// One of them takes the energy account of a run.
   bool needs_account() const;
-  /// Without measures: the records that the rows have.
-  void set_records(const std::vector<Record>& records);
+  /// The scene of a run that could be read says which records the rows have, and the units of measures and records.
+  void set_scene(const Scene& scene);
 
-  std::string header() const;
+  /// `points`: the values of some runs, which say the units of the columns that hold values.
+  std::string header(const std::vector<std::vector<std::string>>& points) const;
   /// The cells that each row of a run begins with: "17,200,", and ends in a comma.
   static std::string key(long run, const std::vector<std::string>& values);
   /// The row of measures.
@@ -47,11 +50,15 @@ class SweepTable {
   struct Measure {
     std::string text;
     const SweepFigure* figure = nullptr;  ///< nullptr: of a record
+    std::string unit = "1";
+  };
+  struct RecordColumn {
+    std::string path, unit;
   };
 
   std::vector<std::string> paths_;
   std::vector<Measure> measures_;
-  std::vector<std::string> records_;
+  std::vector<RecordColumn> records_;
 };
 
 }  // namespace rheonet::tool

@@ -11,6 +11,9 @@ namespace rheonet::tool {
 /// The parts of a text between separators, one more than there are of these.
 std::vector<std::string> split(const std::string& text, char separator);
 
+/// The parts of a text between commas, but for those in round or square brackets, without blanks around them.
+std::vector<std::string> split_outside_brackets(const std::string& text);
+
 /// Breaks a text into lines of at most 100 characters, where every line but the first is indented. It begins in the
 /// column `indent`.
 std::string wrapped(const std::string& text, std::size_t indent);
