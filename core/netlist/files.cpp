@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/netlist/file_offer.hpp"
+
 namespace rheonet {
 
 namespace fs = std::filesystem;
@@ -14,6 +16,8 @@ bool within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
+const char* const rule = "files are looked for beside the one that names them and below, then in the library";
+
 }  // namespace
 
 std::optional<std::string> Files::text_of(const fs::path& file, std::string& why) const {
@@ -24,24 +28,28 @@ int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role 
   // A byte order mark is no part of the text that lines and columns count.
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   sources_.files.push_back({std::move(shown), std::move(text), role});
-  folders_.push_back(std::move(folder));
+  places_.push_back({std::move(folder)});
   return static_cast<int>(sources_.files.size()) - 1;
 }
 
 std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistakes& mistakes) const {
   const fs::path path(name.text);
-  const fs::path normal = path.lexically_normal();
-  const std::string rule = "files are looked for beside the one that names them and below, then in the library";
   if (path.empty()) {
     mistakes.error(name.spot, "the name of a file is empty");
     return {};
   }
-  if (path.is_absolute() || *normal.begin() == "..") {
+  if (path.is_absolute() || *path.lexically_normal().begin() == "..") {
     mistakes.error(name.spot, "`" + name.text + "` leads outside the netlist's folder", rule);
     return {};
   }
   // Files named on the command line count as named by the scene itself.
-  std::vector<fs::path> folders{folders_[static_cast<std::size_t>(std::max(from, 0))]};
+  const Place& place = places_[static_cast<std::size_t>(std::max(from, 0))];
+  return offers_.empty() ? find_on_disk(name, place, mistakes) : find_offered(name, place, mistakes);
+}
+
+std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Place& from, Mistakes& mistakes) const {
+  const fs::path normal = fs::path(name.text).lexically_normal();
+  std::vector<fs::path> folders{from.folder};
   folders.insert(folders.end(), library_.begin(), library_.end());
   for (const fs::path& folder : folders) {
     std::error_code failed;
@@ -63,14 +71,32 @@ std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistake
   return {};
 }
 
+std::optional<Files::Found> Files::find_offered(const TomlValue& name, const Place& from, Mistakes& mistakes) const {
+  std::vector<Place> places{from};
+  for (std::size_t offer = 1; offer < offers_.size(); ++offer) places.push_back({"", offer});
+  for (const Place& place : places) {
+    const fs::path path = (place.folder / name.text).lexically_normal();
+    std::string why;
+    std::optional<std::string> text = offers_[place.offer]->text_of(path, why);
+    if (text) return Found{path, fs::path(std::to_string(place.offer)) / path, std::move(text), place.offer};
+    if (why.empty()) continue;
+    mistakes.error(name.spot, "`" + name.text + "` cannot be read: " + why, rule);
+    return {};
+  }
+  mistakes.error(name.spot, "there is no file `" + name.text + "`", rule);
+  return {};
+}
+
 std::optional<int> Files::read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes) {
   std::string why;
-  auto text = text_of(found.canonical, why);
+  auto text = found.text ? found.text : text_of(found.canonical, why);
   if (!text) {
     mistakes.error(spot, "`" + found.shown.string() + "` cannot be read: " + why);
     return {};
   }
-  return add(found.shown, std::move(*text), found.shown.parent_path(), role);
+  const int file = add(found.shown, std::move(*text), found.shown.parent_path(), role);
+  places_.back().offer = found.offer;
+  return file;
 }
 
 }  // namespace rheonet

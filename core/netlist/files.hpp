@@ -12,12 +12,14 @@
 
 namespace rheonet {
 
+class FileOffer;
+
 /// The files of a scene: where each was found, and where those that it names are looked for (beside it and below, then
 /// in the library; never anywhere else).
 class Files {
  public:
-  Files(Sources& sources, std::vector<std::filesystem::path> library, FileCache* cache)
-      : sources_(sources), library_(std::move(library)), cache_(cache) {}
+  Files(Sources& sources, std::vector<std::filesystem::path> library, FileCache* cache, std::vector<const FileOffer*> offers)
+      : sources_(sources), library_(std::move(library)), cache_(cache), offers_(std::move(offers)) {}
 
   /// The text of a file; absent if it cannot be read, `why` then says why.
   std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why) const;
@@ -29,6 +31,8 @@ class Files {
   struct Found {
     std::filesystem::path shown;      ///< what messages call it
     std::filesystem::path canonical;  ///< tells whether two are the same file
+    std::optional<std::string> text = {};  ///< of one that is offered
+    std::size_t offer = 0;                 ///< which offers it
   };
   /// Looks for the file that the string `name` names, in what file `from` may use. None, or one outside, is a mistake.
   std::optional<Found> find(const TomlValue& name, int from, Mistakes& mistakes) const;
@@ -44,10 +48,19 @@ class Files {
   }
 
  private:
+  /// Where a file of Sources stands.
+  struct Place {
+    std::filesystem::path folder;
+    std::size_t offer = 0;
+  };
+  std::optional<Found> find_on_disk(const TomlValue& name, const Place& from, Mistakes& mistakes) const;
+  std::optional<Found> find_offered(const TomlValue& name, const Place& from, Mistakes& mistakes) const;
+
   Sources& sources_;
   std::vector<std::filesystem::path> library_;
   FileCache* cache_;  ///< nullptr: each file is read anew
-  std::vector<std::filesystem::path> folders_;  ///< of each file of Sources
+  std::vector<const FileOffer*> offers_;
+  std::vector<Place> places_;  ///< of each file of Sources
 };
 
 }  // namespace rheonet

@@ -8,6 +8,7 @@
 #include "core/netlist/exact.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/expect.hpp"
+#include "core/netlist/file_offer.hpp"
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/include.hpp"
 #include "core/netlist/keys.hpp"
@@ -34,11 +35,11 @@ bool is_top_level(const std::string& name) {
 /// Reads one scene, from its text on.
 class Reader {
  public:
-  Reader(ReadResult& result, Declarations declarations, const ReadOptions& options)
+  Reader(ReadResult& result, Declarations declarations, const ReadOptions& options, std::vector<const FileOffer*> offers = {})
       : result_(result),
         options_(options),
         mistakes_(result.sources),
-        files_(result.sources, options.model_folders, options.cache),
+        files_(result.sources, options.model_folders, options.cache, std::move(offers)),
         context_{declarations, Domain::translation, files_, mistakes_} {}
 
   void read(const fs::path& file) {
@@ -297,6 +298,14 @@ ReadResult read_scene_text(std::string text, const std::string& name, const fs::
                            const ReadOptions& options) {
   ReadResult result;
   Reader reader(result, declarations, options);
+  reader.read(name, std::move(text), folder, {});
+  return result;
+}
+
+ReadResult read_offered_text(std::string text, const std::string& name, const fs::path& folder, Declarations declarations,
+                             const ReadOptions& options, std::vector<const FileOffer*> offers) {
+  ReadResult result;
+  Reader reader(result, declarations, options, std::move(offers));
   reader.read(name, std::move(text), folder, {});
   return result;
 }

@@ -15,7 +15,7 @@ test('every demo asks its question, and moves what it says', async () => {
   const context = await chromium.newContext({ viewport: { width: 1500, height: 950 } });
   const { page, wrong } = await watched(context, server.origin);
   for (const name of demos) {
-    await page.goto(`${server.origin}/#file=teaching/${name}`);
+    await page.goto(`${server.address}#file=teaching/${name}`);
     await page.reload();
     await done(page);
     const text = readFileSync(join(netlists, 'teaching', name), 'utf8');

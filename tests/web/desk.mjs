@@ -34,10 +34,10 @@ export function setUp(files = { 'bingham.toml': bingham }) {
   });
   // A page of the playground; `close` ends it, and fails if anything was wrong with it.
   desk.open = async (hash = '#file=bingham.toml', options = {}, ready = done) => {
-    const { server: { origin }, chromium } = desk;
+    const { server: { origin, address }, chromium } = desk;
     const context = await chromium.newContext({ viewport: { width: 1500, height: 950 }, acceptDownloads: true, ...options });
     const { page, wrong } = await watched(context, origin);
-    await page.goto(`${origin}/${hash}`);
+    await page.goto(`${address}${hash}`);
     if (hash) await ready(page);
     const close = async (expected = []) => {
       assert.deepEqual(wrong, expected);

@@ -1,7 +1,9 @@
 // What the server tells of its folder, and which folders it serves.
 import assert from 'node:assert/strict';
-import { spawn } from 'node:child_process';
+import { spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
+import { chmodSync, existsSync, readFileSync, readdirSync } from 'node:fs';
+import { networkInterfaces } from 'node:os';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { folderWith, program, remove, rheonet, serve } from './support.mjs';
@@ -9,8 +11,8 @@ import { folderWith, program, remove, rheonet, serve } from './support.mjs';
 test('the netlists that come with rheonet are not changed', async () => {
   const own = spawn(program, ['serve', '--port', '0'], { stdio: ['ignore', 'pipe', 'inherit'] });
   const [line] = await once(own.stdout, 'data');
-  const [, port] = /:(\d+)\//.exec(line);
-  const answer = await fetch(`http://127.0.0.1:${port}/api/save`, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ file: 'teaching/new.toml', text: 'x' }) });
+  const [, port, token] = /:(\d+)\/\?token=(\w+)/.exec(line);
+  const answer = await fetch(`http://127.0.0.1:${port}/api/save`, { method: 'POST', headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${token}` }, body: JSON.stringify({ file: 'teaching/new.toml', text: 'x' }) });
   assert.equal(answer.status, 403);
   assert.match((await answer.json()).error, /come with rheonet/);
   own.kill('SIGTERM');
@@ -31,7 +33,8 @@ test('the gallery is told what a netlist says of itself, however it is written',
   const told = (name) => files['README.md'].indexOf(name);
   const other = folderWith(files);
   const gallery = await serve(other);
-  const { scenes } = await (await fetch(`${gallery.origin}/api/folder`)).json();
+  const { scenes, left_out: leftOut, all_visited: allVisited } = await (await fetch(`${gallery.origin}/api/folder`, { headers: gallery.key })).json();
+  assert.deepEqual([leftOut, allVisited], [0, true]);
   assert.deepEqual(scenes, [
     { file: 'dotted.toml', title: '', about: 'First words, and more.' },
     { file: 'escaped.toml', title: 'tab\tand "quote" \u00b5', about: '' },
@@ -55,5 +58,54 @@ test('what cannot be served is said', async () => {
   assert.equal(taken.code, 1);
   assert.match(taken.stderr, /the port is in use/);
   await first.stop();
+  remove(other);
+});
+
+test('of more than a thousand netlists it lists the first by name, and says how many others there are', async () => {
+  const scene = '[elements]\n[simulate]\n';
+  const files = Object.fromEntries(Array.from({ length: 1003 }, (_, k) => [`${k % 2 ? 'odd/' : ''}n${String(k).padStart(4, '0')}.toml`, scene]));
+  const other = folderWith({ ...files, 'a-models.toml': '[models.a]\n' });
+  const gallery = await serve(other);
+  const listing = await (await fetch(`${gallery.origin}/api/folder`, { headers: gallery.key })).json();
+  // Models are no scene, and take no place of one.
+  assert.equal(listing.scenes.length, 1000);
+  assert.equal(listing.left_out, 3);
+  assert.equal(listing.all_visited, true);
+  assert.deepEqual(listing.scenes.map(({ file }) => file), Object.keys(files).sort().slice(0, 1000));
+  await gallery.stop();
+  remove(other);
+});
+
+test('a host that others can reach is announced with a warning, and by an address that they can type', async () => {
+  const other = folderWith({});
+  const said = (host) => {
+    const { stdout, stderr } = spawnSync('timeout', ['-s', 'INT', '2', program, 'serve', other, '--port', '0', '--host', host], { encoding: 'utf8' });
+    return { stdout, stderr };
+  };
+  const everywhere = said('0.0.0.0');
+  assert.match(everywhere.stdout, /^http:\/\/127\.0\.0\.1:\d+\/\?token=\w{32} /);
+  assert.doesNotMatch(everywhere.stdout, /0\.0\.0\.0/);
+  const others = Object.values(networkInterfaces()).flat().filter(({ family, internal }) => family === 'IPv4' && !internal);
+  for (const { address } of others) assert.match(everywhere.stdout, new RegExp(`from other machines: http://${address.replaceAll('.', '\\.')}:\\d+/\\?token=`));
+  assert.match(everywhere.stderr, /warning: `--host 0\.0\.0\.0` lets other machines in: .*token.* change the netlists/);
+  for (const host of ['127.0.0.1', 'localhost']) assert.equal(said(host).stderr, '', host);
+  remove(other);
+});
+
+test('the address goes to the browser by a file that only its owner can read, never among the words of a process', async () => {
+  const other = folderWith({ 'bin/xdg-open': '#!/bin/sh\nstat -c %a "$1" >"${0%/*}/mode"; cat "$1" >"${0%/*}/page"; echo "$@" >"${0%/*}/words"\n', 'here/a.toml': '' });
+  chmodSync(join(other, 'bin/xdg-open'), 0o755);
+  const server = spawn(program, ['serve', join(other, 'here'), '--port', '0', '--open'],
+    { stdio: ['ignore', 'pipe', 'inherit'], env: { ...process.env, PATH: `${join(other, 'bin')}:${process.env.PATH}`, XDG_RUNTIME_DIR: other } });
+  const [line] = await once(server.stdout, 'data');
+  const [address] = /http:\S+/.exec(line);
+  const words = join(other, 'bin/words');
+  for (let k = 0; k < 200 && !(existsSync(words) && readFileSync(words, 'utf8')); ++k) await new Promise((resolve) => setTimeout(resolve, 50));
+  assert.equal(readFileSync(join(other, 'bin/mode'), 'utf8'), '600\n');
+  assert.ok(readFileSync(join(other, 'bin/page'), 'utf8').includes(`url=${address}`));
+  assert.doesNotMatch(readFileSync(words, 'utf8'), /token/);
+  server.kill('SIGTERM');
+  await once(server, 'exit');
+  assert.deepEqual(readdirSync(other).sort(), ['bin', 'here']);
   remove(other);
 });

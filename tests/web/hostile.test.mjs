@@ -1,9 +1,11 @@
 // Whatever is sent to it, the server stays up, answers others, and gives and takes nothing outside its folder.
 import assert from 'node:assert/strict';
-import { existsSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { chmodSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync, writeFileSync } from 'node:fs';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
 import http from 'node:http';
 import net from 'node:net';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { after, afterEach, before, test } from 'node:test';
 import { bingham, folderWith, remove, rheonet, serve } from './support.mjs';
 
@@ -25,6 +27,11 @@ before(async () => {
   symlinkSync(outer, join(folder, 'out'));
   writeFileSync(join(outer, 'numbers.csv'), '0,4711\n1,4711\n');
   symlinkSync(join(outer, 'numbers.csv'), join(folder, 'link.csv'));
+  for (const name of ['.env', '.hidden.toml', '.git/config.toml', '.data.csv']) {
+    mkdirSync(dirname(join(folder, name)), { recursive: true });
+    writeFileSync(join(folder, name), '# hidden words\n0,4712\n1,4712\n');
+  }
+  writeFileSync(join(folder, 'id_rsa'), 'hidden words\n0,4712\n');
   server = await serve(folder, '--time-limit', '2', '--memory-limit', '300');
 });
 after(async () => {
@@ -41,7 +48,7 @@ afterEach(async () => {
 // A request with a path as it is, which no client tidies up.
 function ask(path, { method = 'GET', headers = {}, body } = {}) {
   return new Promise((resolve, reject) => {
-    const request = http.request({ host: '127.0.0.1', port: server.port, path, method, headers, agent: false }, (response) => {
+    const request = http.request({ host: '127.0.0.1', port: server.port, path, method, headers: { ...server.key, ...headers }, agent: false }, (response) => {
       const pieces = [];
       response.on('data', (piece) => pieces.push(piece));
       response.on('end', () => resolve({ status: response.statusCode, headers: response.headers, body: Buffer.concat(pieces).toString() }));
@@ -101,6 +108,26 @@ test('a netlist that is sent includes nothing from outside', async () => {
     assert.match(body, /outside|there is no file|link/, name);
     assert.ok(!body.includes('4711'), name);
   }
+  // Hidden files, and files of other kinds, are refused whether they exist or not, and no line of them comes back.
+  for (const name of ['.env', '.hidden.toml', '.git/config.toml', 'deep/../.hidden.toml', '.none.toml', '.data.csv', 'id_rsa', 'deep']) {
+    const asked = [`include = [${JSON.stringify(name)}]\n${bingham}`, bingham.replace('{ step = "10 rad/s", time = "0 s" }', `{ table = ${JSON.stringify(name)} }`)];
+    for (const text of asked) {
+      const { body } = await post({ task: 'show', text, file: 'bingham.toml' });
+      const [mistakes] = messages(body);
+      assert.match(mistakes.items[0].message, /hidden, and not served|only \.toml and \.csv files are served/, name);
+      assert.doesNotMatch(body, /hidden words|4712/, name);
+    }
+  }
+  // Messages name an included file by its path in the folder, never by its absolute path.
+  writeFileSync(join(folder, 'deep/models.toml'), '[models.m]\nports = ["a"]\nelements = { m = { type = "mas", at = "a", mass = 1 } }\n');
+  const mistaken = await post({ task: 'show', text: bingham.replace('[elements]', 'include = ["models.toml"]\n[elements]\nm = { type = "m", at = "mid" }'), file: 'deep/x.toml' });
+  assert.match(messages(mistaken.body)[0].items.map(({ text }) => text).join('\n'), /^deep\/models\.toml:3:/m);
+  assert.ok(!mistaken.body.includes(outer), mistaken.body.slice(0, 300));
+  rmSync(join(folder, 'deep/models.toml'));
+  // The library is there, and is called by its name too.
+  const library = await post({ task: 'show', text: `include = ["library/rheology.toml"]\n${bingham}`, file: 'bingham.toml' });
+  assert.match(library.body, /"kind":"done"/);
+  assert.ok(library.body.includes('"file":"library/rheology.toml"'));
   // Nor by the name that it gives itself.
   const { body } = await post({ task: 'show', text: `include = ["secret.toml"]\n${bingham}`, file: '../x.toml' });
   assert.match(body, /there is no file/);
@@ -113,7 +140,7 @@ const save = async (request) => {
 
 test('nothing outside the folder is written', async () => {
   const before = readFileSync(join(outer, 'secret.toml'), 'utf8');
-  for (const name of ['../new.toml', '/tmp/new.toml', 'link.toml', 'out/new.toml', 'deep/../../new.toml']) assert.equal((await save({ file: name, text: 'x' })).status, 400, name);
+  for (const name of ['../new.toml', '/tmp/new.toml', 'link.toml', 'out/new.toml', 'deep/../../new.toml']) assert.ok([400, 403].includes((await save({ file: name, text: 'x' })).status), name);
   assert.equal(readFileSync(join(outer, 'secret.toml'), 'utf8'), before);
   assert.ok(!existsSync(join(outer, 'new.toml')) && !existsSync('/tmp/new.toml'));
   assert.equal((await save({ file: 'deep/new.toml', text: endless })).status, 200);
@@ -122,14 +149,102 @@ test('nothing outside the folder is written', async () => {
   rmSync(join(folder, 'deep/new.toml'));
 });
 
+test('without the token nothing is answered but what to do', async () => {
+  const no = { Authorization: '' };
+  for (const path of ['/', '/?token=', `/?token=${'0'.repeat(32)}`, '/playground.js', '/licences.txt', '/none']) {
+    const { status, headers, body } = await ask(path, { headers: no });
+    assert.equal(status, 401, path);
+    assert.match(headers['content-type'], /text\/html/);
+    assert.match(body, /Open the address that <code>rheonet serve<\/code> has printed/);
+    assert.ok(!headers['set-cookie']);
+  }
+  for (const [path, options] of [['/api/folder', {}], ['/api/scene?file=bingham.toml', {}], ['/api/task', { method: 'POST', headers: json, body: JSON.stringify({ task: 'show', text: bingham, file: 'a.toml' }) }],
+    ['/api/save', { method: 'POST', headers: json, body: JSON.stringify({ file: 'new.toml', text: 'x' }) }]]) {
+    for (const wrong of [no, { Authorization: `Bearer ${'0'.repeat(32)}` }, { Authorization: server.key.Authorization.slice(0, -1) }]) {
+      const { status, body } = await ask(path, { ...options, headers: { ...options.headers, ...wrong } });
+      assert.equal(status, 401, path);
+      assert.match(JSON.parse(body).error, /the token of the address that `rheonet serve` has printed is missing/);
+    }
+  }
+  assert.ok(!existsSync(join(folder, 'new.toml')));
+  // The address opens the page; its cookie loads the page again, and opens nothing else: browsers send it to other ports too.
+  const first = await ask(new URL(server.address).search.replace('?', '/?'), { headers: no });
+  assert.equal(first.status, 200);
+  const [cookie] = first.headers['set-cookie'];
+  assert.match(cookie, /; HttpOnly; SameSite=Lax$/);
+  assert.ok(!cookie.includes(server.key.Authorization.split(' ')[1]), 'the cookie is not the token');
+  const again = { ...no, Cookie: `other=1; ${cookie.split(';')[0]}` };
+  for (const path of ['/', '/playground.js', '/playground.css', '/licences.txt']) assert.equal((await ask(path, { headers: again })).status, 200, path);
+  assert.equal((await ask('/api/folder', { headers: again })).status, 401);
+  // No two servers, or starts of one, have the same.
+  const other = await serve(folder);
+  assert.notEqual(other.key.Authorization, server.key.Authorization);
+  await other.stop();
+});
+
+test('a netlist keeps its mode when it is saved; a new one has what the umask leaves; what is read-only stays', async () => {
+  const mode = (file) => statSync(join(folder, file)).mode & 0o7777;
+  const umask = process.umask(0o027);
+  const other = await serve(folder);
+  process.umask(umask);
+  const put = async (request) => {
+    const response = await fetch(`${other.origin}/api/save`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify(request) });
+    return { status: response.status, ...(await response.json()) };
+  };
+  let { version } = await put({ file: 'mine.toml', text: 'first' });
+  assert.equal(mode('mine.toml'), 0o640);
+  for (const wanted of [0o600, 0o664, 0o755]) {
+    chmodSync(join(folder, 'mine.toml'), wanted);
+    ({ version } = await put({ file: 'mine.toml', text: `${wanted}`, version }));
+    assert.equal(mode('mine.toml'), wanted);
+  }
+  chmodSync(join(folder, 'mine.toml'), 0o444);
+  const refused = await put({ file: 'mine.toml', text: 'never', version });
+  assert.equal(refused.status, 403);
+  assert.match(refused.error, /`mine\.toml` is there already, and is not overwritten: it is read-only/);
+  assert.equal(readFileSync(join(folder, 'mine.toml'), 'utf8'), `${0o755}`);
+  // No temporary file is left.
+  assert.deepEqual(readdirSync(folder).filter((name) => name.startsWith('.rheonet')), []);
+  rmSync(join(folder, 'mine.toml'), { force: true });
+  await other.stop();
+});
+
+test('a folder that is exchanged for a link meanwhile leads nowhere', async () => {
+  // `swing` is in turn a folder of the served one, and a link that leads out of it.
+  const swing = join(folder, 'swing'), put_away = join(outer, 'put-away'), outside = join(outer, 'outside');
+  mkdirSync(swing);
+  mkdirSync(outside);
+  writeFileSync(join(swing, 'a.toml'), '# inside\n');
+  writeFileSync(join(outside, 'a.toml'), '# secret words\n');
+  const turner = spawn('bash', ['-c', `while :; do mv -T "${swing}" "${put_away}" && ln -s "${outside}" "${swing}"; rm "${swing}"; mv -T "${put_away}" "${swing}"; done`]);
+  const outcomes = { read: 0, saved: 0, refused: 0 };
+  try {
+    const enough = () => Math.min(...Object.values(outcomes)) >= 10;
+    for (let k = 0; k < 50 || (k < 3000 && !enough()); ++k) {
+      const [scene, saved, included] = await Promise.all([ask('/api/scene?file=swing/a.toml'), save({ file: `swing/n${k}.toml`, text: 'x' }),
+        post({ task: 'explain', text: `include = ["swing/a.toml"]\n${bingham}`, file: 'x.toml' })]);
+      assert.ok(!scene.body.includes('secret words') && !included.body.includes('secret words'));
+      outcomes[saved.status === 200 ? 'saved' : 'refused']++;
+      if (scene.status === 200) outcomes.read++;
+    }
+  } finally {
+    turner.kill('SIGKILL');
+    await once(turner, 'exit');
+  }
+  assert.deepEqual(readdirSync(outside), ['a.toml'], 'a netlist was written outside the folder');
+  assert.equal(readFileSync(join(outside, 'a.toml'), 'utf8'), '# secret words\n');
+  assert.ok(Object.values(outcomes).every((count) => count > 0), JSON.stringify(outcomes));
+  for (const name of [swing, put_away, outside]) rmSync(name, { recursive: true, force: true });
+});
+
 test('a name that is none is told what is wrong with it', async () => {
   const part = (size) => `${'n'.repeat(size - 5)}.toml`;
-  for (const [name, why] of [['', /needs a name/], ['../new.toml', /`\.\.` leads out/], ['/new.toml', /begins with `\/`/], ['link.toml', /link that leads out/], ['out/new.toml', /link that leads out/],
+  for (const [name, why] of [['', /needs a name/], ['../new.toml', /`\.\.` leads out/], ['/new.toml', /begins with `\/`/], ['link.toml', /`link\.toml` is a symbolic link, and links are not followed/], ['out/new.toml', /`out` is a symbolic link/],
     ['new.sh', /ends in \.toml: `new\.sh\.toml`/], ['new', /ends in \.toml/], ['deep', /ends in \.toml/], ['deep/', /name of a folder/], ['.hidden.toml', /`\.hidden\.toml` begins with a dot/], ['deep/.git/a.toml', /`\.git` begins/],
     ['no/such/a.toml', /no folder `no\/such`/], ['a\nb.toml', /`\\n` is a character/], ['a\u0000.toml', /`\\u0000`/], ['a\u001b[2J.toml', /`\\u001B`/], ['a\u202etxt.toml', /`\\u202E`/], ['a\u0085.toml', /`\\u0085`/],
     ['deep\\a.toml', /separated by `\/`/], [part(256), /has 256 bytes, and may have 255/], [`${'deep/'.repeat(300)}a.toml`, /may have 1000 bytes, not 1506/]]) {
     const { status, error } = await save({ file: name, text: 'x' });
-    assert.equal(status, 400, name);
+    assert.equal(status, name === 'link.toml' ? 403 : 400, name);
     assert.match(error, why, name);
   }
   for (const name of ['a b.toml', 'µ-π.toml', 'deep/a.b.toml', part(255)]) {
@@ -187,7 +302,11 @@ test('other pages cannot use it', async () => {
   assert.match(await raw('GET /api/folder HTTP/1.1\r\n\r\n'), /^HTTP\/1\.1 403/);
   assert.equal(await status({ Host: to, Origin: `http://${to}` }), 200);
   for (const origin of ['http://evil.example', 'null', `https://${to}`, 'http://127.0.0.1:1']) assert.equal(await status({ Host: to, Origin: origin }), 403, origin);
-  assert.equal(await status({ Host: to, 'Sec-Fetch-Site': 'cross-site' }), 403);
+  for (const site of ['cross-site', 'same-site']) assert.equal(await status({ Host: to, 'Sec-Fetch-Site': site }), 403, site);
+  // Nothing tells a browser to let another page send the token's header, or read an answer.
+  const asked = await ask('/api/folder', { method: 'OPTIONS', headers: { Host: to, Origin: 'http://evil.example', 'Access-Control-Request-Headers': 'authorization' } });
+  assert.equal(asked.status, 403);
+  for (const { headers } of [asked, await ask('/api/folder'), await ask('/')]) assert.ok(!Object.keys(headers).some((name) => name.startsWith('access-control')));
   // What a form of another page can send is no JSON.
   assert.equal((await post({ task: 'show', text: bingham, file: 'a.toml' }, '/api/task', { 'Content-Type': 'text/plain' })).status, 403);
   const page = await ask('/');
@@ -200,13 +319,13 @@ test('bodies that are too large or no JSON are refused', async () => {
   assert.equal(status, 413);
   // In pieces whose sum nobody says beforehand.
   const piece = `8000\r\n${'x'.repeat(0x8000)}\r\n`;
-  const answer = await raw(`POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n${piece.repeat(200)}`);
+  const answer = await raw(`POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n${piece.repeat(200)}`);
   assert.ok(answer === '' || /^HTTP\/1\.1 4/.test(answer), answer.slice(0, 100));
   for (const body of ['', '{', '[]', '1', 'null', '"x"', '{}', '{"task":"show"}', '{"task":"show","text":1}', '{"task":["show"],"text":""}', '{"task":"show","text":"\\ud800"}',
     '{"task":"figure","scenes":[],"curves":[]}', '{"task":"report","scenes":[{}]}', '{"task":"figure","scenes":[{"text":""}],"curves":[[1,2]]}', '[' .repeat(100_000), '{"a":'.repeat(50_000), '\xff\xfe', '\0'])
     assert.equal((await post(body)).status, 400, body.slice(0, 60));
   for (const head of ['GET', 'GET / HTTP/9.9\r\n\r\n', '\0\0\0\0\r\n\r\n', `GET /${'x'.repeat(20_000)} HTTP/1.1\r\n\r\n`, `GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n${'A: b\r\n'.repeat(1000)}X: ${'y'.repeat(10_000)}\r\n\r\n`,
-    'POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: -5\r\n\r\n', 'POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: 99999999999999999999\r\n\r\nx'])
+    `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: -5\r\n\r\n`, `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: 99999999999999999999\r\n\r\nx`])
     assert.ok(!/ 200 /.test((await raw(head, 1000)).slice(0, 20)), head.slice(0, 40));
   const zipped = await ask('/api/task', { method: 'POST', headers: { ...json, 'Content-Encoding': 'gzip' }, body: 'x' });
   assert.equal(zipped.status, 403);
@@ -250,7 +369,7 @@ test('a result that is too large is not sent, and says how large it is', async (
   const rows = async (megabytes) => {
     const other = await serve(folder, '--memory-limit', megabytes, '--time-limit', '60');
     const text = bingham.replace('every = "1 ms"', 'points = 2000001');
-    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: json, body: JSON.stringify({ task: 'csv', text, file: 'a.toml' }) });
+    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify({ task: 'csv', text, file: 'a.toml' }) });
     const told = messages(await response.text());
     await other.stop();
     return told;
@@ -282,10 +401,47 @@ test('how the process of a run has ended is said, and those that had nothing to 
   }
 });
 
+test('answers that wait to be read have a limit together, and others are answered', async () => {
+  const other = await serve(folder, '--memory-limit', '2000', '--time-limit', '60');
+  // Each answer has some 30 MB, and the clients take it slowly: twelve answers would be 360 MB.
+  const body = JSON.stringify({ task: 'csv', text: bingham.replace('every = "1 ms"', 'points = 700001'), file: 'a.toml' });
+  const head = `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${other.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n`;
+  const clients = Array.from({ length: 12 }, () => {
+    const client = { text: '', socket: net.connect(other.port, '127.0.0.1', () => client.socket.write(head + body)) };
+    client.socket.pause();
+    client.socket.on('error', () => {});
+    client.timer = setInterval(() => (client.text += client.socket.read(1 << 15) ?? client.socket.read() ?? ''), 200);
+    return client;
+  });
+  const memory = () => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${other.process.pid}/status`, 'utf8'))[1]) / 1024;
+  const refused = () => clients.filter(({ text }) => text.includes('too many answers are waiting to be read')).length;
+  let most = 0;
+  for (let k = 0; k < 900 && !refused(); ++k) {
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    most = Math.max(most, memory());
+  }
+  assert.ok(refused() > 0, 'none is refused');
+  // 256 MB of answers, and each once more while it is being sent.
+  assert.ok(most < 700, `the server takes ${most} MB`);
+  const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify({ task: 'show', text: bingham, file: 'a.toml' }) });
+  assert.match(await response.text(), /"kind":"done"/);
+  clients.forEach(({ socket, timer }) => (clearInterval(timer), socket.destroy()));
+  await other.stop();
+});
+
+test('a run is charged for its CPU time, not for waiting', async () => {
+  const stopped = (signal) => children(server.process.pid).forEach((id) => process.kill(Number(id), signal));
+  const asked = post({ task: 'show', text: bingham.replace('stop   = "0.2 s"', 'stop = "20 s"'), file: 'a.toml' });
+  stopped('SIGSTOP');
+  await new Promise((resolve) => setTimeout(resolve, 2500)); // more than the 2 s that a run may take
+  stopped('SIGCONT');
+  assert.match((await asked).body, /"kind":"done"/);
+});
+
 test('runs that never end make way for others', async () => {
   const other = await serve(folder, '--time-limit', '30');
   const show = async (text, session) => {
-    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: json, body: JSON.stringify({ task: 'show', text, file: 'a.toml', session }) });
+    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify({ task: 'show', text, file: 'a.toml', session }) });
     return messages(await response.text()).at(-1);
   };
   const ended = [];
@@ -327,7 +483,7 @@ test('two hundred at once are all answered, as one alone is', async () => {
 });
 
 test('slow clients, and those that go away, keep nobody waiting', async () => {
-  const head = 'POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n';
+  const head = `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: 1000\r\n\r\n`;
   const sockets = Array.from({ length: 120 }, (_, k) => {
     const socket = net.connect(server.port, '127.0.0.1');
     socket.on('error', () => {});
@@ -339,7 +495,7 @@ test('slow clients, and those that go away, keep nobody waiting', async () => {
   });
   // They ask for a run that never ends, and leave; or stay, and read nothing.
   const body = JSON.stringify({ task: 'show', text: endless, file: 'a.toml' });
-  const ask = `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n${body}`;
+  const ask = `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${server.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n${body}`;
   for (let k = 0; k < 10; ++k) {
     const socket = net.connect(server.port, '127.0.0.1', () => socket.write(ask, () => socket.destroy()));
     socket.on('error', () => {});

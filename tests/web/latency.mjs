@@ -8,7 +8,7 @@ const moves = 300;
 const server = await serve(join(dirname(fileURLToPath(import.meta.url)), '../../netlists'));
 const chromium = await browser();
 const page = await chromium.newPage({ viewport: { width: 1280, height: 900 } });
-await page.goto(`${server.origin}/#file=teaching/bingham.toml`);
+await page.goto(`${server.address}#file=teaching/bingham.toml`);
 await done(page);
 const measured = await page.evaluate(async (count) => {
   const pause = (time) => new Promise((resolve) => setTimeout(resolve, time));

@@ -294,7 +294,7 @@ test('a run that is cut short shows what there is of it', async () => {
   const hurried = await serve(desk.folder, '--time-limit', '1');
   const context = await desk.chromium.newContext();
   const { page, wrong } = await watched(context, hurried.origin);
-  await page.goto(`${hurried.origin}/#file=bingham.toml`);
+  await page.goto(`${hurried.address}#file=bingham.toml`);
   await done(page);
   await replaced(page, stickSlip.replace('"8 s"', '"1e7 s"').replace('points = 801', 'every = "1e3 s"'));
   await page.waitForFunction(() => /takes longer than the 1 s/.test(document.querySelector('.status').textContent));
@@ -325,5 +325,33 @@ test('what is 0 all the time is drawn in the middle of an axis that has 0 in its
   await page.locator('.chart.loop').waitFor();
   numbers = await written();
   assert.ok(!numbers.includes(100), String(numbers));
+  await close();
+});
+
+test('the token leaves the address for the storage of the page, which opens again without it, and asks for it where it is gone', async () => {
+  const { page, context, close } = await desk.open();
+  assert.ok(!page.url().includes('token'), page.url());
+  assert.ok(page.url().endsWith('#file=bingham.toml'));
+  await page.reload();
+  await done(page);
+  // A second page of the same browser has it too.
+  const second = await context.newPage();
+  await second.goto(`${desk.server.origin}/#file=bingham.toml`);
+  await done(second);
+  await second.evaluate(() => localStorage.clear());
+  await second.reload();
+  await second.waitForFunction(() => /the token of the address/.test(document.body.textContent));
+  await second.close();
+  // Another browser gets no page without it.
+  const stranger = await desk.chromium.newContext();
+  const third = await stranger.newPage();
+  assert.equal((await third.goto(desk.server.origin)).status(), 401);
+  assert.match(await third.locator('h1').textContent(), /needs a token/);
+  await accessible(third, 'the page that asks for the token');
+  await stranger.close();
+  await page.locator('button[aria-label="Help"]').click();
+  const [licences] = await Promise.all([context.waitForEvent('page'), page.locator('.help a').click()]);
+  await licences.waitForLoadState();
+  assert.match(await licences.locator('body').textContent(), /@codemirror\/view [\d.]+ \(MIT\)[^]*SIL OPEN FONT LICENSE/);
   await close();
 });

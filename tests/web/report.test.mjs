@@ -1,9 +1,11 @@
 // A report opens from a file, with the network off.
 import assert from 'node:assert/strict';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { execFile } from 'node:child_process';
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { accessible, bingham, browser, folderWith, pointAt, remove, rheonet, watched } from './support.mjs';
+import { promisify } from 'node:util';
+import { accessible, bingham, browser, folderWith, pointAt, program, remove, rheonet, watched } from './support.mjs';
 
 let folder, chromium;
 const soft = bingham.replace('title = "Bingham element"', 'title = "Soft </script><b>one</b> & \\"quoted\\""').replace('"100 N*m/rad"', '"20 N*m/rad"');
@@ -271,4 +273,44 @@ test('what a netlist includes is named by its way from there', async () => {
   assert.ok(!readFileSync(join(folder, 'table.html'), 'utf8').includes(join(folder, 'parts')));
   assert.deepEqual(wrong, []);
   await context.close();
+});
+
+test('a title that looks like a mark of the page is a title', async () => {
+  for (const title of ['/* data */', '<!-- title -->', '/* script */', '$& $1 \\']) {
+    await rheonet(['report', 'stiff.toml', '-o', 'title.html', '--title', title], { cwd: folder });
+    const { context, page, wrong } = await open('title.html');
+    assert.equal(await page.title(), title);
+    assert.equal(await page.locator('h1').textContent(), title);
+    assert.deepEqual(wrong, []);
+    await context.close();
+  }
+});
+
+test('a report has the licences of the packages and fonts in it', async () => {
+  await rheonet(['report', 'stiff.toml', '-o', 'licences.html'], { cwd: folder });
+  const { context, page, wrong } = await open('licences.html');
+  const licences = page.locator('details.licences');
+  assert.equal(await licences.getAttribute('open'), null);
+  await licences.locator('summary').click();
+  const text = await licences.locator('pre').innerText();
+  for (const part of ['katex', 'uplot']) assert.match(text, new RegExp(`^${part} [\\d.]+ \\(MIT\\)$`, 'm'));
+  assert.match(text, /Permission is hereby granted, free of charge/);
+  assert.match(text, /KaTeX_Main-Regular: Copyright \(c\) 2009-2010, Design Science.* with Reserved Font Name KaTeX_Main\./);
+  assert.match(text, /SIL OPEN FONT LICENSE/);
+  // Only what is in it: a report has no editor.
+  assert.doesNotMatch(text, /codemirror\/view/);
+  await accessible(page, 'licences');
+  assert.deepEqual(wrong, []);
+  await context.close();
+});
+
+test('a full disk leaves no part of a report', async () => {
+  const full = (file) => promisify(execFile)('bash', ['-c', 'ulimit -f 100; "$0" report stiff.toml -o "$1"', program, file], { cwd: folder }).catch((error) => error);
+  const refused = await full('none.html');
+  assert.equal(refused.code, 1);
+  assert.match(refused.stderr, /cannot write to `none\.html`: File too large\n {2}no file `none\.html` was made/);
+  writeFileSync(join(folder, 'old.html'), 'earlier report');
+  assert.match((await full('old.html')).stderr, /`old\.html` is as it was before/);
+  assert.equal(readFileSync(join(folder, 'old.html'), 'utf8'), 'earlier report');
+  assert.deepEqual(readdirSync(folder).filter((name) => name.startsWith('.') || name === 'none.html'), []);
 });

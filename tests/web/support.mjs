@@ -25,14 +25,14 @@ export function folderWith(files) {
   return folder;
 }
 
-// A server of a folder: { origin, port, process, stop }.
+// A server of a folder: { origin, port, address (with the token), key (the header that shows it), process, stop }.
 export async function serve(folder, ...options) {
   const process = spawn(program, ['serve', folder, '--port', '0', ...options], { stdio: ['ignore', 'pipe', 'inherit'] });
-  const origin = await new Promise((resolve, reject) => {
+  const address = await new Promise((resolve, reject) => {
     let text = '';
     process.stdout.on('data', (piece) => {
       text += piece;
-      const found = /http:\/\/[^/]+/.exec(text);
+      const found = /http:\S+/.exec(text);
       if (found && text.includes('\n')) resolve(found[0]);
     });
     process.on('exit', (status) => reject(new Error(`the server ends with ${status}: ${text}`)));
@@ -51,7 +51,8 @@ export async function serve(folder, ...options) {
       });
       process.kill('SIGTERM');
     });
-  return { origin, port: Number(new URL(origin).port), process, stop };
+  const { origin, port, searchParams } = new URL(address);
+  return { origin, port: Number(port), address, key: { Authorization: `Bearer ${searchParams.get('token')}` }, process, stop };
 }
 
 export async function browser() {

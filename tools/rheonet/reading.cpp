@@ -32,8 +32,9 @@ void add_loose_nodes(ReadResult& result) {
 
 }  // namespace
 
-ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options) {
-  ReadResult result = read_scene_text(text, name, folder, declarations(), options);
+ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options,
+                     const std::vector<const FileOffer*>& offers) {
+  ReadResult result = read_offered_text(text, name, folder, declarations(), options, offers);
   add_loose_nodes(result);
   return result;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/netlist/read.hpp"
+#include "core/netlist/file_offer.hpp"
 #include "core/network/error.hpp"
 #include "tools/rheonet/arguments.hpp"
 
@@ -16,8 +16,9 @@ ReadResult read_and_report(const std::string& scene, const ReadOptions& options)
 /// Prints every mistake and warning of what has been read, and of nodes that something may be wrong with.
 void report_all(ReadResult& result);
 
-/// The same from text, with nothing printed: see read_scene_text.
-ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options);
+/// The same from text, with nothing printed: see read_offered_text.
+ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options,
+                     const std::vector<const FileOffer*>& offers);
 
 /// Whether a file is one of those that a scene was read from, which must not be overwritten by its results. Says so if
 /// it is; `option` is what names it: "--output".

@@ -1,11 +1,11 @@
 #include "tools/serve/api.hpp"
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 
 #include "tools/report/messages.hpp"
-#include "tools/serve/guard.hpp"
+#include "tools/serve/netlist_name.hpp"
 #include "tools/web/assets.hpp"
 
 namespace rheonet::serve {
@@ -20,6 +20,17 @@ constexpr std::size_t most_compared = 4, most_curves = 200, longest_name = 1000;
 void refuse(httplib::Response& response, int status, const std::string& why) {
   response.status = status;
   response.set_content(report::to_line({{"error", why}}), "application/json");
+  response.set_header("Connection", "close");
+  Server::end_connection();
+}
+
+/// Says how one gets in: in words that a person reads, or a program.
+void ask_for_token(const httplib::Request& request, httplib::Response& response) {
+  if (request.path.starts_with("/api/"))
+    return refuse(response, 401, "the token of the address that `rheonet serve` has printed is missing, or of another start: open "
+                                 "that address again");
+  response.status = 401;
+  response.set_content(web::token_page().text.data(), web::token_page().text.size(), web::token_page().type);
   response.set_header("Connection", "close");
   Server::end_connection();
 }
@@ -49,17 +60,18 @@ std::string word(const json& value, const char* key) {
 }
 
 /// A netlist as a worker gets it; absent if it is not one.
-std::optional<json> scene_of(const json& value, const Folder& folder) {
+std::optional<json> scene_of(const json& value) {
   if (!value.is_object() || !value.contains("text") || !value["text"].is_string()) return {};
   const std::string file = word(value, "file");
-  return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder.beside(file).string()}};
+  const std::string folder = fault_of_name(file).empty() ? std::filesystem::path(file).parent_path().string() : "";
+  return json{{"text", value["text"]}, {"file", file.empty() ? "scene.toml" : file}, {"folder", folder}};
 }
 
 /// The task that a request asks for, with nothing in it but what is known; absent if it asks for none.
-std::optional<json> task_of(const json& request, const Folder& folder) {
+std::optional<json> task_of(const json& request) {
   const std::string kind = word(request, "task");
   if (kind == "show" || kind == "explain" || kind == "csv") {
-    std::optional<json> task = scene_of(request, folder);
+    std::optional<json> task = scene_of(request);
     if (!task) return {};
     (*task)["task"] = kind;
     (*task)["draw"] = request.value("draw", json()) == true;
@@ -69,7 +81,7 @@ std::optional<json> task_of(const json& request, const Folder& folder) {
   json task{{"task", kind}, {"scenes", json::array()}, {"curves", json::array()}};
   if (request["scenes"].empty() || request["scenes"].size() > most_compared) return {};
   for (const json& scene : request["scenes"]) {
-    std::optional<json> one = scene_of(scene, folder);
+    std::optional<json> one = scene_of(scene);
     if (!one) return {};
     task["scenes"].push_back(std::move(*one));
   }
@@ -115,11 +127,12 @@ void add_headers(httplib::Server& server) {
 
 void Api::attach(Server& server, const std::string& host) {
   add_headers(server);
-  server.set_pre_routing_handler([host](const Request& request, Response& response) {
-    const std::string why = refusal(request, host);
-    if (why.empty()) return httplib::Server::HandlerResponse::Unhandled;
-    refuse(response, 403, why);
-    return httplib::Server::HandlerResponse::Handled;
+  server.set_pre_routing_handler([this, host](const Request& request, Response& response) {
+    using Handled = httplib::Server::HandlerResponse;
+    if (const std::string why = refusal(request, host); !why.empty())
+      return refuse(response, 403, why), Handled::Handled;
+    if (!keys_.admit(request, response)) return ask_for_token(request, response), Handled::Handled;
+    return Handled::Unhandled;
   });
   const auto page = [&server](const char* path, const web::Asset& asset) {
     server.Get(path, [asset](const Request&, Response& response) {
@@ -129,6 +142,7 @@ void Api::attach(Server& server, const std::string& host) {
   page("/", web::playground_page());
   page("/playground.css", web::playground_style());
   page("/playground.js", web::playground_script());
+  page("/licences.txt", web::notice());
   server.Get("/api/folder", [this](const Request&, Response& response) { list(response); });
   server.Get("/api/scene", [this](const Request& request, Response& response) { open(request, response); });
   server.Post("/api/save", [this](const Request&, Response& response, const Reader& body) { save(response, body); });
@@ -140,13 +154,16 @@ void Api::attach(Server& server, const std::string& host) {
 
 void Api::list(Response& response) const {
   json scenes = json::array();
-  for (const Folder::Entry& each : folder_.scenes()) {
+  const Folder::Listing listing = folder_.scenes();
+  for (const Folder::Entry& each : listing.scenes) {
     scenes.push_back({{"file", each.file}, {"title", each.title}, {"about", each.about}});
     if (each.place) scenes.back()["place"] = *each.place;
   }
   response.set_content(report::to_line({{"name", folder_.path().filename().string()},
                                         {"may_be_written", folder_.may_be_written()},
                                         {"seconds", pool_.limits().seconds},
+                                        {"left_out", listing.left_out},
+                                        {"all_visited", listing.all_visited},
                                         {"scenes", scenes}}),
                        "application/json");
 }
@@ -185,7 +202,7 @@ std::shared_ptr<Job> Api::begin(const std::string& session, std::string task) {
 void Api::start(Response& response, const Reader& body) {
   const std::optional<json> request = read(response, body);
   if (!request) return;
-  const std::optional<json> task = task_of(*request, folder_);
+  const std::optional<json> task = task_of(*request);
   if (!task) return refuse(response, 400, "the request asks for nothing that is known here");
   const std::shared_ptr<Job> job = begin(word(*request, "session"), report::to_line(*task));
   response.set_chunked_content_provider("application/x-ndjson", [job](std::size_t, httplib::DataSink& sink) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tools/serve/folder.hpp"
+#include "tools/serve/guard.hpp"
 #include "tools/serve/job.hpp"
 #include "tools/serve/server.hpp"
 
@@ -14,7 +15,7 @@ namespace rheonet::serve {
 /// What the playground asks for: see tools/web/README.md.
 class Api {
  public:
-  Api(Folder& folder, Pool& pool) : folder_(folder), pool_(pool) {}
+  Api(Folder& folder, Pool& pool, const Keys& keys) : folder_(folder), pool_(pool), keys_(keys) {}
 
   /// Adds its routes. `host` is the address that is listened at.
   void attach(Server& server, const std::string& host);
@@ -33,6 +34,7 @@ class Api {
 
   Folder& folder_;
   Pool& pool_;
+  const Keys& keys_;
   std::mutex mutex_;
   std::map<std::string, std::weak_ptr<Job>> sessions_;
 };

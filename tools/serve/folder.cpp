@@ -6,13 +6,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <functional>
 #include <map>
+#include <system_error>
 
+#include "tools/rheonet/replacement.hpp"
 #include "tools/serve/glance.hpp"
 #include "tools/serve/netlist_name.hpp"
 
@@ -26,36 +27,6 @@ constexpr std::size_t most_listed = 1000, most_visited = 20'000;
 constexpr int deepest = 6;
 constexpr std::size_t largest_file = 1u << 20, most_looked_at = 20u << 20;
 
-bool is_within(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
-bool is_hidden(const fs::path& path) {
-  return std::any_of(path.begin(), path.end(), [](const fs::path& part) { return part.string().starts_with('.'); });
-}
-
-/// The text of a regular file; absent if it is none, or too large to be a netlist.
-std::optional<std::string> text_of(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) return {};
-  struct stat status {};
-  bool whole = false;
-  std::string text;
-  if (::fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
-    std::array<char, 1u << 16> piece;
-    while (!whole && text.size() <= largest_file) {
-      const ssize_t count = ::read(file, piece.data(), piece.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) break;
-      whole = count == 0;
-      text.append(piece.data(), static_cast<std::size_t>(count));
-    }
-  }
-  ::close(file);
-  if (!whole || text.size() > largest_file) return {};
-  return text;
-}
-
 std::string version_of(const std::string& text) { return fmt::format("{:016x}", std::hash<std::string>{}(text)); }
 
 /// Where a text first names a file; absent if it does not.
@@ -66,84 +37,80 @@ std::optional<std::size_t> place_of(const std::string& name, const std::string& 
   return {};
 }
 
-/// Puts a text in the place of another: whoever reads it meanwhile sees the old one or the new one. Why it cannot; "" if it
-/// is done.
-std::string put(const fs::path& place, const std::string& text) {
-  std::string other = (place.parent_path() / ".rheonet-XXXXXX").string();
-  const int file = ::mkstemp(other.data());
-  if (file < 0) return std::strerror(errno);
-  bool ok = ::fchmod(file, 0644) == 0;
-  for (std::size_t written = 0; ok && written < text.size();) {
-    const ssize_t count = ::write(file, text.data() + written, text.size() - written);
-    if (count < 0 && errno == EINTR) continue;
-    ok = count > 0;
-    written += static_cast<std::size_t>(std::max<ssize_t>(count, 0));
+/// The version of the netlist `name` in a folder; "" if there is none. Absent if this entry of the folder must not be
+/// overwritten: `why` then gives the reason.
+std::optional<std::string> version_there(int folder, const fs::path& name, std::string& why) {
+  struct stat status {};
+  if (::fstatat(folder, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return "";
+  constexpr mode_t writable = S_IWUSR | S_IWGRP | S_IWOTH;
+  if (const std::optional<std::string> text = text_below(folder, name, largest_file, why)) {
+    // Root may write to any file; one that nobody may write to is meant to stay as it is.
+    if ((status.st_mode & writable) != 0 && ::faccessat(folder, name.c_str(), W_OK, AT_EACCESS) == 0) return version_of(*text);
+    why = "it is read-only";
   }
-  int error = ok ? 0 : errno;
-  if (::close(file) != 0 && ok) error = errno, ok = false;
-  if (ok && ::rename(other.c_str(), place.c_str()) != 0) error = errno, ok = false;
-  if (ok) return "";
-  ::unlink(other.c_str());
-  return std::strerror(error);
+  return {};
+}
+
+/// Puts a text in the place of another. Why it cannot; "" if it is done.
+std::string put(int folder, const fs::path& name, const std::string& text) {
+  try {
+    tool::Replacement file(folder, name.string());
+    int error = tool::write_text(file.descriptor(), text);
+    if (error == 0) error = file.commit();
+    return error == 0 ? "" : std::strerror(error);
+  } catch (const std::system_error& error) {
+    return error.code().message();
+  }
+}
+
+/// The .toml files in a folder and below, by name.
+std::vector<fs::path> netlists_below(const fs::path& folder, bool& all_visited) {
+  std::vector<fs::path> names;
+  std::error_code failed;
+  std::size_t visited = 0;
+  fs::recursive_directory_iterator item(folder, fs::directory_options::skip_permission_denied, failed), end;
+  for (; !failed && item != end && visited < most_visited; item.increment(failed), ++visited) {
+    const fs::path name = item->path().lexically_relative(folder);
+    if (item->is_directory(failed) && (is_hidden(name) || item.depth() >= deepest)) item.disable_recursion_pending();
+    if (fault_of_name(name.string()).empty()) names.push_back(name);
+  }
+  all_visited = visited < most_visited;
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace
 
-Folder::Folder(const fs::path& path, bool may_be_written) : path_(fs::canonical(path)), may_be_written_(may_be_written) {
-  if (!fs::is_directory(path_)) throw fs::filesystem_error("no folder", path, std::make_error_code(std::errc::not_a_directory));
+Folder::Folder(const fs::path& path, bool may_be_written)
+    : path_(fs::canonical(path)), root_(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)), may_be_written_(may_be_written) {
+  if (!root_.is_open()) throw fs::filesystem_error("no folder", path, std::error_code(errno, std::generic_category()));
 }
 
-std::vector<Folder::Entry> Folder::scenes() const {
-  std::vector<Entry> found;
-  std::error_code failed;
-  std::size_t visited = 0, looked_at = 0;
-  fs::recursive_directory_iterator item(path_, fs::directory_options::skip_permission_denied, failed), end;
-  for (; !failed && item != end && found.size() < most_listed && ++visited < most_visited; item.increment(failed)) {
-    const fs::path name = item->path().lexically_relative(path_);
-    if (item->is_directory(failed) && (is_hidden(name) || item.depth() >= deepest)) item.disable_recursion_pending();
-    if (!fault_of_name(name.string()).empty()) continue;
-    const std::optional<std::string> text = text_of(item->path());
+Folder::Listing Folder::scenes() const {
+  Listing found;
+  const std::vector<fs::path> names = netlists_below(path_, found.all_visited);
+  std::map<fs::path, std::string> pages;
+  std::size_t looked_at = 0, taken = 0;
+  for (; taken < names.size() && found.scenes.size() < most_listed; ++taken) {
+    const fs::path& name = names[taken];
+    std::string why;
+    const std::optional<std::string> text = text_below(root_.get(), name, largest_file, why);
     if (!text) continue;
     looked_at += text->size();
     const std::optional<Glance> seen = looked_at < most_looked_at ? glance(*text) : Glance{};
-    if (seen) found.push_back({name.string(), seen->title, seen->about});
+    if (!seen) continue;
+    const auto [page, is_new] = pages.try_emplace(name.parent_path());
+    if (is_new) page->second = text_below(root_.get(), name.parent_path() / "README.md", largest_file, why).value_or("");
+    found.scenes.push_back({name.string(), seen->title, seen->about, place_of(name.filename().string(), page->second)});
   }
-  std::map<fs::path, std::string> pages;
-  for (Entry& entry : found) {
-    const fs::path place = path_ / entry.file;
-    const auto [page, is_new] = pages.try_emplace(place.parent_path());
-    if (is_new) page->second = text_of(place.parent_path() / "README.md").value_or("");
-    entry.place = place_of(place.filename().string(), page->second);
-  }
-  std::sort(found.begin(), found.end(), [](const Entry& a, const Entry& b) { return a.file < b.file; });
+  found.left_out = names.size() - taken;
   return found;
 }
 
-std::optional<fs::path> Folder::locate(const std::string& file, std::string& why) const {
-  why = fault_of_name(file);
-  if (!why.empty()) return {};
-  std::error_code failed;
-  // Links are followed, and must not lead out.
-  const fs::path place = fs::weakly_canonical(path_ / file, failed);
-  const fs::path parent = fs::path(file).parent_path();
-  if (failed)
-    why = fmt::format("`{}` leads nowhere: {}", file, failed.message());
-  else if (!is_within(place, path_))
-    why = fmt::format("`{}` is a link that leads out of the folder, or behind one", file);
-  else if (!fs::is_directory(place.parent_path(), failed))
-    why = fmt::format("there is no folder `{}` here to put it in", parent.string());
-  else if (fs::is_directory(place, failed))
-    why = fmt::format("`{}` is the name of a folder", file);
-  else
-    return place;
-  return {};
-}
-
 std::optional<Folder::Netlist> Folder::read(const std::string& file) const {
+  if (!fault_of_name(file).empty()) return {};
   std::string why;
-  const std::optional<fs::path> place = locate(file, why);
-  if (!place) return {};
-  std::optional<std::string> text = text_of(*place);
+  std::optional<std::string> text = text_below(root_.get(), file, largest_file, why);
   if (!text) return {};
   std::string version = version_of(*text);
   return Netlist{std::move(*text), std::move(version)};
@@ -153,27 +120,22 @@ Folder::Written Folder::write(const std::string& file, const std::string& text, 
   using Outcome = Written::Outcome;
   if (!may_be_written_)
     return {Outcome::not_here, "the netlists that come with rheonet are not changed; serve a folder of your own to save there", ""};
-  std::string why;
-  const std::optional<fs::path> place = locate(file, why);
-  if (!place) return {Outcome::no_name, why, ""};
-  const std::lock_guard lock(writing_);
-  std::error_code failed;
-  if (fs::exists(*place, failed)) {
-    const std::optional<std::string> there = text_of(*place);
-    if (!there) return {Outcome::failed, fmt::format("`{}` is there already, and is no netlist that can be read", file), ""};
-    const std::string found = version_of(*there);
-    if (version.empty()) return {Outcome::other_there, fmt::format("there is already a netlist `{}`", file), found};
-    if (version != found) return {Outcome::other_there, fmt::format("`{}` has changed since it was opened here", file), found};
+  std::string why = fault_of_name(file);
+  if (!why.empty()) return {Outcome::no_name, why, ""};
+  const fs::path path(file), name = path.filename();
+  const Descriptor parent = open_parent(root_.get(), path, why);
+  if (!parent.is_open()) {
+    if (why.empty()) why = fmt::format("there is no folder `{}` here to put it in", path.parent_path().string());
+    return {Outcome::no_name, why, ""};
   }
-  why = put(*place, text);
+  const std::lock_guard lock(writing_);
+  const std::optional<std::string> there = version_there(parent.get(), name, why);
+  if (!there) return {Outcome::not_here, fmt::format("`{}` is there already, and is not overwritten: {}", file, why), ""};
+  if (!there->empty() && version.empty()) return {Outcome::other_there, fmt::format("there is already a netlist `{}`", file), *there};
+  if (!there->empty() && version != *there) return {Outcome::other_there, fmt::format("`{}` has changed since it was opened here", file), *there};
+  why = put(parent.get(), name, text);
   if (!why.empty()) return {Outcome::failed, "it cannot be written: " + why, ""};
   return {Outcome::done, "", version_of(text)};
-}
-
-fs::path Folder::beside(const std::string& file) const {
-  std::string why;
-  const std::optional<fs::path> place = locate(file, why);
-  return place ? place->parent_path() : path_;
 }
 
 }  // namespace rheonet::serve

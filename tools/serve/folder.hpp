@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "tools/serve/below.hpp"
+
 namespace rheonet::serve {
 
-/// The folder whose netlists are shown. Nothing outside it is read or written, by whatever name. Threads may share it.
+/// The folder whose netlists are shown. Nothing outside it is read or written, by whatever name and whatever is exchanged for a
+/// symbolic link meanwhile: it stays open, and names are looked up in it. Threads may share it.
 class Folder {
  public:
   /// Throws std::filesystem::filesystem_error if it is none.
@@ -20,8 +23,13 @@ class Folder {
     std::string about;  ///< its first words
     std::optional<std::size_t> place = {};  ///< where README.md beside it first names it, from its beginning; if it does
   };
-  /// The netlists in it and below, those that can be simulated by themselves, by name; no more than a thousand.
-  std::vector<Entry> scenes() const;
+  struct Listing {
+    std::vector<Entry> scenes;  ///< by name
+    std::size_t left_out = 0;   ///< .toml files that nobody has looked at, because there are so many
+    bool all_visited = true;    ///< false: there may be more than these
+  };
+  /// The netlists in it and below, those that can be simulated by themselves; no more than a thousand.
+  Listing scenes() const;
 
   struct Netlist {
     std::string text;
@@ -40,15 +48,13 @@ class Folder {
   Written write(const std::string& file, const std::string& text, const std::string& version);
   bool may_be_written() const { return may_be_written_; }
 
-  /// Where the includes of a netlist of this name are looked for.
-  std::filesystem::path beside(const std::string& file) const;
   const std::filesystem::path& path() const { return path_; }
+  /// It, open.
+  int descriptor() const { return root_.get(); }
 
  private:
-  /// Where a netlist of this name is or would be; absent if that is not in the folder, `why` then says why.
-  std::optional<std::filesystem::path> locate(const std::string& file, std::string& why) const;
-
   std::filesystem::path path_;
+  Descriptor root_;
   bool may_be_written_;
   std::mutex writing_;
 };

@@ -1,6 +1,12 @@
 #include "tools/serve/guard.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
+#include <sys/random.h>
+
+#include <array>
+#include <cerrno>
+#include <system_error>
 
 namespace rheonet::serve {
 namespace {
@@ -19,15 +25,54 @@ bool is_address(const std::string& text) {
   return inet_pton(AF_INET, text.c_str(), address) == 1 || inet_pton(AF_INET6, text.c_str(), address) == 1;
 }
 
+/// 128 random bits, which nobody guesses.
+std::string random_word() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::system_error(errno, std::generic_category(), "no random numbers");
+  return fmt::format("{:02x}", fmt::join(bytes, ""));
+}
+
+/// Takes as long wherever they differ, so that nothing is learnt from the time.
+bool is_same(const std::string& given, const std::string& key) {
+  if (given.size() != key.size()) return false;
+  unsigned char different = 0;
+  for (std::size_t k = 0; k < key.size(); ++k) different = static_cast<unsigned char>(different | (given[k] ^ key[k]));
+  return different == 0;
+}
+
+/// The value of a cookie; "" if there is none.
+std::string cookie_of(const httplib::Request& request, const std::string& name) {
+  const std::string all = "; " + request.get_header_value("Cookie");
+  const std::string begin = "; " + name + '=';
+  const std::size_t at = all.find(begin);
+  if (at == std::string::npos) return "";
+  const std::size_t value = at + begin.size();
+  return all.substr(value, all.find(';', value) - value);
+}
+
 }  // namespace
+
+Keys::Keys(int port) : token_(random_word()), page_key_(random_word()), cookie_(fmt::format("rheonet-{}", port)) {}
+
+bool Keys::admit(const httplib::Request& request, httplib::Response& response) const {
+  if (is_same(request.get_header_value("Authorization"), "Bearer " + token_)) return true;
+  if (is_same(request.get_param_value("token"), token_)) {
+    // From a link that leads to the page the cookie comes too; what else it opens holds nothing of the folder.
+    response.set_header("Set-Cookie", fmt::format("{}={}; Path=/; HttpOnly; SameSite=Lax", cookie_, page_key_));
+    return true;
+  }
+  return !request.path.starts_with("/api/") && is_same(cookie_of(request, cookie_), page_key_);
+}
+
+bool is_this_machine(const std::string& host) { return host == "localhost" || host == "127.0.0.1" || host == "::1"; }
 
 std::string refusal(const httplib::Request& request, const std::string& listening) {
   const std::string host = request.get_header_value("Host");
   const std::string name = without_port(host);
-  const bool local = name == "localhost" || name == "127.0.0.1" || name == "::1";
   // Who listens at all addresses is reached by any of them; a name could be anyone's.
-  const bool open = listening != "127.0.0.1" && listening != "localhost" && listening != "::1";
-  if (!local && name != listening && !(open && is_address(name))) return "this host name is not served";
+  const bool open = !is_this_machine(listening);
+  if (!is_this_machine(name) && name != listening && !(open && is_address(name))) return "this host name is not served";
   if (const std::string origin = request.get_header_value("Origin"); !origin.empty() && origin != "http://" + host)
     return "requests from other pages are not served";
   if (const std::string site = request.get_header_value("Sec-Fetch-Site");

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_answer = 64u << 20;  // of an answer
 constexpr auto tick = 20ms;                    // after which a cancelled task is noticed
 constexpr int most_tries = 20;                 // for a worker that takes the task
-constexpr double longer_aside = 3;             // times as long may it take on what others leave
+constexpr double longest_wait = 20;            // limit on wall time, as a multiple of the limit on CPU time
 
 }  // namespace
 
@@ -23,13 +23,23 @@ Job::Job(Pool& pool, std::string task) : pool_(pool), task_(std::move(task)), th
 Job::~Job() {
   cancel();
   thread_.join();
+  pool_.answers().change(held_, 0);
 }
 
 std::string Job::take(std::chrono::milliseconds patience, bool& finished) {
   std::unique_lock lock(mutex_);
   more_.wait_for(lock, patience, [this] { return !text_.empty() || finished_; });
   finished = finished_;
-  return std::exchange(text_, {});
+  given_ = text_.size();
+  std::string text = std::exchange(text_, {});
+  pool_.answers().change(held_, given_ + begun_);  // what was sent before has gone
+  return text;
+}
+
+bool Job::hold(std::size_t begun) {
+  const std::lock_guard lock(mutex_);
+  begun_ = begun;
+  return pool_.answers().change(held_, text_.size() + given_ + begun_);
 }
 
 void Job::run() {
@@ -60,17 +70,24 @@ std::unique_ptr<Worker> Job::begin() {
 
 bool Job::follow(Worker& worker) {
   const auto began = Clock::now();
+  const double cpu_before = worker.cpu_seconds();
   for (;;) {
     std::string message;
-    switch (worker.take(message, tick)) {
+    const Worker::Answer answer = worker.take(message, tick);
+    if (const std::size_t bytes = told_ + message.size() + worker.begun(); bytes > longest_answer) {
+      constexpr std::size_t megabyte = std::size_t{1} << 20U;
+      fail(fmt::format("the result comes to {} MB so far, and a page may have {} MB: record fewer quantities, or at fewer output "
+                       "times; `rheonet run` has no such limit", (bytes + megabyte - 1) / megabyte, longest_answer / megabyte));
+      return false;
+    }
+    if (!hold(message.size() + worker.begun())) {
+      fail("too many answers are waiting to be read; try again");
+      return false;
+    }
+    switch (answer) {
       case Worker::Answer::end:
         return true;
       case Worker::Answer::message:
-        if (const std::size_t bytes = told_ + message.size(); bytes > longest_answer) {
-          fail(fmt::format("the result comes to {} MB so far, and a page may have {} MB: record fewer quantities, or at fewer output "
-                           "times; `rheonet run` has no such limit", bytes >> 20U, longest_answer >> 20U));
-          return false;
-        }
         tell(message);
         break;
       case Worker::Answer::gone: {
@@ -83,18 +100,19 @@ bool Job::follow(Worker& worker) {
       case Worker::Answer::nothing:
         break;
     }
-    if (cancelled_ || is_too_much(worker, began)) return false;
+    if (cancelled_ || is_too_much(worker, began, cpu_before)) return false;
   }
 }
 
-bool Job::is_too_much(Worker& worker, Clock::time_point began) {
-  const double seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  if (seconds > pool_.limits().seconds * (worker.is_aside() ? longer_aside : 1)) {
+bool Job::is_too_much(Worker& worker, Clock::time_point began, double cpu_before) {
+  const double waited = std::chrono::duration<double>(Clock::now() - began).count();
+  const double seconds = worker.cpu_seconds() - cpu_before;
+  if (seconds > pool_.limits().seconds || waited > longest_wait * pool_.limits().seconds) {
     fail(fmt::format("the run takes longer than the {:g} s that it may take here; `rheonet run` has no such limit",
                      pool_.limits().seconds));
     return true;
   }
-  if (!worker.is_aside() && pool_.is_in_the_way(began) && !pool_.step_aside(worker)) {
+  if (!worker.is_aside() && pool_.is_in_the_way(seconds) && !pool_.step_aside(worker)) {
     fail(fmt::format("too many others are simulating for a run that takes longer than {:.1g} s; try again", seconds));
     return true;
   }

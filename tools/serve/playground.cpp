@@ -1,8 +1,12 @@
 #include "tools/serve/playground.hpp"
 
 #include <fmt/format.h>
+#include <ifaddrs.h>
+#include <net/if.h>
+#include <netdb.h>
 #include <spawn.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,11 +14,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <thread>
 
 #include "core/netlist/characters.hpp"
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/library.hpp"
+#include "tools/rheonet/replacement.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/serve/api.hpp"
 #include "tools/web/assets.hpp"
@@ -36,25 +43,88 @@ void allow_many_files() {
   ::setrlimit(RLIMIT_NOFILE, &most);
 }
 
-void open_in_browser(std::string address) {
-  char name[] = "xdg-open";
-  char* const words[] = {name, address.data(), nullptr};
-  pid_t process = 0;
-  if (::posix_spawnp(&process, name, nullptr, nullptr, words, environ) != 0)
-    say("note: there is no `xdg-open` to open the page with; open it by hand\n");
-}
+/// A page that leads to an address. The browser gets its name: among the words of a process all users would read the token.
+class Signpost {
+ public:
+  explicit Signpost(const std::string& address) {
+    const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
+    std::error_code failed;
+    const fs::path folder = runtime != nullptr && *runtime != '\0' ? fs::path(runtime) : fs::temp_directory_path(failed);
+    std::string name = (folder / "rheonet-XXXXXX.html").string();
+    const int file = ::mkstemps(name.data(), 5);  // for its owner alone
+    if (file < 0) return;
+    path_ = name;
+    if (tool::write_text(file, fmt::format("<!doctype html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0;url={}\">\n",
+                                           address)) != 0)
+      say("note: the page that leads to the playground could not be written\n");
+    ::close(file);
+  }
+  ~Signpost() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  Signpost(const Signpost&) = delete;
+  Signpost& operator=(const Signpost&) = delete;
+
+  void open() {
+    char name[] = "xdg-open";
+    char* const words[] = {name, path_.data(), nullptr};
+    pid_t process = 0;
+    if (path_.empty() || ::posix_spawnp(&process, name, nullptr, nullptr, words, environ) != 0)
+      say("note: there is no `xdg-open` to open the page with; open it by hand\n");
+  }
+
+ private:
+  std::string path_;
+};
 
 std::string address_of(const std::string& host, int port) {
   return fmt::format("http://{}:{}/", host.find(':') != std::string::npos ? "[" + host + "]" : host, port);
 }
 
+/// The addresses of this machine in its networks.
+std::vector<std::string> addresses_of_machine() {
+  std::vector<std::string> found;
+  ifaddrs* all = nullptr;
+  if (::getifaddrs(&all) != 0) return found;
+  for (const ifaddrs* each = all; each != nullptr; each = each->ifa_next) {
+    if (each->ifa_addr == nullptr || (each->ifa_flags & IFF_LOOPBACK) != 0 || (each->ifa_flags & IFF_UP) == 0) continue;
+    char text[NI_MAXHOST] = "";
+    const socklen_t size = each->ifa_addr->sa_family == AF_INET ? sizeof(sockaddr_in) : each->ifa_addr->sa_family == AF_INET6 ? sizeof(sockaddr_in6) : 0;
+    if (size == 0 || ::getnameinfo(each->ifa_addr, size, text, sizeof text, nullptr, 0, NI_NUMERICHOST) != 0) continue;
+    // An address with a zone (fe80::1%eth0) holds for this machine alone.
+    if (std::string_view(text).find('%') == std::string_view::npos) found.emplace_back(text);
+  }
+  ::freeifaddrs(all);
+  return found;
+}
+
+/// The hosts that the page can be opened at: an address that listens at all networks is none that anyone can type.
+std::vector<std::string> hosts_of(const std::string& host) {
+  if (host != "0.0.0.0" && host != "::") return {host};
+  std::vector<std::string> hosts{"127.0.0.1"};
+  for (std::string& address : addresses_of_machine())
+    if (host == "::" || address.find(':') == std::string::npos) hosts.push_back(std::move(address));
+  return hosts;
+}
+
+/// Says where the playground is, and who can reach it.
+void announce(const ServeArguments& wanted, const Folder& folder, const Keys& keys, int port) {
+  const std::vector<std::string> hosts = hosts_of(wanted.host);
+  fmt::print("{}{} (Ctrl-C ends it): the netlists of {}\n", address_of(hosts.front(), port), keys.query(),
+             printable(folder.path().string()));
+  for (std::size_t k = 1; k < hosts.size(); ++k) fmt::print("  from other machines: {}{}\n", address_of(hosts[k], port), keys.query());
+  std::fflush(stdout);
+  if (!is_this_machine(wanted.host))
+    say("warning: `--host {}` lets other machines in: whoever has the address with its token can run scenes here{}, and who listens "
+        "in the network can read the token, for nothing is encrypted\n",
+        printable(wanted.host), folder.may_be_written() ? " and change the netlists of the folder" : "");
+}
+
 ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
   allow_many_files();
   const Limits limits{wanted.seconds, wanted.megabytes};
-  Pool pool(limits, std::max(2u, std::thread::hardware_concurrency()));
+  Pool pool(limits, std::max(2u, std::thread::hardware_concurrency()), folder.descriptor());
   Server server;
-  Api api(folder, pool);
-  api.attach(server, wanted.host);
   const int port = server.bind(wanted.host, wanted.port);
   if (port < 0) {
     say("error: cannot listen at {}: {}\n", address_of(wanted.host, wanted.port),
@@ -62,6 +132,9 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
                          : "the address is not this machine's, or the port is in use\n  `--port 0` takes any that is free");
     return not_simulated;
   }
+  const Keys keys(port);
+  Api api(folder, pool, keys);
+  api.attach(server, wanted.host);
   const std::atomic<bool>& interrupted = end_on_signals();
   // A server that does not listen yet takes no notice of being stopped.
   std::atomic<bool> ended = false;
@@ -69,9 +142,9 @@ ExitStatus listen(const ServeArguments& wanted, Folder& folder) {
     while (!ended && !(interrupted && server.is_running())) std::this_thread::sleep_for(50ms);
     server.stop();
   });
-  fmt::print("{} (Ctrl-C ends it): the netlists of {}\n", address_of(wanted.host, port), printable(folder.path().string()));
-  std::fflush(stdout);
-  if (wanted.open) open_in_browser(address_of(wanted.host, port));
+  announce(wanted, folder, keys, port);
+  std::optional<Signpost> signpost;
+  if (wanted.open) signpost.emplace(address_of(hosts_of(wanted.host).front(), port) + keys.query()).open();
   const bool listened = server.listen_after_bind();
   ended = true;
   ending.join();

@@ -9,15 +9,23 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto longest_turn = 500ms, shortest_turn = 50ms;  // of a run for whose place others wait
-constexpr auto all_turns = 1000ms;                          // that those who wait have together, about
+constexpr double longest_turn = 0.5, shortest_turn = 0.05;  // CPU time of a run for whose place others wait [s]
+constexpr double all_turns = 1;                             // that those who wait have together, about [s]
 constexpr std::size_t most_aside = 8;                       // for each place: they need memory
 
 }  // namespace
 
-Pool::Pool(const Limits& limits, std::size_t places) : limits_(limits), places_(places) {
+bool AnswerMemory::change(std::size_t& held, std::size_t wanted) {
+  const std::lock_guard lock(mutex_);
+  if (wanted > held && wanted - held > most - used_) return false;
+  used_ = used_ - held + wanted;
+  held = wanted;
+  return true;
+}
+
+Pool::Pool(const Limits& limits, std::size_t places, int folder) : limits_(limits), folder_(folder), places_(places) {
   // Ready beforehand: a process takes longer to start than a small scene to run.
-  for (std::size_t k = 0; k < places; ++k) idle_.push_back(std::make_unique<Worker>(limits_));
+  for (std::size_t k = 0; k < places; ++k) idle_.push_back(std::make_unique<Worker>(limits_, folder_));
 }
 
 std::unique_ptr<Worker> Pool::acquire(std::chrono::milliseconds patience, const std::function<bool()>& cancelled) {
@@ -55,17 +63,16 @@ std::unique_ptr<Worker> Pool::idle_or_new() {
     }
   }
   try {
-    return std::make_unique<Worker>(limits_);
+    return std::make_unique<Worker>(limits_, folder_);
   } catch (const std::system_error&) {
     return nullptr;
   }
 }
 
-bool Pool::is_in_the_way(Clock::time_point since) {
+bool Pool::is_in_the_way(double cpu_seconds) {
   const std::lock_guard lock(mutex_);
   if (waiting_.empty()) return false;
-  const std::chrono::milliseconds share = all_turns / static_cast<long>(waiting_.size());
-  return Clock::now() - since > std::clamp<std::chrono::milliseconds>(share, shortest_turn, longest_turn);
+  return cpu_seconds > std::clamp(all_turns / static_cast<double>(waiting_.size()), shortest_turn, longest_turn);
 }
 
 bool Pool::step_aside(Worker& worker) {
@@ -84,7 +91,7 @@ void Pool::release(std::unique_ptr<Worker> worker, bool sound) {
   if (!sound || was_aside) worker.reset();
   if (!was_aside && !worker) {
     try {
-      worker = std::make_unique<Worker>(limits_);
+      worker = std::make_unique<Worker>(limits_, folder_);
     } catch (const std::system_error&) {  // the next one that wants it tries again
     }
   }

@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <functional>
+#include <thread>
 
 #include "tools/serve/connection.hpp"
 
@@ -13,18 +15,37 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t threads = 400;   // as many connections at once
-constexpr int waiting = 512;           // as many more
+constexpr int most_waiting = 512;      // as many more are accepted, and as many wait to be
 constexpr auto idle = 100ms;           // after which a thread looks whether the server is to end
-constexpr int idle_times = 50;         // for so long a connection may stay open without a request
+constexpr int idle_times = 50;         // for so long a connection may stay open without a request, if no other waits
 constexpr auto request_time = 10s;     // that a request may take to come
+constexpr auto hurried_time = 1s;      // the same while other connections wait
 constexpr int most_requests = 1000;    // on one connection
 
 thread_local bool ends = false;
 
+/// Threads that serve connections. While too many connections wait for a thread, no more are accepted.
+class Crew final : public httplib::ThreadPool {
+ public:
+  explicit Crew(std::atomic<int>& waiting) : ThreadPool(threads), waiting_(waiting) {}
+
+  void enqueue(std::function<void()> serve) override {
+    while (waiting_ >= most_waiting) std::this_thread::sleep_for(idle);
+    ++waiting_;
+    ThreadPool::enqueue([this, serve = std::move(serve)] {
+      --waiting_;
+      serve();
+    });
+  }
+
+ private:
+  std::atomic<int>& waiting_;
+};
+
 }  // namespace
 
 Server::Server() {
-  new_task_queue = [] { return new httplib::ThreadPool(threads); };
+  new_task_queue = [this] { return new Crew(waiting_); };
   // A port that another server has is not shared with it.
   set_socket_options([](int socket) {
     const int on = 1;
@@ -35,7 +56,7 @@ Server::Server() {
 int Server::bind(const std::string& host, int port) {
   const int bound = port == 0 ? bind_to_any_port(host) : bind_to_port(host, port) ? port : -1;
   // The library lets no more than five wait.
-  if (bound > 0 && ::listen(svr_sock_, waiting) != 0) return -1;
+  if (bound > 0 && ::listen(svr_sock_, most_waiting) != 0) return -1;
   return bound;
 }
 
@@ -47,9 +68,10 @@ bool Server::process_and_close_socket(int socket) {
   Connection connection(socket);
   for (int k = 0; k < most_requests; ++k) {
     int waited = 0;
-    while (svr_sock_ != INVALID_SOCKET && waited < idle_times && !connection.wait_for_request(idle)) ++waited;
-    if (svr_sock_ == INVALID_SOCKET || waited == idle_times) break;
-    connection.begin_request(request_time, most_bytes);
+    const auto patience = [this] { return waiting_ > 0 ? 1 : idle_times; };
+    while (svr_sock_ != INVALID_SOCKET && waited < patience() && !connection.wait_for_request(idle)) ++waited;
+    if (svr_sock_ == INVALID_SOCKET || waited >= patience()) break;
+    connection.begin_request(waiting_ > 0 ? hurried_time : request_time, most_bytes);
     bool closed = false;
     ends = false;
     if (!process_request(connection, k + 1 == most_requests, closed, nullptr) || closed || ends) break;

@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 
+#include <atomic>
 #include <cstddef>
 
 namespace rheonet::serve {
@@ -19,6 +20,8 @@ class Server final : public httplib::Server {
 
  private:
   bool process_and_close_socket(int socket) override;
+
+  std::atomic<int> waiting_ = 0;  ///< connections that no thread serves yet
 };
 
 }  // namespace rheonet::serve

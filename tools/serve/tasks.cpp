@@ -21,6 +21,7 @@
 #include "tools/rheonet/library.hpp"
 #include "tools/rheonet/plot_source.hpp"
 #include "tools/rheonet/reading.hpp"
+#include "tools/serve/below.hpp"
 #include "tools/serve/worker.hpp"
 
 namespace rheonet::serve {
@@ -36,7 +37,7 @@ void tell(const std::string& message) {
   std::fflush(stdout);
 }
 
-/// A netlist that was sent, or is in the folder.
+/// A netlist that was sent. Its folder is relative to the served folder.
 struct Sent {
   std::string text, file, folder;
 };
@@ -45,11 +46,20 @@ Sent sent(const json& item) {
   return {item.at("text").get<std::string>(), item.at("file").get<std::string>(), item.at("folder").get<std::string>()};
 }
 
+/// The sources of included files and tables: the served folder, which the server has opened, and the library.
+const std::vector<const FileOffer*>& offers() {
+  static const std::vector<const FileOffer*> all = [] {
+    std::vector<const FileOffer*> made{new OfferedFolder(Descriptor(folder_descriptor))};
+    for (const std::filesystem::path& library : tool::library_folders()) made.push_back(new OfferedFolder(library));
+    return made;  // for as long as the process lives
+  }();
+  return all;
+}
+
 ReadResult read(const Sent& item) {
   ReadOptions options;
-  options.model_folders = tool::library_folders();
   options.plotted = true;
-  ReadResult result = tool::read_text(item.text, item.file, item.folder, options);
+  ReadResult result = tool::read_text(item.text, item.file, item.folder, options, offers());
   if (result.scene && result.scene->elements.size() > most_elements) {
     result.diagnostics.push_back({.severity = Severity::error,
                                   .spot = {0, 1, 1},

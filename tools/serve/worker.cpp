@@ -11,6 +11,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <system_error>
 
 extern char** environ;
@@ -35,13 +36,14 @@ int wait_for(pid_t process) {
 
 }  // namespace
 
-Worker::Worker(const Limits& limits) {
+Worker::Worker(const Limits& limits, int folder) {
   const Pipe to, from;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, to.ends[0], STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, from.ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addclosefrom_np(&actions, STDERR_FILENO + 1);
+  posix_spawn_file_actions_adddup2(&actions, folder, folder_descriptor);
+  posix_spawn_file_actions_addclosefrom_np(&actions, folder_descriptor + 1);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   // Ctrl-C is for the server, which ends its workers.
@@ -78,6 +80,13 @@ Worker::Ending Worker::ending() {
     return {false, fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status)))};
   const int code = WEXITSTATUS(status);
   return {code == out_of_memory, fmt::format("exit status {}", code)};
+}
+
+double Worker::cpu_seconds() const {
+  clockid_t clock{};
+  std::timespec time{};
+  if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;  // it has gone
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 void Worker::step_aside() {
@@ -120,6 +129,8 @@ Worker::Answer Worker::take(std::string& message, std::chrono::milliseconds pati
     const ssize_t count = ::read(out_, buffer_.data() + before, piece);
     buffer_.resize(before + static_cast<std::size_t>(count > 0 ? count : 0));
     if (count <= 0) return Answer::gone;
+    // Who waits looks at its size before more comes.
+    if (buffer_.find('\n', searched_) == std::string::npos) return Answer::nothing;
   }
 }
 

@@ -10,7 +10,7 @@ namespace rheonet::serve {
 
 /// What a run may take.
 struct Limits {
-  double seconds;
+  double seconds;  ///< of CPU time
   int megabytes;
 };
 
@@ -18,8 +18,8 @@ struct Limits {
 /// of JSON, and answers with messages, a line each (see tools/report/messages.hpp); an empty line ends them.
 class Worker {
  public:
-  /// Starts one; throws std::system_error.
-  explicit Worker(const Limits& limits);
+  /// Starts one, which gets the open folder `folder` to read from; throws std::system_error.
+  Worker(const Limits& limits, int folder);
   /// Kills it.
   ~Worker();
   Worker(const Worker&) = delete;
@@ -31,6 +31,10 @@ class Worker {
   enum class Answer { message, end, nothing, gone };
   /// Waits a while for the next message.
   Answer take(std::string& message, std::chrono::milliseconds patience);
+  /// Bytes of a message that has not come whole yet.
+  std::size_t begun() const { return buffer_.size() - begin_; }
+  /// CPU time that it has used since it began [s]: waiting is free.
+  double cpu_seconds() const;
   /// How it ended that has gone: for want of memory, or as these words say.
   struct Ending {
     bool of_memory;
@@ -54,6 +58,8 @@ class Worker {
 /// The process itself: takes tasks from standard input until there are no more. Its exit status is `out_of_memory` if a task
 /// needs more than it may have.
 constexpr int out_of_memory = 3;
+/// File descriptor of the served folder in that process.
+constexpr int folder_descriptor = 3;
 int work(const Limits& limits);
 
 }  // namespace rheonet::serve

@@ -14,6 +14,8 @@ Asset report_page();       ///< complete but for its data
 Asset playground_page();
 Asset playground_style();
 Asset playground_script();
+Asset token_page();        ///< the answer to a request without the server's token
+Asset notice();            ///< the licences of the packages and fonts in the pages
 
 /// Whether there is any; if not, why not, and how to get it.
 bool are_built();

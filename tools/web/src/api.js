@@ -2,8 +2,23 @@
 
 const asJson = { 'Content-Type': 'application/json' };
 
-async function ask(path, options) {
-  const response = await fetch(path, options).catch((error) => {
+// The token of the address that the server has printed. It leaves the address, which people copy, for the storage of this origin,
+// where the page finds it when it is loaded again; pages of other ports or hosts cannot read it there.
+function takeToken() {
+  const key = 'token';
+  const given = new URLSearchParams(location.search).get(key);
+  try {
+    if (given) localStorage.setItem(key, given);
+    if (given) history.replaceState(history.state, '', location.pathname + location.hash);
+    return given ?? localStorage.getItem(key) ?? '';
+  } catch {
+    return given ?? ''; // without storage it stays in the address
+  }
+}
+const token = takeToken();
+
+async function ask(path, options = {}) {
+  const response = await fetch(path, { ...options, headers: { ...options.headers, Authorization: `Bearer ${token}` } }).catch((error) => {
     if (error.name === 'AbortError') throw error;
     throw new Error('the server does not answer: is `rheonet serve` still running?');
   });

@@ -8,6 +8,12 @@ const byName = (a, b) => words.compare(a.title || a.file, b.title || b.file) || 
 // In the order in which the page of their folder tells of them; what it leaves out comes last.
 const inOrder = (a, b) => (a.place ?? Infinity) - (b.place ?? Infinity) || byName(a, b);
 
+// The note below the gallery if the folder has more netlists than it lists.
+function leftOutOf(shown, leftOut, allVisited) {
+  const others = allVisited ? `${leftOut} other .toml files of the folder are` : `${leftOut} or more other .toml files of the folder are`;
+  return `${shown} netlists are listed; ${others} not. To see them, serve a folder with fewer: rheonet serve FOLDER/SUBFOLDER`;
+}
+
 export class Gallery {
   constructor({ onopen }) {
     this.onopen = onopen;
@@ -22,7 +28,7 @@ export class Gallery {
     this.drawn = new IntersectionObserver((items) => items.forEach((item) => item.isIntersecting && this.draw(item.target)), { rootMargin: '100px' });
   }
 
-  show({ scenes }) {
+  show({ scenes, left_out: leftOut, all_visited: allVisited }) {
     const groups = new Map();
     this.names = new Map(); // how many scenes have a title
     for (const scene of scenes) {
@@ -36,6 +42,7 @@ export class Gallery {
     this.list.replaceChildren(...order.map((folder) =>
       element('section', { class: 'card-group' }, folder ? element('h3', {}, folder) : null,
         element('div', { class: 'card-grid' }, groups.get(folder).sort(inOrder).map((scene) => this.card(scene))))));
+    if (leftOut || !allVisited) this.list.append(element('p', { class: 'note' }, leftOutOf(scenes.length, leftOut, allVisited)));
     if (!scenes.length) this.list.append(element('p', { class: 'note' }, 'The folder has no netlists yet: write one in the editor, and save it.'));
   }
 
