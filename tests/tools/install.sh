@@ -10,6 +10,19 @@ trap 'rm -rf "$folder"' EXIT
 
 "$cmake" --install "$build" --prefix "$folder/prefix" >"$folder/install.log"
 
+# The licence of rheonet is installed, and the licences of the packages in the web pages, if these were built.
+documents=$folder/prefix/share/doc/rheonet
+cmp "$source/LICENSE" "$documents/LICENSE"
+if [ -s "$build/tools/web/report.html" ]; then
+  grep -q 'SIL OPEN FONT LICENSE' "$documents/NOTICE"
+  grep -q '"bomFormat": "CycloneDX"' "$documents/sbom.cdx.json"
+  # Each package that is listed has its licence, with a copyright.
+  for package in $(sed -n 's/^ *"name": "\([^"]*\)",$/\1/p' "$documents/sbom.cdx.json" | grep -Ev '^rheonet$|\.woff2$'); do
+    sed -n "/^$(printf %s "$package" | sed 's,/,\\/,g') [0-9.]* (/,/^----/p" "$documents/NOTICE" | grep -iq copyright ||
+      { echo "no licence of $package"; exit 1; }
+  done
+fi
+
 mkdir "$folder/user"
 cd "$folder/user"
 # A model that only the installed library has tells it from that of the source tree.

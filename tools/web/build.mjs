@@ -1,15 +1,19 @@
-// node build.mjs OUTPUT: bundles what the browser gets into OUTPUT, whose node_modules holds the packages.
+// node build.mjs OUTPUT VERSION: bundles what the browser gets into OUTPUT, whose node_modules holds the packages. VERSION is that
+// of rheonet.
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
-import { existsSync, readFileSync, writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
+import { billOfMaterials, fontsOf, notice, packagesOf } from './notices.mjs';
 
 const source = dirname(fileURLToPath(import.meta.url));
 const output = resolve(process.argv[2]);
+const version = process.argv[3];
 const esbuild = createRequire(join(output, 'package.json'))('esbuild');
 
 // Fonts of KaTeX that the equations of the elements need; each is there as woff2, which every browser reads.
 const wanted = /KaTeX_(Main-Regular|Math-Italic|Size[1-4]-Regular)\.woff2$/;
+const fontFiles = new Set();
 const fonts = {
   name: 'fonts',
   setup(build) {
@@ -17,30 +21,15 @@ const fonts = {
       const faces = readFileSync(path, 'utf8').replace(/@font-face\{[^}]*\}/g, (face) => {
         const url = /url\(([^)]*\.woff2)\)/.exec(face)?.[1];
         if (!url || !wanted.test(url)) return '';
-        const data = readFileSync(join(dirname(path), url)).toString('base64');
+        const file = join(dirname(path), url);
+        fontFiles.add(file);
+        const data = readFileSync(file).toString('base64');
         return face.replace(/src:[^;}]*/, `src:url(data:font/woff2;base64,${data}) format("woff2")`);
       });
       return { contents: faces, loader: 'css' };
     });
   },
 };
-
-// The pages hold code of others, whose licences want to be named with it.
-function licences(inputs) {
-  const names = new Set();
-  for (const input of Object.keys(inputs)) {
-    const found = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(input);
-    if (found) names.add(found[1]);
-  }
-  const said = [...names].sort().map((name) => {
-    const folder = join(output, 'node_modules', name);
-    const { version, license } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
-    const text = existsSync(join(folder, 'LICENSE')) ? readFileSync(join(folder, 'LICENSE'), 'utf8') : '';
-    const holder = /^.*copyright.*$/im.exec(text)?.[0].trim() ?? '';
-    return `${name} ${version} (${license}) ${holder}`.trim();
-  });
-  return `/* With parts of:\n${said.map((line) => `   ${line}`).join('\n')}\n   The licences are those of these packages. */\n`;
-}
 
 async function bundle(entry) {
   const result = await esbuild.build({
@@ -58,21 +47,43 @@ async function bundle(entry) {
     plugins: [fonts],
   });
   const text = (ending) => result.outputFiles.find((file) => file.path.endsWith(ending)).text;
-  return { script: licences(result.metafile.inputs) + text('.js'), style: text('.css') };
+  return { script: text('.js'), style: text('.css'), packages: packagesOf(Object.keys(result.metafile.inputs), output) };
 }
 
+// Which packages a script holds; the texts of their licences stand beside it.
+const credits = (packages, where) =>
+  `/* With parts of ${packages.map(({ name, version: of, license }) => `${name} ${of} (${license})`).join(', ')}.\n   Their licences: ${where} */\n`;
+
 const page = (name) => readFileSync(join(source, 'src', name), 'utf8');
-const put = (text, mark, by) => {
-  if (!text.includes(mark)) throw new Error(`${mark} is missing`);
-  return text.split(mark).join(by);
-};
+const write = (name, text) => writeFileSync(join(output, name), text);
+const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
+
+// The page with its marks replaced, which come in this order. They are looked for in the page alone: a text that looks like a
+// mark stays what it is.
+function filled(text, fillings) {
+  let result = '';
+  for (const [mark, by] of fillings) {
+    const at = text.indexOf(mark);
+    if (at < 0) throw new Error(`${mark} is missing`);
+    result += text.slice(0, at) + by;
+    text = text.slice(at + mark.length);
+  }
+  return result + text;
+}
+
+const report = await bundle('report.js');
+const playground = await bundle('playground.js');
+const embedded = fontsOf([...fontFiles].sort(), join(source, 'licences/OFL-1.1.txt'));
 
 // One file that needs no other: what ends a script element must not stand in it.
-const report = await bundle('report.js');
-const inline = put(put(page('report.html'), '/* style */', report.style), '/* script */', report.script.replaceAll('</script', '<\\/script'));
-writeFileSync(join(output, 'report.html'), inline);
+const script = credits(report.packages, 'at the end of this page') + report.script.replaceAll('</script', '<\\/script');
+write('report.html', filled(page('report.html'), [['/* style */', report.style], ['<!-- licences -->', escaped(notice(report.packages, embedded))], ['/* script */', script]]));
 
-const playground = await bundle('playground.js');
-writeFileSync(join(output, 'playground.html'), page('playground.html'));
-writeFileSync(join(output, 'playground.css'), playground.style);
-writeFileSync(join(output, 'playground.js'), playground.script);
+write('playground.html', page('playground.html'));
+write('playground.css', playground.style);
+write('playground.js', credits(playground.packages, '/licences.txt') + playground.script);
+write('token.html', page('token.html'));
+
+const all = [...new Map([...report.packages, ...playground.packages].map((each) => [each.name, each])).values()].sort((a, b) => (a.name < b.name ? -1 : 1));
+write('NOTICE', notice(all, embedded));
+write('sbom.cdx.json', billOfMaterials(version, all, embedded));

@@ -7,6 +7,7 @@ export function helpDialog() {
   const dialog = element('dialog', { class: 'help', 'aria-labelledby': 'help-title' },
     element('div', { class: 'dialog-head' }, element('h2', { id: 'help-title' }, 'Help'), element('button', { type: 'button', onclick: () => dialog.close(), 'aria-label': 'Close' }, '✕')),
     element('p', {}, 'Choose a netlist in the gallery. Turn a slider, or change the text: schematic and plots follow. Compare keeps the netlist as A and lets you change B. A link carries the whole scene.'),
-    element('dl', {}, keys.map(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])));
+    element('dl', {}, keys.map(([key, does]) => [element('dt', {}, element('kbd', {}, key)), element('dd', {}, does)])),
+    element('p', {}, element('a', { href: '/licences.txt', target: '_blank' }, 'Licences'), ' of the software and the fonts in this page'));
   return dialog;
 }
