@@ -63,8 +63,9 @@ void BlockSignals::find_dependence() {
   find_slopes(false, delay_slope_, slope_, rate_slope_);
 }
 
-double BlockSignals::enter(double t) {
-  double next = std::numeric_limits<double>::infinity();
+TimePoint BlockSignals::enter(TimePoint now) {
+  const double t = now.t;
+  TimePoint next = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < generated_.size(); ++k) {
     const Blocks::Block& block = blocks_->blocks[k];
     if (!block.generates) continue;
@@ -72,7 +73,7 @@ double BlockSignals::enter(double t) {
     while (stretches.size() > 1 && stretches[1].t < t - reach_) stretches.pop_front();
     if (!stretches.empty() && stretches.back().t >= t) stretches.pop_back();
     stretches.push_back({t, block.signal.piece(t), false, 0});
-    next = std::min(next, stretches.back().piece.end);
+    next = std::min(next, exact_end(block.signal, t));
   }
   return next;
 }
@@ -109,14 +110,15 @@ Dual BlockSignals::motion_at(const Blocks::Sensor& sensor, const Stretch& s, dou
                        : Dual(s.anchor + s.piece.integral(s.t, t), s.piece.value(t));
 }
 
-void BlockSignals::evaluate_time(double t, const Past& past) {
+void BlockSignals::evaluate_time(TimePoint now, const Past& past) {
+  const double t = now.t;
   now_ = t;
   aside_ = past.aside(t);
   for (std::size_t k = 0; k < out_.size(); ++k) {
     const Blocks::Block& block = blocks_->blocks[k];
     if (block.generates) {
       const Piece& piece = generated_[k].back().piece;
-      out_[k] = Dual(piece.value(t), piece.rate(t));
+      out_[k] = Dual(value(piece, now), piece.rate(t));
     } else if (block.law.delay > 0) {
       Look look{past, now_, aside_};
       out_[k] = earlier(static_cast<int>(k), t, look);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/dae/past.hpp"
+#include "core/netlist/time_point.hpp"
 #include "core/network/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
@@ -39,13 +40,13 @@ class BlockSignals {
 
   // --- Functions of time.
   /// Generators go over to the stretches that begin at t. Returns when the next of them ends [s].
-  double enter(double t);
+  TimePoint enter(TimePoint t);
   /// A prescribed motion goes along `piece` from t on: its velocity, or position; `position` is where it is then [m].
   void follow(int motion, double t, const Piece& piece, bool by_position, double position);
   struct Generator { int element; const Signal* signal; const Piece* piece; };
   std::vector<Generator> generators() const;
   /// What generators and delays put out at t, and what sensors tell of prescribed motions, with rates.
-  void evaluate_time(double t, const Past& past);
+  void evaluate_time(TimePoint t, const Past& past);
   /// What delays shorter than the time since the last step put out follows from the present too: anew, with the states
   /// and what sensors tell now. After `evaluate_time`, with the same `past`.
   void look_back(const Past& past);

@@ -31,7 +31,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   for (const Structure::Group& g : structure.groups) group_row_.push_back(g.tie < 0 ? ip_[at(g.tree_branch)] : -1);
 
   offset_.assign(nd, 0);
-  drive_offset_ = offset_;
+  driven_from_ = offset_;
   slip_force_.assign(network.sliders.size(), 0);
   slider_shift_ = slip_force_;
   view_.slider_velocity = view_.slider_force = slip_force_;
@@ -225,7 +225,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     if (ip_[j] >= 0) {
       y[at(ip_[j])] = state.p[j];
     } else {
-      drive_offset_[j] = known_position(b.a) - known_position(b.b) - state.p[j];
+      driven_from_[j] = state.p[j] - known_way(b, t);
     }
   }
   const std::vector<double> place = places(state);

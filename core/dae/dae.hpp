@@ -88,6 +88,10 @@ class Dae {
   };
   const View& view(double t, const double* y, const double* yp);
   /// The same where the laws have not changed since the last view, and neither has what these pointers lead to for this time.
+  /// See Drive::refine.
+  void refine(TimePoint t) {
+    if (drive_->refine(t)) viewed_ = {};
+  }
   const View& view_again(double t, const double* y, const double* yp) {
     const Viewed& last = viewed_;
     return last.y == y && last.yp == yp && last.t == t ? view_ : view(t, y, yp);
@@ -253,7 +257,7 @@ class Dae {
   std::vector<double> places(const State& state) const;
   void set_rate_forms();
   void stiffen_resting_laws();
-  double known_position(NodeId node) const;
+  double known_way(const Branch& ends, double t) const;
 
   const Network* network_;
   const Structure* structure_;
@@ -290,7 +294,7 @@ class Dae {
   std::vector<Scatter> scatter_;
 
   std::vector<double> offset_;  ///< displacement less deflection of each deflection branch that does not creep
-  std::vector<double> drive_offset_;   ///< the same of driven ones, between the nodes that stand for their ends
+  std::vector<double> driven_from_;    ///< of driven ones, their deflection at the last `enter` or `mark` of the drive [m]
   std::vector<double> slider_shift_;   ///< displacement of each slider that sticks
   std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
   std::vector<char> by_force_;         ///< of each rate branch: the form in which these equations need its law

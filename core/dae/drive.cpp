@@ -25,9 +25,8 @@ Drive::Drive(const Network& network, const Structure& classified, double start, 
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
-    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}};
+    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}, .anchor_time = start};
     moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
-    motion.anchor_time = start;
     motion.anchor = positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests where it was before the run.
     motion.piece.level = m.position ? motion.anchor : 0;
@@ -43,38 +42,52 @@ Drive::Drive(const Network& network, const Structure& classified, double start, 
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
-double Drive::position_of(const Motion& m, double t) const {
-  return m.by_position ? m.piece.value(t) : m.anchor + m.piece.integral(m.anchor_time, t);
+double Drive::position_of(const Motion& m, TimePoint t) const {
+  return m.by_position ? value(m.piece, t) : m.anchor + integral(m.piece, m.anchor_time, t);
+}
+
+double Drive::way(int number, double t) const {
+  const Motion& m = motions_[static_cast<std::size_t>(number)];
+  return m.by_position ? change(m.piece, since_, exact(t)) : integral(m.piece, since_, exact(t));
+}
+
+bool Drive::refine(TimePoint t) {
+  if (t == exact_) return false;
+  exact_ = t;
+  time_ = std::numeric_limits<double>::quiet_NaN();
+  return true;
 }
 
 void Drive::enter(double t) {
   // An instant within the present stretches changes none of them.
-  const bool fresh = t >= next_break_;
+  const bool fresh = t >= next_break_.t;
+  const TimePoint now = exact(t);
   if (fresh) searches_.clear();
   next_break_ = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     Motion& m = motions_[i];
     if (m.block >= 0) continue;
-    const double before = position_of(m, t), rounding = m.piece.rounding(t);
+    const double before = position_of(m, now), rounding = m.piece.rounding(t);
     m.anchor = before;
-    m.anchor_time = t;
+    m.anchor_time = now;
     m.piece = m.signal.piece(t);
-    const double step = position_of(m, t) - before;
+    const double step = position_of(m, now) - before;
     // A corner of a position signal leaves a difference of rounding, which is no step.
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
-    next_break_ = std::min(next_break_, m.piece.end);
+    next_break_ = std::min(next_break_, exact_end(m.signal, t));
     past_.follow(i, t, m.piece, m.by_position);
     blocks_.follow(static_cast<int>(i), t, m.piece, m.by_position, m.anchor);
   }
-  next_break_ = std::min(next_break_, blocks_.enter(t));
+  next_break_ = std::min(next_break_, blocks_.enter(now));
   for (Force& f : forces_) {
     f.piece = f.signal.piece(t);
-    next_break_ = std::min(next_break_, f.piece.end);
+    next_break_ = std::min(next_break_, exact_end(f.signal, t));
   }
   mark(t, fresh);
 }
 
 void Drive::mark(double t, bool fresh) {
+  since_ = exact(t);
   past_.mark(t, fresh || (!blocks_.delays().empty() && t > 0 && blocks_.breaks(t, past_)));
   time_ = std::numeric_limits<double>::quiet_NaN();
 }
@@ -100,16 +113,17 @@ std::vector<Drive::Break> Drive::breaks(double t) const {
 void Drive::evaluate(double t) {
   if (t == time_) return;
   time_ = t;
+  const TimePoint now = exact(t);
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& m = motions_[i];
     if (m.block >= 0) continue;
-    position[i] = position_of(m, t);
-    velocity[i] = m.by_position ? m.piece.rate(t) : m.piece.value(t);
+    position[i] = position_of(m, now);
     acceleration[i] = m.by_position ? m.piece.curvature(t) : m.piece.rate(t);
+    velocity[i] = (m.by_position ? m.piece.rate(t) : m.piece.value(t)) + acceleration[i] * now.rest;
   }
   for (std::size_t i = 0; i < forces_.size(); ++i) {
-    force[i] = forces_[i].piece.value(t);
     force_rate[i] = forces_[i].piece.rate(t);
+    force[i] = forces_[i].piece.value(t) + force_rate[i] * now.rest;
   }
   for (std::size_t k = 0; k < felt.size(); ++k) {
     const Past::Felt f = past_.felt(k, t);
@@ -122,10 +136,10 @@ void Drive::evaluate(double t) {
 void Drive::look_ahead(double t) {
   const std::size_t states = blocks_.states();
   for (std::size_t k = 0; k < base_.size(); ++k) {
-    const Dual there(base_[k].value + base_[k].derivative * (t - sensed_at_), base_[k].derivative);
+    const Dual there(base_[k].value + base_[k].derivative * exact(t).since(sensed_at_), base_[k].derivative);
     (k < states ? blocks_.state[k] : blocks_.sensed[k - states]) = there;
   }
-  blocks_.evaluate_time(t, past_);
+  blocks_.evaluate_time(exact(t), past_);
   for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
     if (sensor.what != Blocks::Sensor::What::force) continue;
@@ -189,7 +203,7 @@ void Drive::sense(double t, const State& state) {
     time_ = std::numeric_limits<double>::quiet_NaN();
     evaluate(t);
   };
-  sensed_at_ = t;
+  sensed_at_ = exact(t);
   sense_network(state);
   anew();
   for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k].derivative = blocks_.rate(k);

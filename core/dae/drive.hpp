@@ -9,6 +9,7 @@
 #include "core/dae/block_signals.hpp"
 #include "core/dae/past.hpp"
 #include "core/dae/state.hpp"
+#include "core/netlist/time_point.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
@@ -25,9 +26,15 @@ class Drive {
   void enter(double t);
   /// The next instant at which a signal or one of its derivatives jumps, or such an instant comes through a delay; infinite
   /// if none does.
-  double next_break() const { return std::min(next_break_, past_.next_break()); }
+  double next_break() const { return std::min(next_break_.t, past_.next_break()); }
   /// The same without what comes through delays.
-  double next_signal_break() const { return next_break_; }
+  double next_signal_break() const { return next_break_.t; }
+  /// `t` to all digits that are known of it, if it is the next break.
+  TimePoint exact_break(double t) const { return t == next_break_.t ? next_break_ : TimePoint(t); }
+  /// From here on its double stands for this time, until there is another one. Whether that changes anything.
+  bool refine(TimePoint t);
+  /// What a double stands for.
+  TimePoint exact(double t) const { return t == exact_.t ? exact_ : TimePoint(t); }
   /// What breaks at t = next_break(), to be asked before `enter`: whether the signal of this element itself jumps there or
   /// only a derivative, and to which side it or its slope goes (0: neither).
   struct Break { int element; bool jumps; int direction; };
@@ -38,8 +45,9 @@ class Drive {
   /// Evaluates all at time t (remembered: a second call at the same t costs nothing).
   void evaluate(double t);
 
-  /// Position at t of motion number `m` of the network, on its present stretch [m].
-  double position_at(int m, double t) const { return position_of(motions_[static_cast<std::size_t>(m)], t); }
+  /// How far motion number `m` of the network goes from the last `enter` or `mark` until t, without steps [m]: to the digits of
+  /// that way, wherever it is by then.
+  double way(int m, double t) const;
 
   /// Gives blocks the state of the network at t; limiters go to where that puts them. From there on `evaluate` looks ahead:
   /// what is no function of time alone goes on at its present rate (velocities stay). Without blocks just `evaluate`.
@@ -90,15 +98,16 @@ class Drive {
     Signal signal;
     bool by_position;
     Piece piece;
-    double anchor_time = 0, anchor = 0;  ///< position at a time, from which a velocity is integrated
+    TimePoint anchor_time;
+    double anchor = 0;  ///< position at a time, from which a velocity is integrated
   };
   struct Force { int element; Signal signal; Piece piece; };
-  double position_of(const Motion& m, double t) const;
+  double position_of(const Motion& m, TimePoint t) const;
   void mark(double t, bool fresh);
   void look_ahead(double t);
   void sense_network(const State& state);
   const Network* network_;
-  double sensed_at_ = 0;                 ///< s
+  TimePoint sensed_at_;                  ///< s
   std::vector<Dual> base_;               ///< states and what sensors told then, with their rates
   struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
   Flow flow(int a, int b, double t, double limit) const;
@@ -109,7 +118,9 @@ class Drive {
   std::vector<Force> forces_;
   std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present stretches
   std::vector<double> steps_;
-  double next_break_ = 0;  ///< of the signals
+  TimePoint next_break_;  ///< of the signals
+  TimePoint exact_;       ///< see refine
+  TimePoint since_;       ///< the last `enter` or `mark`
   double stop_;            ///< of the run [s]
   bool moves_by_blocks_;
   BlockSignals blocks_;

@@ -6,9 +6,14 @@
 
 namespace rheonet {
 
-double Dae::known_position(NodeId node) const {
-  const int motion = structure_->motion[at(node)];
-  return motion < 0 ? 0 : drive_->position[at(motion)];
+/// How far prescribed motions take the ends of a branch apart from the last event on. Positions may be large beside a deflection,
+/// which their difference would round.
+double Dae::known_way(const Branch& ends, double t) const {
+  const auto way = [&](NodeId node) {
+    const int motion = structure_->motion[at(node)];
+    return motion < 0 ? 0 : drive_->way(motion, t);
+  };
+  return way(ends.a) - way(ends.b);
 }
 
 /// Velocities, deflections, and what the rate laws are evaluated with.
@@ -26,7 +31,7 @@ void Dae::gather(double t, const double* y) {
   }
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     const Branch& b = structure_->deflections[j];
-    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : known_position(b.a) - known_position(b.b) - drive_offset_[j];
+    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : driven_from_[j] + known_way(b, t);
   }
   for (std::size_t r = 0; r < if_.size(); ++r) {
     const Branch& b = structure_->rates[r];

@@ -109,12 +109,7 @@ void Dae::view_velocities(const double* yp) {
 }
 
 double Dae::driven_deflection(int branch, double t) const {
-  const auto position = [&](NodeId node) {
-    const int motion = structure_->motion[at(node)];
-    return motion < 0 ? 0 : drive_->position_at(motion, t);
-  };
-  const Branch& b = structure_->deflections[at(branch)];
-  return position(b.a) - position(b.b) - drive_offset_[at(branch)];
+  return driven_from_[at(branch)] + known_way(structure_->deflections[at(branch)], t);
 }
 
 Dae::Balance Dae::balance(const Structure::Tie& tie) const {

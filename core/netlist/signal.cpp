@@ -17,28 +17,40 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
-Piece constant(double level, double end = endless) {
-  Piece piece;
+/// A piece, and what its end is rounded by [s].
+struct Stretch : Piece {
+  double end_rest = 0;
+};
+
+Stretch constant(double level, TimePoint end = endless) {
+  Stretch piece;
   piece.level = level;
-  piece.end = end;
+  piece.end = end.t;
+  piece.end_rest = end.rest;
   return piece;
 }
 
 /// A breakpoint after t, whatever rounding did to it.
-double after(double t, double end) { return end > t ? end : std::nextafter(t, endless); }
+TimePoint after(double t, TimePoint end) { return end.t > t ? end : std::nextafter(t, endless); }
 
-/// The largest k >= first with edge(k) <= t, for edges that do not decrease and edge(first) <= t. `guess` is near it.
+/// time + number/frequency, to the digits of a time point.
+TimePoint edge_at(double time, double number, double frequency) {
+  const double length = number / frequency;
+  return std::isfinite(length) ? TimePoint(time, length) + std::fma(-length, frequency, number) / frequency : TimePoint(time + length);
+}
+
+/// The largest k >= first with edge(k) <= t, for edges that do not decrease and edge(first).t <= t. `guess` is near it.
 template <typename Edge>
 std::int64_t last_edge(double t, double guess, std::int64_t first, const Edge& edge) {
   constexpr double most = 4e18;  // within int64
   std::int64_t low = std::max(first, static_cast<std::int64_t>(std::clamp(guess, -most, most)));
   std::int64_t step = 1;
-  for (; low > first && edge(low) > t; step *= 2) low = std::max(first, low - step);
+  for (; low > first && edge(low).t > t; step *= 2) low = std::max(first, low - step);
   std::int64_t high = low + 1;
-  for (step = 1; edge(high) <= t && high < static_cast<std::int64_t>(most); step *= 2) low = high, high += step;
+  for (step = 1; edge(high).t <= t && high < static_cast<std::int64_t>(most); step *= 2) low = high, high += step;
   while (high - low > 1) {
     const std::int64_t middle = low + (high - low) / 2;
-    (edge(middle) <= t ? low : high) = middle;
+    (edge(middle).t <= t ? low : high) = middle;
   }
   return low;
 }
@@ -58,25 +70,25 @@ struct HalfPeriod {
   bool even;        ///< number of the event at its beginning
   double fraction;  ///< of the half period that is over at `origin`
   double origin;
-  double end;
+  TimePoint end;
 };
 
 HalfPeriod half_period(double t, double frequency, double phase, double time, double shift) {
   const double start = half_turns(phase) - shift;  // in half periods
   const double first = std::floor(start);
   if (frequency == 0) return {std::fmod(first, 2) == 0, start - first, time, endless};
-  const auto edge = [&](std::int64_t k) { return time + (static_cast<double>(k) - start) / (2 * frequency); };
+  const auto edge = [&](std::int64_t k) { return edge_at(time, static_cast<double>(k) - start, 2 * frequency); };
   const auto k = last_edge(t, std::floor(2 * frequency * (t - time) + start), static_cast<std::int64_t>(first), edge);
   // The first stretch is cut by the start, and reckoned from there.
-  const bool cut = edge(k) < time;
-  return {k % 2 == 0, cut ? start - static_cast<double>(k) : 0, cut ? time : edge(k), after(t, edge(k + 1))};
+  const bool cut = edge(k).t < time;
+  return {k % 2 == 0, cut ? start - static_cast<double>(k) : 0, cut ? time : edge(k).t, after(t, edge(k + 1))};
 }
 
 /// amplitude sin(2 pi frequency (t - time) + phase), with its origin at the last full period before t: the angle is
 /// then small, and as exact as t is.
-Piece sine(double t, double amplitude, double frequency, double phase, double time, double offset) {
+Stretch sine(double t, double amplitude, double frequency, double phase, double time, double offset) {
   const double full = std::floor(frequency * (t - time));
-  Piece piece;
+  Stretch piece;
   piece.level = offset;
   piece.amplitude = amplitude;
   piece.omega = 2 * pi * frequency;
@@ -95,47 +107,47 @@ Piece sine(double t, double amplitude, double frequency, double phase, double ti
 struct PieceAt {
   double t;
 
-  Piece operator()(const Signal::Constant& s) const { return constant(s.value); }
+  Stretch operator()(const Signal::Constant& s) const { return constant(s.value); }
 
-  Piece operator()(const Signal::Step& s) const {
+  Stretch operator()(const Signal::Step& s) const {
     return t < s.time ? constant(s.offset, s.time) : constant(s.offset + s.height);
   }
 
-  Piece operator()(const Signal::Ramp& s) const {
+  Stretch operator()(const Signal::Ramp& s) const {
     if (t < s.time) return constant(s.offset, s.time);
-    Piece piece = constant(s.offset);
+    Stretch piece = constant(s.offset);
     piece.origin = s.time;
     piece.slope = s.slope;
     return piece;
   }
 
-  Piece operator()(const Signal::Sine& s) const {
+  Stretch operator()(const Signal::Sine& s) const {
     if (t < s.time) return constant(s.offset, s.time);
     return sine(t, s.amplitude, s.frequency, s.phase, s.time, s.offset);
   }
 
-  Piece operator()(const Signal::Square& s) const {
+  Stretch operator()(const Signal::Square& s) const {
     if (t < s.time) return constant(s.offset, s.time);
     const HalfPeriod half = half_period(t, s.frequency, s.phase, s.time, 0);
     return constant(s.offset + (half.even ? s.amplitude : -s.amplitude), half.end);
   }
 
-  Piece operator()(const Signal::Triangle& s) const {
+  Stretch operator()(const Signal::Triangle& s) const {
     if (t < s.time) return constant(s.offset, s.time);
     // Corners are at pi/2 (the top, where it begins to fall), 3 pi/2, ...
     const HalfPeriod half = half_period(t, s.frequency, s.phase, s.time, 0.5);
     const double top = half.even ? s.amplitude : -s.amplitude;
-    Piece piece = constant(s.offset + top * (1 - 2 * half.fraction), half.end);
+    Stretch piece = constant(s.offset + top * (1 - 2 * half.fraction), half.end);
     piece.origin = half.origin;
     piece.slope = -4 * top * s.frequency;
     return piece;
   }
 
-  Piece operator()(const Signal::Chirp& s) const {
+  Stretch operator()(const Signal::Chirp& s) const {
     if (t < s.time) return constant(s.offset, s.time);
     const double swept = s.time + s.duration;
     if (t < swept) {
-      Piece piece = sine(s.time, s.amplitude, s.frequency, s.phase, s.time, s.offset);
+      Stretch piece = sine(s.time, s.amplitude, s.frequency, s.phase, s.time, s.offset);
       piece.chirp = 2 * pi * (s.end_frequency - s.frequency) / s.duration;
       piece.end = swept;
       return piece;
@@ -144,31 +156,31 @@ struct PieceAt {
     return sine(t, s.amplitude, s.end_frequency, s.phase + 2 * pi * (turns - std::floor(turns)), swept, s.offset);
   }
 
-  Piece operator()(const Signal::Pulse& s) const {
+  Stretch operator()(const Signal::Pulse& s) const {
     if (s.width <= 0) return constant(s.offset);
     if (t < s.time) return constant(s.offset, s.time);
     const double high = s.offset + s.height;
     if (s.frequency > 0 && s.width * s.frequency >= 1) return constant(high);
     const double start = s.frequency > 0 ? half_turns(s.phase) / 2 : 0;  // in periods
     const auto on = [&](std::int64_t k) {
-      return s.frequency > 0 ? s.time + (static_cast<double>(k) - start) / s.frequency : k > 0 ? endless : s.time;
+      return s.frequency > 0 ? edge_at(s.time, static_cast<double>(k) - start, s.frequency) : TimePoint(k > 0 ? endless : s.time);
     };
     const auto k =
         last_edge(t, std::floor(s.frequency * (t - s.time) + start), static_cast<std::int64_t>(std::floor(start)), on);
-    const double off = std::min(on(k) + s.width, on(k + 1));
-    return t < off ? constant(high, off) : constant(s.offset, after(t, on(k + 1)));
+    const TimePoint next = on(k + 1), off = std::min(on(k) + s.width, next);
+    return t < off.t ? constant(high, off) : constant(s.offset, after(t, next));
   }
 
-  Piece operator()(const Signal::Table& s) const {
+  Stretch operator()(const Signal::Table& s) const {
     if (s.times.empty()) return constant(s.offset);
     if (t < s.time) return constant(s.offset, s.time);
     // Compared as breakpoints are reckoned, so that both round alike.
     const auto next = std::upper_bound(s.times.begin(), s.times.end(), t,
                                        [&](double instant, double point) { return instant < s.time + point; });
-    if (next == s.times.begin()) return constant(s.offset + s.values.front(), s.time + *next);
+    if (next == s.times.begin()) return constant(s.offset + s.values.front(), TimePoint(s.time, *next));
     if (next == s.times.end()) return constant(s.offset + s.values.back());
     const auto i = static_cast<std::size_t>(next - s.times.begin());
-    Piece piece = constant(s.offset + s.values[i - 1], s.time + *next);
+    Stretch piece = constant(s.offset + s.values[i - 1], TimePoint(s.time, *next));
     piece.origin = s.time + s.times[i - 1];
     piece.slope = (s.values[i] - s.values[i - 1]) / (s.times[i] - s.times[i - 1]);
     return piece;
@@ -257,6 +269,17 @@ double Piece::rounding(double t) const {
 Signal Signal::seen_from(double start) const { return Signal(std::visit(SeenFrom{start}, *shape_)); }
 
 Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }
+
+TimePoint exact_end(const Signal& signal, double t) {
+  const Stretch piece = std::visit(PieceAt{t}, signal.shape());
+  return {piece.end, piece.end_rest};
+}
+
+double change(const Piece& piece, TimePoint from, TimePoint to) {
+  Piece wave = piece;
+  wave.level = wave.slope = 0;
+  return piece.slope * to.since(from) + (value(wave, to) - value(wave, from));
+}
 
 double Signal::before(double t) const { return piece(std::nextafter(t, -endless)).value(t); }
 

@@ -115,17 +115,30 @@ double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) cons
   return k < sliders_.size() ? slider_function(sliders_[k], view) : limit_function(k - sliders_.size());
 }
 
+/// Nothing holds together what blocks move: it slips as soon as they move it apart.
+bool NetworkEvents::moved_apart(int k) const {
+  const Structure& structure = dae_.structure();
+  const Branch& ends = structure.sliders[at(k)];
+  return ends.a != ends.b && !(structure.of_time[at(ends.a)] && structure.of_time[at(ends.b)]);
+}
+
+/// Of a slider that sticks.
+double NetworkEvents::force_band(int k) const {
+  return dae_.network().sliders[at(k)].law.breakaway * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
+}
+
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
-  const Slip& law = dae_.network().sliders[at(k)].law;
-  if (dae_.structure().stuck[at(k)]) {
-    // Nothing holds together what blocks move: it slips as soon as they move it apart.
-    const Structure& structure = dae_.structure();
-    const Branch& ends = structure.sliders[at(k)];
-    if (ends.a != ends.b && !(structure.of_time[at(ends.a)] && structure.of_time[at(ends.b)]))
-      return tolerances_.slider_noise(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
-    return law.breakaway * (1 + force_rounding) + tolerances_.slip_noise(k) - std::abs(view.slider_force[at(k)]) + margin_[at(k)];
+  if (!dae_.structure().stuck[at(k)]) return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
+  if (moved_apart(k)) {
+    const Branch& ends = dae_.structure().sliders[at(k)];
+    return tolerances_.slider_noise(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
   }
-  return modes_.slider[at(k)] * view.slider_velocity[at(k)] + tolerances_.slider_noise(k) + margin_[at(k)];
+  return dae_.network().sliders[at(k)].law.breakaway - std::abs(view.slider_force[at(k)]) + force_band(k);
+}
+
+double NetworkEvents::band(int k) const {
+  const auto [slider, which] = events_[at(k)];
+  return which == of_slider && dae_.structure().stuck[at(slider)] && !moved_apart(slider) ? force_band(slider) : 0;
 }
 
 void NetworkEvents::report_against_force(double t, int slider) const {

@@ -45,6 +45,7 @@ class NetworkEvents final : public EventFunctions {
 
   int count() const override { return static_cast<int>(events_.size()); }
   void evaluate(double t, const double* y, const double* yp, double* g) override;
+  double band(int k) const override;
   /// The element of the scene that it is of.
   int element(std::size_t k) const;
   const Which& operator[](std::size_t k) const { return events_[k]; }
@@ -82,6 +83,8 @@ class NetworkEvents final : public EventFunctions {
   /// Of the sliders and limits, then of friction at rest.
   double looked_at(std::size_t i, const Dae::View& view) const;
   double slider_function(int slider, const Dae::View& view) const;
+  bool moved_apart(int slider) const;
+  double force_band(int slider) const;
   [[noreturn]] void report_against_force(double t, int slider) const;
   double limit_function(std::size_t limit) const;
   /// Of sliders, then of limits, in the state of the view.

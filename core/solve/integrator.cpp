@@ -43,7 +43,9 @@ struct Integrator::Implementation {
   Newton newton;
   SUNNonlinearSolver solver = nullptr;  // how IDA comes to that
   void* ida = nullptr;
-  double time = 0, previous = 0, stop = 0;
+  /// IDA counts time from the last restart, so that steps and events are as exact as their distance from that, however late it is.
+  TimePoint begin, stop;
+  double time = 0, previous = 0;  ///< from `begin` on [s]
   /// IDA adds up the lengths of its steps, and rounds each sum. Where a step is a small part of the time that it has come to,
   /// and one like the next, that goes astray by half a rounding of the time in every step. What has been lost is kept here,
   /// and time is the sum of both [s].
@@ -52,6 +54,7 @@ struct Integrator::Implementation {
   double reached = 0;       ///< by IDA's sum [s]
   std::vector<int> fired;
   std::vector<double> left, between, right;  // event functions, at both ends of a step and within
+  std::vector<double> band;                  // of each that has fallen in the last step: see EventFunctions
   bool locate = true;
   Statistics past;  // of the stretches before the last restart
   bool started = false;
@@ -91,7 +94,7 @@ struct Integrator::Implementation {
     solver->ops->solve = solve;
     require(IDASetNonlinearSolver(ida, solver), "IDASetNonlinearSolver");
     fired.assign(at(event_functions.count()), 0);
-    for (std::vector<double>* functions : {&left, &between, &right}) functions->assign(fired.size(), 0);
+    for (std::vector<double>* functions : {&left, &between, &right, &band}) functions->assign(fired.size(), 0);
     locate = options.locate_events;
   }
 
@@ -109,6 +112,17 @@ struct Integrator::Implementation {
   /// IDA wants a residual of its own; it comes to `newton` only.
   static int residual(double, N_Vector, N_Vector, N_Vector, void*) { return -1; }
 
+  double length() const { return stop.since(begin); }
+  TimePoint point(double since) const { return since == length() ? stop : begin + since; }
+  /// Time from `begin` to t, which may be rounded, within the last step [s].
+  double since_begin(double t) const { return std::clamp(TimePoint(t).since(begin), previous, time); }
+  /// Tells the equations which time the returned double stands for: they are evaluated there next.
+  double refine(double since) {
+    const TimePoint t = point(since);
+    dae.refine(t);
+    return t.t;
+  }
+
   static int solve(SUNNonlinearSolver solver, N_Vector, N_Vector correction, N_Vector weight, double enough, booleantype, void*) {
     auto& self = *static_cast<Implementation*>(solver->content);
     double t = 0, cj = 0;
@@ -116,7 +130,7 @@ struct Integrator::Implementation {
     void* user;
     require(IDAGetNonlinearSystemData(self.ida, &t, &predicted_y, &predicted_yp, &y, &yp, &r, &cj, &user), "IDAGetNonlinearSystemData");
     self.see_loss(t);
-    const Newton::Step step{t + self.lost_by_step, cj, data(predicted_y), data(predicted_yp), data(y), data(yp)};
+    const Newton::Step step{self.refine(t + self.lost_by_step), cj, data(predicted_y), data(predicted_yp), data(y), data(yp)};
     // Where it does not converge, or comes to a trial value out of a law's range, IDA tries a smaller step.
     return self.newton.solve(step, data(correction), data(weight), enough) ? SUN_NLS_SUCCESS : SUN_NLS_CONV_RECVR;
   }
@@ -139,7 +153,7 @@ struct Integrator::Implementation {
   void keep_time() {
     lost = lost_by_step;
     IDAGetCurrentTime(ida, &reached);
-    require(IDASetStopTime(ida, stop - lost), "IDASetStopTime");
+    require(IDASetStopTime(ida, length() - lost), "IDASetStopTime");
   }
 
   /// After a step. IDA raises the order after a few steps of one length, and makes a step longer whose error is small.
@@ -160,18 +174,22 @@ struct Integrator::Implementation {
     if (held != was_held) require(IDASetEtaFixedStepBounds(ida, 1, held ? none : growth), "IDASetEtaFixedStepBounds");
   }
 
-  void evaluate(std::vector<double>& functions) { event_functions.evaluate(time, y.data(), yp.data(), functions.data()); }
+  void evaluate(std::vector<double>& functions) { event_functions.evaluate(refine(time), y.data(), yp.data(), functions.data()); }
 
   /// y and y' at a time within the last step.
   void go_to(double t) {
     time = t;
+    refine(t);
     require(IDAGetDky(ida, t - lost_by_step, 0, ny), "IDAGetDky");
     require(IDAGetDky(ida, t - lost_by_step, 1, np), "IDAGetDky");
   }
 
   /// Whether the last step has gone over an event, and which. Where events are located it ends at the first of them.
   bool meets_event() {
-    if (fired.empty()) return false;
+    if (fired.empty()) {
+      refine(time);
+      return false;
+    }
     evaluate(right);
     if (locate && falls(right)) go_to_event();
     const auto has_fired = [&](double before, double now) { return now <= 0 && (before > 0 || !locate) ? 1 : 0; };
@@ -191,10 +209,19 @@ struct Integrator::Implementation {
   /// By the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971) 168), with the function that falls
   /// first as a straight line: to just behind the event.
   void go_to_event() {
-    constexpr double grains = 100;  // roundings of the time
+    constexpr double grains = 100;  // roundings of the time since the last restart
     constexpr int most = 60;        // then by halves
     double begin = previous, end = time;
     const double near = grains * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      const double b = left[k] > 0 && right[k] <= 0 ? event_functions.band(static_cast<int>(k)) : 0;
+      band[k] = left[k] > b ? b : 0;
+    }
+    const auto take_bands = [&](std::vector<double>& functions) {
+      for (std::size_t k = 0; k < functions.size(); ++k) functions[k] -= band[k];
+    };
+    take_bands(left);
+    take_bands(right);
     double weight = 1;    // of the functions at the beginning
     int last_moved = 0;   // 1: the end
     for (int round = 0; end - begin > near; ++round) {
@@ -205,6 +232,7 @@ struct Integrator::Implementation {
       const double t = round < most ? end - share * (end - begin) : begin + (end - begin) / 2;
       go_to(std::clamp(t, begin + near / 2, end - near / 2));
       evaluate(between);
+      take_bands(between);
       const int moves = falls(between) ? 1 : -1;
       weight = moves != last_moved ? 1 : moves > 0 ? weight / 2 : 2 * weight;
       last_moved = moves;
@@ -260,19 +288,19 @@ Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<doubl
 
 Integrator::~Integrator() = default;
 
-void Integrator::restart(double t, const std::vector<double>& y, const std::vector<double>& yp, double h, double stop) {
+void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop) {
   Implementation& s = *impl_;
   const Statistics sum = statistics();
   s.past = {sum.steps, sum.rejected, sum.residuals, sum.jacobians, sum.restarts + 1, sum.sparse};
   s.y = y;
   s.yp = yp;
-  s.time = s.previous = t;
+  s.begin = t;
   s.stop = stop;
-  s.lost = s.lost_by_step = 0;
-  s.reached = t;
-  require(IDAReInit(s.ida, t, s.ny, s.np), "IDAReInit");
+  s.time = s.previous = 0;
+  s.lost = s.lost_by_step = s.reached = 0;
+  require(IDAReInit(s.ida, 0, s.ny, s.np), "IDAReInit");
   require(IDASetInitStep(s.ida, h), "IDASetInitStep");
-  require(IDASetStopTime(s.ida, stop), "IDASetStopTime");
+  require(IDASetStopTime(s.ida, s.length()), "IDASetStopTime");
   s.newton.restart();
   if (!s.fired.empty()) s.evaluate(s.left);
   s.started = true;
@@ -283,11 +311,12 @@ Integrator::Outcome Integrator::step() {
   Implementation& s = *impl_;
   s.previous = s.time;
   double reached = s.time;
-  const int flag = IDASolve(s.ida, s.stop, &reached, s.ny, s.np, IDA_ONE_STEP);
+  const int flag = IDASolve(s.ida, s.length(), &reached, s.ny, s.np, IDA_ONE_STEP);
   if (flag == IDA_SUCCESS) s.keep_time();
+  if (flag < 0) s.refine(s.time);
   if (flag >= 0) {
     s.rise();
-    s.time = flag == IDA_TSTOP_RETURN ? s.stop : reached + s.lost;
+    s.time = flag == IDA_TSTOP_RETURN ? s.length() : reached + s.lost;
     if (s.meets_event()) return Outcome::event;
   }
   switch (flag) {
@@ -316,19 +345,19 @@ void Integrator::limit_step(double longest) {
 
 void Integrator::cut(double t, int which) {
   Implementation& s = *impl_;
-  s.go_to(t);
+  s.go_to(s.since_begin(t));
   std::fill(s.fired.begin(), s.fired.end(), 0);
   s.fired[at(which)] = 1;
 }
 
-double Integrator::time() const { return impl_->time; }
-double Integrator::previous_time() const { return impl_->previous; }
+double Integrator::time() const { return impl_->point(impl_->time).t; }
+double Integrator::previous_time() const { return impl_->point(impl_->previous).t; }
 const std::vector<double>& Integrator::y() const { return impl_->y; }
 const std::vector<double>& Integrator::yp() const { return impl_->yp; }
 const std::vector<int>& Integrator::events() const { return impl_->fired; }
 
 void Integrator::interpolate(double t, int derivative, std::vector<double>& out) const {
-  require(IDAGetDky(impl_->ida, t - impl_->lost_by_step, derivative, impl_->nw), "IDAGetDky");
+  require(IDAGetDky(impl_->ida, impl_->since_begin(t) - impl_->lost_by_step, derivative, impl_->nw), "IDAGetDky");
   out = impl_->work;
 }
 

@@ -14,6 +14,9 @@ class EventFunctions {
   virtual ~EventFunctions() = default;
   virtual int count() const = 0;
   virtual void evaluate(double t, const double* y, const double* yp, double* g) = 0;
+  /// Part of function `k` that keeps noise from being an event. If the function was larger at the beginning of a step, its event
+  /// is where it has fallen to this: an event that is always late shifts those after it, and a long run adds that up.
+  virtual double band(int /*k*/) const { return 0; }
 };
 
 /// SUNDIALS IDA: variable-order, variable-step BDF in the form of Hindmarsh et al., ACM TOMS 31 (2005) 363. One step at a
@@ -48,7 +51,7 @@ class Integrator {
   ~Integrator();
 
   /// Starts afresh at t from a consistent state. The first step is h.
-  void restart(double t, const std::vector<double>& y, const std::vector<double>& yp, double h, double stop);
+  void restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop);
   /// No step is longer than this [s]; infinite for no limit.
   void limit_step(double longest);
   Outcome step();

@@ -39,18 +39,8 @@ void Tolerances::find_parts() {
   for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
-/// Something is a function of time, or of an earlier one.
-bool Tolerances::driven() const {
-  const auto changes = [](const Signal& signal) { return !std::holds_alternative<Signal::Constant>(signal.shape()); };
-  const auto by_time = [&](const Network::Force& f) { return f.block < 0 && changes(f.signal); };
-  const auto generates = [&](const Blocks::Block& b) { return b.law.delay > 0 || (b.generates && changes(b.signal)); };
-  return !network_.motions.empty() || dae_->drive().past().any() ||
-         std::any_of(network_.forces.begin(), network_.forces.end(), by_time) ||
-         std::any_of(network_.blocks.blocks.begin(), network_.blocks.blocks.end(), generates);
-}
-
 /// Through dashpots and friction motion follows what moves at once, and jitters as time is rounded. Where there are only
-/// springs it goes by the lengths of steps, and so where sliders end it, but for what comes at its time.
+/// springs it goes by the lengths of steps, and so where sliders end it, but for what comes through delays.
 void Tolerances::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
@@ -60,7 +50,7 @@ void Tolerances::find_jitter() {
     }
   }
   for (const Branch& b : structure.rates) dissipates[at(part_of(b))] = 1;
-  if (!structure.sliders.empty() && driven()) {
+  if (dae_->drive().past().any()) {
     for (const Branch& b : structure.sliders) dissipates[at(part_of(b))] = 1;
   }
   jitters_.assign(quantity_.size(), 1);
@@ -155,9 +145,46 @@ void Tolerances::find_rounding(const Dae::View& view) {
   }
   rounding_at_rest_ = plain_rounding_;
   find_dashpot_rounding(view);
+  if (!block_rounding_.empty()) {
+    stiffness_around_ = loads.stiffness;
+    damping_around_ = loads.damping;
+    find_block_rounding();
+  }
   force_rounding_.assign(structure.kind.size(), 0);
   find_force_rounding(view);
   find_rounding_now(view);
+}
+
+/// A block that makes a force of a position takes in the rounding of that position: a spring made of blocks between two places
+/// far from 0 has the rounding of these places in its force, and the mass that it holds shakes by it.
+void Tolerances::find_block_rounding() {
+  if (block_rounding_.empty()) return;
+  constexpr double eps = 2 * std::numeric_limits<double>::epsilon();
+  const Structure& structure = dae_->structure();
+  BlockSignals& blocks = dae_->drive().blocks();
+  blocks.update_slopes(dae_->drive().past());
+  std::vector<double> rounding(structure.kind.size(), 0), stiffness = stiffness_around_, damping = damping_around_;
+  for (const Network::Force& force : network_.forces) {
+    if (force.block < 0) continue;
+    double sum = 0;
+    for (std::size_t atom = 0; atom < blocks.atoms(); ++atom) {
+      const double slope = std::abs(blocks.slope(force.block, atom));
+      if (slope == 0) continue;
+      const bool state = atom < blocks.states();
+      sum += eps * slope * std::abs((state ? blocks.state[atom] : blocks.sensed[atom - blocks.states()]).value);
+      if (state) continue;
+      const Blocks::Sensor& sensor = network_.blocks.sensors[atom - blocks.states()];
+      if (sensor.what == Blocks::Sensor::What::position) stiffness[at(structure.rigid[at(sensor.index)])] += slope;
+      if (sensor.what == Blocks::Sensor::What::velocity) damping[at(structure.rigid[at(sensor.index)])] += slope;
+    }
+    for (const NodeId end : {force.a, force.b}) {
+      if (end >= 0) rounding[at(structure.rigid[at(end)])] += sum;
+    }
+  }
+  for (std::size_t n = 0; n < rounding.size(); ++n) {
+    const double impedance = std::sqrt(stiffness[n] * structure.mass[n]) + damping[n];
+    block_rounding_[n] = impedance > 0 ? rounding[n] / impedance : 0;
+  }
 }
 
 /// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, at

@@ -341,7 +341,8 @@ class Run {
     system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
     if (settings_.profile) settings_.profile->restart(system_->dae);
     system_->consistency.rest();
-    system_->integrator.restart(t, y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t), until);
+    system_->integrator.restart(drive_.exact(t), y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t),
+                                 drive_.exact_break(until));
   }
 
   double tolerance(double share) const { return std::max(share * settings_.accuracy, Tolerances::least_tolerance); }

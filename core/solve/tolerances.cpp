@@ -41,7 +41,10 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what == Blocks::Sensor::What::position) sensed_[at(sensor.index)] = 1;
   }
-  if (!network.blocks.sensors.empty()) block_scale_.assign(nodes, std::numeric_limits<double>::infinity());
+  if (!network.blocks.sensors.empty()) {
+    block_scale_.assign(nodes, std::numeric_limits<double>::infinity());
+    block_rounding_.assign(nodes, 0);
+  }
   block_force_seen_.assign(network.forces.size(), 0);
   rested_.assign(network.sliders.size(), 0);
   slid_.assign(network.sliders.size(), 0);
@@ -236,7 +239,10 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(size_[i], std::abs(y[i]));
   find_difference_rounding(view);
   // What blocks push back with may set in long after a restart.
-  if (!network_.blocks.sensors.empty()) find_slider_shares();
+  if (!network_.blocks.sensors.empty()) {
+    find_slider_shares();
+    find_block_rounding();
+  }
   step_ = t - reached_;
   reached_ = t;
   find_dashpot_rounding(view);
@@ -319,9 +325,15 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
     tolerance = std::max({tolerance, value_grains * std::numeric_limits<double>::epsilon() * seen(q),
                           step_ * difference_rounding_[q.index], balance_grains * grain_[i]});
   }
+  if (q.sort == Sort::velocity && !block_rounding_.empty()) {
+    grain_[i] = block_rounding_[q.index];
+    tolerance = std::max(tolerance, grain_[i]);
+  }
   if (q.sort == Sort::velocity && dae_->structure().mass[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
   if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
   if (q.sort == Sort::position) {
+    // A stop far from 0 may give way by no more than roundings of its place.
+    tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * size_[i]);
     // The motion of what hangs on springs and friction comes of theirs, which are rounded.
     tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
@@ -340,7 +352,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Scales largest = find_largest(slope);
   largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
-  find_block_scales(largest[static_cast<std::size_t>(Sort::force)]);
+  find_block_scales(largest[static_cast<std::size_t>(Sort::force)], view);
   const auto least_share = [&](double least, double grains) {
     return std::max(least, grains * std::numeric_limits<double>::epsilon() / local());
   };
@@ -362,8 +374,9 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   find_noise(slope);
 }
 
-/// What the forces allow that blocks make of a position: a stop in the way of what comes from far takes little of that way.
-void Tolerances::find_block_scales(double largest_force) {
+/// What the forces allow that blocks make of a position: a stop in the way of what comes from far takes little of that way. A
+/// mass that has just come to it brings along a force v sqrt(k m).
+void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
   if (network_.blocks.sensors.empty()) return;
   BlockSignals& blocks = dae_->drive().blocks();
   blocks.update_slopes(dae_->drive().past());
@@ -372,11 +385,13 @@ void Tolerances::find_block_scales(double largest_force) {
     const int block = network_.forces[f].block;
     if (block < 0) continue;
     block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->drive().force[f]));
-    const double force = std::max(block_force_seen_[f], floor_of_kind * largest_force);
+    const double seen = std::max(block_force_seen_[f], floor_of_kind * largest_force);
     for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
       const Blocks::Sensor& sensor = network_.blocks.sensors[s];
       if (sensor.what != Blocks::Sensor::What::position) continue;
       const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
+      const NodeId node = dae_->structure().rigid[at(sensor.index)];
+      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae_->structure().mass[at(node)]));
       double& scale = block_scale_[at(sensor.index)];
       if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);
     }

@@ -84,7 +84,7 @@ class Tolerances {
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void see_positions();
   void find_gaps();
-  void find_block_scales(double largest_force);
+  void find_block_scales(double largest_force, const Dae::View& view);
   void see_rest(std::size_t slider, double velocity);
   void find_slider_shares();
   double slider_share(const Quantity& q) const;
@@ -101,11 +101,11 @@ class Tolerances {
   void bear_noise(std::size_t i, double t, double jitter, double largest_velocity);
   void update(double t, const std::vector<double>& yp, const Dae::View& view);
   void find_parts();
-  bool driven() const;
   void find_jitter();
   struct Loads;
   Loads find_loads(const Dae::View& view) const;
   void find_rounding(const Dae::View& view);
+  void find_block_rounding();
   int part_of(const Branch& b) const;
   void loosen_positions();
   void find_longest();
@@ -150,6 +150,9 @@ class Tolerances {
   bool any_rested_ = false;
   std::vector<double> slider_share_;                  ///< of each part: to what share tolerances are tighter for its sliders
   std::vector<double> block_scale_;                   ///< of each node: for the forces that blocks make of its position [m]
+  /// Of each node, where there are sensors: what the rounding of what blocks take in makes of its velocity [m/s], and what
+  /// holds it beside blocks at the last restart [N/m, N s/m].
+  std::vector<double> block_rounding_, stiffness_around_, damping_around_;
   std::vector<double> block_force_seen_;              ///< of each force of the network that a block gives [N]
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
   /// Largest magnitude of everything that can be an unknown; of positions only if some are.
