@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/netlist/fresnel.hpp"
+#include "core/netlist/time_point.hpp"
 
 namespace rheonet {
 
