@@ -111,7 +111,7 @@ void check_reductions(const std::vector<std::string>& names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string hint = did_you_mean(name, known);
     throw WrongCommandLine{fmt::format("`--keep`: there is no reduction `{}`", name),
-                           hint.empty() ? fmt::format("those that there are: {}", fmt::join(known, ", ")) : hint};
+                           hint.empty() ? fmt::format("the reductions are: {}", fmt::join(known, ", ")) : hint};
   }
 }
 
@@ -119,7 +119,7 @@ ExitStatus report_mistake(const WrongCommandLine& mistake, const CLI::App& app) 
   const std::vector<const CLI::App*> commands = app.get_subcommands([](const CLI::App* c) { return c->parsed(); });
   say("error: {}\n", printable(mistake.message));
   if (!mistake.hint.empty()) say("  {}\n", printable(mistake.hint));
-  say("  `rheonet {}--help` lists what there is\n", commands.empty() ? "" : commands.front()->get_name() + " ");
+  say("  `rheonet {}--help` lists the commands and options\n", commands.empty() ? "" : commands.front()->get_name() + " ");
   return wrong_input;
 }
 
@@ -147,26 +147,26 @@ void add_figure(CLI::App* command, Arguments& arguments) {
   command->add_option("-o,--output", arguments.output, "the figure: an .svg or a .png; `-` is an SVG on standard output")
       ->required()
       ->type_name("FILE");
-  command->add_option("-x", plot.x, "what is drawn against; `time` if not given")->type_name("COLUMN");
-  add_list(command, "-y", plot.y, "what is drawn", "COLUMN,...");
-  add_list(command, "--loop", plot.loops, "force against displacement", "ELEMENT,...");
-  add_list(command, "--flow", plot.flows, "force against velocity", "ELEMENT,...");
-  add_list(command, "--phase", plot.phases, "velocity against position", "NODE,...");
+  command->add_option("-x", plot.x, "column for the horizontal axis (default `time`)")->type_name("COLUMN");
+  add_list(command, "-y", plot.y, "columns to draw", "COLUMN,...");
+  add_list(command, "--loop", plot.loops, "force over displacement", "ELEMENT,...");
+  add_list(command, "--flow", plot.flows, "force over velocity", "ELEMENT,...");
+  add_list(command, "--phase", plot.phases, "velocity over position", "NODE,...");
   add_list(command, "--decay", plot.decays, "force over time, logarithmic", "ELEMENT,...");
   command->add_option("--log", plot.log, "logarithmic axes")->type_name("x|y|xy");
-  command->add_flag("--abs", plot.magnitudes, "magnitudes, so that a logarithmic axis has a place for all");
-  command->add_flag("--marks", plot.marks, "a mark at each point");
+  command->add_flag("--abs", plot.magnitudes, "draw magnitudes, for logarithmic axes");
+  command->add_flag("--marks", plot.marks, "mark each point");
   add_list(command, "--unit", plot.units, "units for the axes that have their dimension", "UNIT,...");
-  command->add_option("--domain", arguments.domain, "of CSV files: what their SI units are")
+  command->add_option("--domain", arguments.domain, "domain of CSV files, for their SI units")
       ->check(CLI::IsMember({"translation", "rotation"}))
       ->type_name("translation|rotation");
   command->add_option("--x-range", plot.x_range, "part of the horizontal axis, in its unit")->type_name("LOW:HIGH");
   command->add_option("--y-range", plot.y_range, "part of the vertical axis, in its unit")->type_name("LOW:HIGH");
-  command->add_option("--title", plot.title, "above the figure")->type_name("TEXT");
-  command->add_option("--x-label", plot.x_label, "of the horizontal axis")->type_name("TEXT");
-  command->add_option("--y-label", plot.y_label, "of the vertical axis")->type_name("TEXT");
-  add_list(command, "--name", plot.names, "of a curve, in their order; may be repeated", "TEXT", false);
-  command->add_option("--size", plot.size, "of the figure, in px (96 to the inch)")->type_name("WxH");
+  command->add_option("--title", plot.title, "title of the figure")->type_name("TEXT");
+  command->add_option("--x-label", plot.x_label, "label of the horizontal axis")->type_name("TEXT");
+  command->add_option("--y-label", plot.y_label, "label of the vertical axis")->type_name("TEXT");
+  add_list(command, "--name", plot.names, "name of a curve, in their order; may be repeated", "TEXT", false);
+  command->add_option("--size", plot.size, "size of the figure in px (96 per inch)")->type_name("WxH");
 }
 
 /// The commands and options as CLI11 knows them, and what it reads into. A command has its options where it is called.
@@ -190,15 +190,15 @@ struct CommandLine {
     static const std::array<Command, 13> all{{
         {"run", Name::run, "simulate a scene and write its records as CSV", footer_of_run, &Line::add_run},
         {"check", Name::check, "read and check a scene without simulating it", footer_of_check, &Line::add_check},
-        {"explain", Name::explain, "say what will be simulated of a scene, and why", footer_of_explain, &Line::add_explain},
-        {"effects", Name::effects, "say what each effect of a scene contributes to its records, and what it costs", footer_of_effects, &Line::add_effects},
-        {"compare", Name::compare, "simulate scenes and say how far they are from the first", footer_of_compare, &Line::add_compare},
-        {"precision", Name::precision, "simulate a scene at many accuracies and say what each costs and gives", footer_of_precision, &Line::add_precision},
-        {"sweep", Name::sweep, "simulate a scene for many values, on all processors, into one CSV file", footer_of_sweep, &Line::add_sweep},
-        {"plot", Name::plot, "draw results: curves of scenes and of CSV files", footer_of_plot, &Line::add_plot},
-        {"draw", Name::draw, "draw the network of a scene as an engineer does", footer_of_draw, &Line::add_draw},
-        {"report", Name::report, "write one HTML file that shows scenes and their results", footer_of_report, &Line::add_report},
-        {"serve", Name::serve, "play with netlists in a browser", footer_of_serve, &Line::add_serve},
+        {"explain", Name::explain, "explain what will be simulated, and why", footer_of_explain, &Line::add_explain},
+        {"effects", Name::effects, "measure what each physical effect of a scene contributes and costs", footer_of_effects, &Line::add_effects},
+        {"compare", Name::compare, "simulate scenes and measure how far they are from the first", footer_of_compare, &Line::add_compare},
+        {"precision", Name::precision, "measure error and cost of a scene at many accuracies", footer_of_precision, &Line::add_precision},
+        {"sweep", Name::sweep, "simulate a scene for many parameter values, on all processors, into one CSV file", footer_of_sweep, &Line::add_sweep},
+        {"plot", Name::plot, "draw curves of scenes and of CSV files", footer_of_plot, &Line::add_plot},
+        {"draw", Name::draw, "draw the schematic of a scene", footer_of_draw, &Line::add_draw},
+        {"report", Name::report, "write an HTML page of scenes and their results", footer_of_report, &Line::add_report},
+        {"serve", Name::serve, "open a playground for netlists in the browser", footer_of_serve, &Line::add_serve},
         {"components", Name::components, "describe the element types", "", &Line::add_components},
         {"schema", Name::schema, "print the JSON Schema of a scene, for editors", "", &Line::add_schema},
     }};
@@ -221,109 +221,109 @@ struct CommandLine {
 
   void add_overrides(CLI::App* command) {
     add_list(command, "--set", arguments.overrides,
-             "in place of a value of the scene, named by its path; may be repeated", "PATH=VALUE", false);
-    add_list(command, "--without", arguments.without, "effects that are left out: inertia, or elasticity:oil of one element",
+             "replace the value at this path; may be repeated", "PATH=VALUE", false);
+    add_list(command, "--without", arguments.without, "leave out these effects: inertia, or elasticity:oil for one element",
              "EFFECT,...");
-    add_list(command, "--only", only, "effects that stay; all others are left out; `none`: all", "EFFECT,...");
-    add_list(command, "--keep", arguments.keep, "reductions that are not made, to see what they are worth", "NAME,...");
+    add_list(command, "--only", only, "keep only these effects; `none` leaves out all", "EFFECT,...");
+    add_list(command, "--keep", arguments.keep, "do not make these reductions (see the manual)", "NAME,...");
   }
   void add_scene(CLI::App* command) {
     command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
     add_overrides(command);
   }
   void add_accuracy(CLI::App* command) {
-    command->add_option("--accuracy", accuracy, "error of each recorded quantity relative to its largest magnitude")
+    command->add_option("--accuracy", accuracy, "largest error of each record, relative to its largest magnitude")
         ->type_name("E");
   }
 
   void add_run(CLI::App* run) {
     add_scene(run);
-    run->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
+    run->add_option("-o,--output", arguments.output, "file for the rows; `-`, the default, is standard output")
         ->type_name("FILE");
-    run->add_option("--events", arguments.events, "where a list of what switched goes: time, element, event, direction")
+    run->add_option("--events", arguments.events, "file for the list of events: time, element, event, direction")
         ->type_name("FILE");
-    run->add_option("--plot", arguments.figure, "draw the records as the scene's [plot] says, else over time, once all is done: an .svg or a .png")
+    run->add_option("--plot", arguments.figure, "draw the records (as [plot] says, else over time) into an .svg or a .png")
         ->type_name("FILE");
     add_accuracy(run);
     run->add_flag("--certify", arguments.certify,
-                  "estimate the error of each record by a much tighter run, and tighten until it is as accurate as asked");
-    run->add_flag("--profile", arguments.profile, "say which elements and nodes the steps are spent on");
-    run->add_option("--order", order, "of the integration method, at most: 1 to 5, if not given 5")->type_name("N");
+                  "estimate the error of each record from a tighter run, and tighten until it meets the accuracy");
+    run->add_flag("--profile", arguments.profile, "list the elements and nodes that limit the steps");
+    run->add_option("--order", order, "highest order of the integration method, 1 to 5 (default 5)")->type_name("N");
     run->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
   void add_precision(CLI::App* precision) {
     add_scene(precision);
     add_accuracy(precision);
-    add_list(precision, "--accuracies", accuracies, "those that are tried; each power of ten from 1e-2 to 1e-11 if not given",
+    add_list(precision, "--accuracies", accuracies, "accuracies to try (default: each power of ten from 1e-2 to 1e-11)",
              "E,...");
-    precision->add_option("--runs", runs, "of each accuracy, whose CPU time is taken; 5 if not given")->type_name("N");
-    precision->add_flag("--certified", arguments.certified, "also runs that `run --certify` would hand over, and what it takes to know them as accurate");
-    precision->add_flag("--variants", arguments.variants, "also otherwise than usual: the order of the method limited, events not located, reductions not made, sliders smoothed");
+    precision->add_option("--runs", runs, "timed runs at each accuracy (default 5)")->type_name("N");
+    precision->add_flag("--certified", arguments.certified, "add certified runs: their error, and the cost of the certificate");
+    precision->add_flag("--variants", arguments.variants, "add other methods: lower order, events not located, no reductions, regularised sliders");
     add_list(precision, "--variant", arguments.variant_texts,
-             "also another scene, or this one with other values, `;` between them; errors are those against this scene",
+             "add another scene, or this one with other values separated by `;`; errors are relative to this scene",
              "SCENE.toml|PATH=VALUE", false);
-    add_list(precision, "--pair", arguments.pairs, "what a variant has in place of a record of the scene", "RECORD=RECORD");
-    precision->add_option("-o,--output", arguments.overlay, "where the list goes as CSV; `-` is standard output")
+    add_list(precision, "--pair", arguments.pairs, "a record of the scene and its counterpart in the variant", "RECORD=RECORD");
+    precision->add_option("-o,--output", arguments.overlay, "CSV file for the list; `-` is standard output")
         ->type_name("FILE");
     precision->add_option("--plot", arguments.figure, "draw cost over error: an .svg or a .png")->type_name("FILE");
   }
   void add_sweep(CLI::App* sweep) {
     add_scene(sweep);
     Arguments::Sweep& s = arguments.sweep;
-    add_list(sweep, "--vary", s.vary, "a value that takes many; may be repeated", "PATH=RANGE", false);
-    sweep->add_option("--list", s.list, "a CSV file of values, a run in each row")->type_name("FILE");
-    sweep->add_option("--random", random, "so many points, drawn from the ranges at random")->type_name("N");
-    sweep->add_option("--latin", latin, "so many points, drawn as a Latin hypercube: each range evenly covered")->type_name("N");
-    sweep->add_option("--seed", seed, "of what is drawn: another one draws other points; 1 if not given")->type_name("S");
-    add_list(sweep, "--measure", s.measures, "what is written of a run in place of its rows; may be repeated", "MEASURE", false);
-    sweep->add_option("-o,--output", arguments.output, "where the rows go; `-` is standard output, the default")
+    add_list(sweep, "--vary", s.vary, "vary the value at this path; may be repeated", "PATH=RANGE", false);
+    sweep->add_option("--list", s.list, "CSV file of values, one run per row")->type_name("FILE");
+    sweep->add_option("--random", random, "draw N random points from the ranges")->type_name("N");
+    sweep->add_option("--latin", latin, "draw N points as a Latin hypercube, which covers each range evenly")->type_name("N");
+    sweep->add_option("--seed", seed, "seed of the random points (default 1)")->type_name("S");
+    add_list(sweep, "--measure", s.measures, "write this measure of each run instead of its rows; may be repeated", "MEASURE", false);
+    sweep->add_option("-o,--output", arguments.output, "file for the rows; `-`, the default, is standard output")
         ->type_name("FILE");
     add_accuracy(sweep);
-    sweep->add_option("--jobs", jobs, "runs at a time; as many as there are processors if not given")->type_name("J");
-    sweep->add_flag("--resume", s.resume, "go on where an interrupted sweep into the same file ended");
+    sweep->add_option("--jobs", jobs, "number of parallel runs (default: the number of processors)")->type_name("J");
+    sweep->add_flag("--resume", s.resume, "continue an interrupted sweep into the same file");
     sweep->add_flag("-q,--quiet", arguments.quiet, "no progress bar and no summary");
   }
   void add_check(CLI::App* check) {
     add_scene(check);
-    check->add_flag("-v,--verbose", arguments.verbose, "print the network as it was understood, every value in SI");
+    check->add_flag("-v,--verbose", arguments.verbose, "print the network with every value in SI");
   }
   void add_explain(CLI::App* explain) {
     add_scene(explain);
     add_accuracy(explain);
-    explain->add_flag("--json", arguments.json, "for a program to read");
+    explain->add_flag("--json", arguments.json, "print JSON");
   }
   void add_effects(CLI::App* weigh) {
     add_scene(weigh);
     add_accuracy(weigh);
-    weigh->add_option("--within", within, "difference that would not matter, of a record's largest magnitude; 0.01 if not given")->type_name("E");
-    weigh->add_option("--runs", runs, "of each model, whose CPU time is taken; 5 if not given")->type_name("N");
-    weigh->add_option("-o,--output", arguments.overlay, "where all differences go as CSV; `-` is standard output")->type_name("FILE");
+    weigh->add_option("--within", within, "acceptable difference, relative to a record's largest magnitude (default 0.01)")->type_name("E");
+    weigh->add_option("--runs", runs, "timed runs of each model (default 5)")->type_name("N");
+    weigh->add_option("-o,--output", arguments.overlay, "CSV file for all differences; `-` is standard output")->type_name("FILE");
   }
   void add_draw(CLI::App* draw) {
     add_scene(draw);
     draw->add_option("-o,--output", arguments.output, "the figure: an .svg or a .png; `-` is an SVG on standard output")
         ->required()
         ->type_name("FILE");
-    draw->add_option("--title", arguments.title, "above the figure, in place of that of the scene")->type_name("TEXT");
-    draw->add_flag("--all", arguments.all, "of more than 45 elements also those that repeat what is beside them");
-    draw->add_flag("--no-values", arguments.no_values, "names alone");
+    draw->add_option("--title", arguments.title, "title of the figure, instead of that of the scene")->type_name("TEXT");
+    draw->add_flag("--all", arguments.all, "draw all members of a repeat, also in a scene of more than 45 elements");
+    draw->add_flag("--no-values", arguments.no_values, "draw names without values");
   }
   void add_compare(CLI::App* compare) {
-    compare->add_option("SCENES", arguments.scenes, "the netlists, two or more: each is compared with the first")
+    compare->add_option("SCENES", arguments.scenes, "two or more netlists; each is compared with the first")
         ->required()
         ->expected(2, 26)
         ->option_text("A B [C ...]");
     add_overrides(compare);
     add_accuracy(compare);
     add_list(compare, "--pair", arguments.pairs,
-             "a record of the first scene, and what the others call it; may be repeated", "PATH=PATH", false);
-    compare->add_option("--vary", arguments.vary, "a value of all scenes, that is to go through a range")
+             "a record of the first scene and its counterpart in the others; may be repeated", "PATH=PATH", false);
+    compare->add_option("--vary", arguments.vary, "vary this value in all scenes")
         ->type_name("PATH=RANGE");
-    compare->add_option("--within", within, "relative difference that is allowed: sets the exit status")
+    compare->add_option("--within", within, "allowed relative difference; sets the exit status")
         ->type_name("E");
     compare
         ->add_option("-o,--output", arguments.overlay,
-                     "where the rows of all scenes go, side by side; `-` is standard output")
+                     "CSV file for the rows of all scenes, side by side; `-` is standard output")
         ->type_name("FILE");
   }
   void add_plot(CLI::App* plot) {
@@ -338,7 +338,7 @@ struct CommandLine {
   }
   void add_serve(CLI::App* serve) { add_serve_options(*serve, arguments.serve); }
   void add_components(CLI::App* components) {
-    components->add_option("TYPE", arguments.type, "one element type; all if it is not given")->type_name("");
+    components->add_option("TYPE", arguments.type, "one element type (default: all)")->type_name("");
     components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
   }
   void add_schema(CLI::App*) {}

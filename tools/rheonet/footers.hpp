@@ -2,77 +2,75 @@
 
 namespace rheonet::tool {
 
-/// What the help of each command says below its options.
+/// The text of each command's help below its options.
 inline constexpr const char* footer_of_rheonet =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet components spring\n"
     "`rheonet run --help` says more of `run`, and so on.\n\n"
     "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, with exit status 1; the whole rows up to there are kept.\n"
     "A second signal ends it at once.";
 inline constexpr const char* footer_of_run =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
     "Rows and events are CSV: FILE ends in .csv, .txt, .dat or has no ending. A run that is interrupted leaves the rows up to\n"
     "there; with --certify it leaves an earlier file as it was.\n\n"
-    "Exit status: 0 done; 1 the scene could be read but not simulated, or the run was interrupted, or its\n"
-    "rows or events could not be written, or a claim of its [expect] fails, or its rows could not be certified;\n"
-    "2 the scene or the command line is wrong.";
+    "Exit status: 0 done; 1 the scene could not be simulated, the run was interrupted, a file could not be written,\n"
+    "a claim of [expect] fails, or the rows could not be certified; 2 the scene or the command line is wrong.";
 inline constexpr const char* footer_of_check =
-    "Exit status: 0 `run` would begin; 1 the scene can be read but not simulated; 2 the scene or the command\n"
-    "line is wrong.";
+    "Exit status: 0 no mistake; 1 the scene can be read but not simulated; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_explain =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet explain scene.toml\n"
     "  rheonet explain scene.toml --without inertia --json\n\n"
     "Exit status: 0 done; 1 the scene can be read but not simulated; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_effects =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet effects scene.toml\n"
     "  rheonet effects scene.toml --within 1e-4 -o effects.csv\n\n"
-    "Exit status: 0 done; 1 the full model could not be simulated, or the command was interrupted, or the output not be\n"
-    "written; 2 the scene or the command line is wrong.";
+    "Exit status: 0 done; 1 the full model could not be simulated, the command was interrupted, or the output could\n"
+    "not be written; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_compare =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet compare combined.toml wired.toml --pair friction.force=chain.force --within 1e-6\n"
     "  rheonet compare combined.toml wired.toml --vary parameters.B=\"1 N*s/m:100 N*s/m:9:log\"\n\n"
-    "Without --pair the records that all scenes have under one name are compared. The rows are those of the first\n"
-    "scene, up to the end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with it\n"
-    "-o writes the table instead of the rows.\n\n"
-    "Exit status: 0 done, and within what --within allows; 1 not within, or a scene could not be simulated, or\n"
-    "the comparison was interrupted (the values of RANGE up to there are kept), or the output not be written;\n"
-    "2 a scene or the command line is wrong.";
+    "Without --pair the records with a common name are compared, at the output times of the first scene, up to the\n"
+    "end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with a RANGE, -o writes\n"
+    "the table of differences instead of the rows.\n\n"
+    "Exit status: 0 done, and within --within; 1 not within, a scene could not be simulated, the comparison was\n"
+    "interrupted (the finished values of RANGE are kept), or the output could not be written; 2 a scene or the\n"
+    "command line is wrong.";
 
 inline constexpr const char* footer_of_precision =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet precision scene.toml\n"
     "  rheonet precision scene.toml --accuracies 1e-3,1e-6,1e-9 -o prices.csv --plot prices.svg\n"
     "  rheonet precision one-element.toml --variant wired.toml --pair oil.force=oil.spring.force\n"
     "  rheonet precision layers.toml --variant parameters.N=10 --variant \"parameters.N=20; parameters.gap=2 mm\"\n\n"
-    "Exit status: 0 done; 1 the scene could not be simulated, or the command was interrupted, or the output not be\n"
-    "written; 2 the scene or the command line is wrong.";
+    "Exit status: 0 done; 1 the scene could not be simulated, the command was interrupted, or the output could not\n"
+    "be written; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_sweep =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet sweep scene.toml --vary c1.damping=\"1 N*s/m:100 N*s/m:50:log\" --measure 'max(k1.force)' -o sweep.csv\n"
     "  rheonet sweep scene.toml --vary k1.stiffness=100:1000 --vary c1.damping=1:100:log --latin 500 -o sweep.csv\n"
     "  rheonet sweep scene.toml --list cases.csv -o rows.csv\n\n"
     "RANGE is from:to:count, from:to:count:log or value,value,...; several --vary make a grid. With --random and --latin\n"
-    "it is from:to, from:to:log or value,value,..., from which values are drawn. FILE of --list is a CSV file whose first\n"
-    "row has paths, with units as in `k1.stiffness [N/m]`, and each other row the values of a run.\n\n"
+    "it is from:to, from:to:log or value,value,... The first row of a --list FILE has paths, with units as in\n"
+    "`k1.stiffness [N/m]`; each further row has the values of a run.\n\n"
     "Measures: max, min, mean, rms, final and `time of max`, `time of min` of a record, as in max(k1.force) or\n"
     "max(k1.force, from 1 s, to 2 s); value(k1.force, 0.2 s); time of crossing(k1.force, 2 N); energy dissipated, energy\n"
-    "supplied, energy stored; steps, events. With them a run is one row; without, its rows are those of `run`. Headings have\n"
+    "supplied, energy stored; steps, events. With measures a run is one row; without measures it has the rows of `run`. Headings have\n"
     "the SI unit of a column, as in `max(k1.force) [N]`.\n\n"
-    "Exit status: 0 every run is done; 1 one or more could not be read or simulated (the column `error` says why), or\n"
-    "the sweep was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
+    "Exit status: 0 every run is done; 1 a run could not be read or simulated (the column `error` says why), the sweep\n"
+    "was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_plot =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
     "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
     "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
@@ -80,25 +78,25 @@ inline constexpr const char* footer_of_plot =
     "columns: rows of `run` or `sweep`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over\n"
     "the first. Different quantities have a panel each, over one horizontal axis. Of the rows of a sweep each run is a\n"
     "curve. A measure is a column: -y 'value(k1.force, 2 s)'.\n\n"
-    "Exit status: 0 done; 1 a scene could not be simulated, or the figure not be written; 2 a file or the command\n"
-    "line is wrong.";
+    "Exit status: 0 done; 1 a scene could not be simulated, or the figure could not be written; 2 a file or the\n"
+    "command line is wrong.";
 
 inline constexpr const char* footer_of_draw =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet draw scene.toml -o network.svg\n"
     "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
     "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_report =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet report scene.toml -o report.html\n"
     "  rheonet report stiff.toml soft.toml -o both.html --certify\n\n"
-    "The report is one file, which opens in any browser without a network, and prints.\n\n"
-    "Exit status: 0 done; 1 a scene could not be simulated to its end, or a claim of its [expect] fails, or it could not\n"
-    "be certified (the report says so), or the report not be written; 2 a scene or the command line is wrong.";
+    "The report is one file. It opens in any browser without a network, and prints well.\n\n"
+    "Exit status: 0 done; 1 a scene could not be simulated to its end, a claim of [expect] fails, a scene could not be\n"
+    "certified (the report says so), or the report could not be written; 2 a scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_serve =
-    "For instance:\n"
+    "Examples:\n"
     "  rheonet serve\n"
     "  rheonet serve my-netlists --port 8080\n\n"
     "The address that is printed ends with a token: open it as it is. Without the token nobody gets in, no other user of this\n"
