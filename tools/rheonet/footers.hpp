@@ -7,7 +7,7 @@ inline constexpr const char* footer_of_rheonet =
     "Examples:\n"
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet components spring\n"
-    "`rheonet run --help` says more of `run`, and so on.\n\n"
+    "`rheonet COMMAND --help` describes the options of a command.\n\n"
     "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, with exit status 1; the whole rows up to there are kept.\n"
     "A second signal ends it at once.";
 inline constexpr const char* footer_of_run =
@@ -74,10 +74,10 @@ inline constexpr const char* footer_of_plot =
     "  rheonet plot scene.toml -o forces.svg -y k1.force,c1.force\n"
     "  rheonet plot result.csv -o loop.png --domain rotation --loop bearing\n"
     "  rheonet plot coarse.csv fine.csv -o decay.svg -y oil.force --log y\n\n"
-    "A FILE that ends in .toml is a scene, which is simulated; any other is a CSV file whose first row names its\n"
-    "columns: rows of `run` or `sweep`, or others, with units as in `torque [in*ozf]`. Without -y all columns are drawn over\n"
-    "the first. Different quantities have a panel each, over one horizontal axis. Of the rows of a sweep each run is a\n"
-    "curve. A measure is a column: -y 'value(k1.force, 2 s)'.\n\n"
+    "A FILE that ends in .toml is a scene, and is simulated. Any other FILE is a CSV file whose first row names its\n"
+    "columns: output of `run` or `sweep`, or columns with units, as `torque [in*ozf]`. Without -y all columns are drawn over\n"
+    "the first. Each quantity has a panel, over one horizontal axis. Each run of a sweep is a curve. A measure is a column:\n"
+    "-y 'value(k1.force, 2 s)'.\n\n"
     "Exit status: 0 done; 1 a scene could not be simulated, or the figure could not be written; 2 a file or the\n"
     "command line is wrong.";
 

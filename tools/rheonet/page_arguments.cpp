@@ -20,7 +20,7 @@ void add_report_options(CLI::App& command, std::vector<std::string>& scenes, std
 void add_serve_options(CLI::App& command, ServeArguments& serve) {
   command.add_option("FOLDER", serve.folder, "folder of netlists (default: those that come with rheonet)")
       ->type_name("");
-  command.add_option("--host", serve.host, "the address that is listened at; 127.0.0.1, this machine alone, if not given")
+  command.add_option("--host", serve.host, "address to listen on (default 127.0.0.1: this machine alone)")
       ->type_name("ADDRESS");
   command.add_option("--port", serve.port, "port (default 8017); 0 takes a free one")->check(CLI::Range(0, 65535))->type_name("N");
   command.add_option("--time-limit", serve.seconds, "largest CPU time of a run [s] (default 20)")
