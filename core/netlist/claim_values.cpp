@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/netlist/counting.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -30,15 +31,14 @@ void ClaimValues::check_in_run(const TomlValue& source, const std::string& name,
                                         number_text(scene_.start), number_text(scene_.stop), number_text(t)));
 }
 
-double ClaimValues::level(const TomlValue& source, const std::string& name, const Dimension& dimension) const {
+double ClaimValues::level(const TomlValue& source, const std::string& name, const Number& expected) const {
   Mistakes& mistakes = context_.mistakes;
   const Formula formula(source, name, mistakes);
   if (!formula.given()) return not_given;
   const auto number = formula.evaluate(environment_, mistakes);
   if (!number) return not_given;
-  if (!number->plain && !number->dimension.same(dimension)) {
-    mistakes.error(source.spot, fmt::format("{}: expected {}, found {}", name, describe(dimension),
-                                            describe(number->dimension, number->radian)));
+  if (!fits(*number, expected)) {
+    mistakes.error(source.spot, fmt::format("{}: expected {}, found {}", name, describe(expected), describe(*number)));
     return not_given;
   }
   if (std::isfinite(number->value)) return number->value;

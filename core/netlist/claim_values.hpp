@@ -18,8 +18,8 @@ class ClaimValues {
   double time(const TomlValue& source, const std::string& name) const;
   /// A mistake if it is not within the run.
   void check_in_run(const TomlValue& source, const std::string& name, double t) const;
-  /// Finite, in SI, of a dimension.
-  double level(const TomlValue& source, const std::string& name, const Dimension& dimension) const;
+  /// Finite, in SI, of the unit of `expected`.
+  double level(const TomlValue& source, const std::string& name, const Number& expected) const;
 
  private:
   const Environment& environment_;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/netlist/keys.hpp"
+#include "core/netlist/counting.hpp"
 #include "core/netlist/read_presentation.hpp"
 #include "core/netlist/values.hpp"
 
@@ -21,7 +22,7 @@ std::string unit_text(const TomlValue& value) {
 }
 
 std::string words_for(const Number& number) {
-  return number.plain ? "a number" : describe(number.dimension, number.radian);
+  return number.plain ? "a number" : describe(number);
 }
 
 /// The values of a range in SI; absent if something is wrong with one of them.
@@ -32,7 +33,7 @@ std::optional<std::vector<double>> values_of(const TomlEntry& entry, const Numbe
     const Formula formula(item, "slider `" + entry.key + "`", mistakes);
     const auto number = formula.given() ? formula.evaluate(environment, mistakes) : std::nullopt;
     if (!number) return {};
-    if (!number->plain && !parameter.plain && !number->dimension.same(parameter.dimension)) {
+    if (!fits(*number, parameter)) {
       mistakes.error(item.spot, fmt::format("slider `{}`: expected {}, as the parameter is, found {}", entry.key,
                                             words_for(parameter), words_for(*number)));
       return {};

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/netlist/counting.hpp"
 #include "core/netlist/keys.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/values.hpp"
@@ -50,7 +51,7 @@ void flatten(const Environment& environment, Environment& all) {
 Number time_of(double t, const Environment& parameters, Domain domain) {
   const bool plain = std::all_of(parameters.names.begin(), parameters.names.end(),
                                  [](const auto& named) { return named.second.plain; });
-  return {.value = t, .dimension = dimension_of(Quantity::time, domain), .plain = plain};
+  return {.value = t, .dimension = dimension_of(Quantity::time, domain), .plain = plain, .typed_time = 1};
 }
 
 }  // namespace
@@ -87,10 +88,9 @@ void read_exact(const TomlValue& exact, const Environment& environment, const st
     if (!formula.given()) continue;
     const auto last = formula.evaluate(at_time(scene.stop), mistakes);
     if (!last) continue;
-    const Dimension dimension = unit_of(scene, *recorded).dimension;
-    if (!last->plain && !last->dimension.same(dimension)) {
-      mistakes.error(source.spot, fmt::format("`{}`: expected {}, found {}", path, describe(dimension),
-                                              describe(last->dimension, last->radian)));
+    const Number unit = one_of(unit_of(scene, *recorded));
+    if (!fits(*last, unit)) {
+      mistakes.error(source.spot, fmt::format("`{}`: expected {}, found {}", path, describe(unit), describe(*last)));
       continue;
     }
     ExactRecord form{.record = static_cast<int>(recorded - scene.records.begin()), .value = {}, .spot = source.spot};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/netlist/expand.hpp"
+#include "core/netlist/counting.hpp"
 #include "core/netlist/group_names.hpp"
 
 namespace rheonet {
@@ -100,11 +101,10 @@ bool Expander::instance_parameters(const Plan& plan, const Environment& around, 
       continue;
     }
     const Number& usual = model.defaults[i];
-    if (given.given() && !std::isnan(usual.value) && !usual.plain && !number->plain &&
-        !number->dimension.same(usual.dimension)) {
+    if (given.given() && !std::isnan(usual.value) && !fits(*number, usual)) {
       mistakes.error(given.source().spot, given.name() + " of `" + model.name + "`: expected " +
-                                              describe(usual.dimension, usual.radian) + ", as its default is, found " +
-                                              describe(number->dimension, number->radian));
+                                              describe(usual) + ", as its default is, found " +
+                                              describe(*number));
       good = false;
       continue;
     }

@@ -1,4 +1,5 @@
 #include "core/netlist/expand.hpp"
+#include "core/netlist/records.hpp"
 
 namespace rheonet {
 
@@ -22,7 +23,7 @@ void Expander::wire(const Plan& plan, const Environment& environment, int elemen
     const Formula& formula = plan.values[i];
     if (declaration.parameters[i].unit == Parameter::Unit::quantity || !formula.given()) continue;
     if (const auto number = formula.evaluate(environment, context_.mistakes))
-      loose_.units.push_back({block, static_cast<int>(i), {number->dimension, number->radian, number->plain}, &formula.source()});
+      loose_.units.push_back({block, static_cast<int>(i), unit_of(*number), &formula.source()});
   }
   for (std::size_t i = 0; i < plan.signals.size(); ++i)
     loose_.units.push_back({block, plan.signal_parameters[i], plan.signals[i].unit(), nullptr});

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/netlist/claim_values.hpp"
+#include "core/netlist/counting.hpp"
 #include "core/netlist/keys.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/values.hpp"
@@ -87,13 +88,13 @@ class ClaimReader {
     }
     claim.spot = figure->value.spot;
     const bool crossing = claim.figure == Figure::crossing;
-    dimension_ = unit_of(scene_, record).dimension;
-    if (other) dimension_ = dimension_ / unit_of(scene_, *other).dimension;
+    unit_ = one_of(unit_of(scene_, record));
+    if (other) unit_ = product(unit_, raised(one_of(unit_of(scene_, *other)), -1));
     read_times(claim, *figure, at, from, to);
     if (crossing) {
       if (other) mistakes_.error(claim.spot, "a ratio has no `crosses`", "leave out `per`");
       claim.level = value(figure->value, "`crosses`");
-      dimension_ = dimension_of(Quantity::time, context_.domain);
+      unit_ = {.value = 1, .dimension = dimension_of(Quantity::time, context_.domain), .plain = false, .typed_time = 1};
     }
     const TomlEntry* claimed = crossing ? at : figure;
     if (claimed) read_claimed(claim, *claimed, within);
@@ -153,9 +154,9 @@ class ClaimReader {
     mistakes_.error(within ? within->value.spot : claimed.value.spot,
                     (within ? "`within`" : "`" + claimed.key + "` without `within`") +
                         std::string(" allows a fraction of the claimed ratio, and that is 0"),
-                    dimension_.is_number()
+                    unit_.dimension.is_number()
                         ? two
-                        : "an absolute `within` has a unit, that of " + describe(dimension_) + "; or " + two);
+                        : "an absolute `within` has a unit, that of " + describe(unit_) + "; or " + two);
   }
 
   void read_within(Claim& claim, const TomlEntry& within) {
@@ -171,14 +172,14 @@ class ClaimReader {
 
   double time(const TomlEntry* entry) { return values_.time(entry->value, "`" + entry->key + "`"); }
   /// In SI, of the dimension of what is claimed.
-  double value(const TomlValue& source, const std::string& name) { return values_.level(source, name, dimension_); }
+  double value(const TomlValue& source, const std::string& name) { return values_.level(source, name, unit_); }
 
   const Environment& environment_;
   Context& context_;
   Mistakes& mistakes_;
   const Scene& scene_;
   ClaimValues values_;
-  Dimension dimension_;  ///< of what is claimed
+  Number unit_;  ///< one of the unit of what is claimed
 };
 
 }  // namespace

@@ -16,9 +16,16 @@ struct Number {
   double value = 0;
   Dimension dimension;
   bool plain = true;
-  double radian = 0;  ///< exponent of rad, as in Unit; `pi` counts as an angle, so that omega/(2*pi) has none
-  double hertz = 0;   ///< exponent of Hz, as in Unit
+  double radian = 0;      ///< exponent of rad, as in Unit
+  double hertz = 0;       ///< exponent of cycles: of Hz, as in Unit, and what comes of it: omega/(2*pi) counts cycles
+  double pi = 0;          ///< exponent of pi, as long as it may be a number or the conversion of cycles (counting.hpp)
+  double typed_time = 0;  ///< the part of the exponent of s that comes of times typed as such: 1/T of a time T is a frequency
+
+  friend bool operator==(const Number&, const Number&) = default;
 };
+
+/// So much of a unit. The inverse of a unit of time other than s counts cycles, as Hz does: 600 1/min are 10 Hz.
+Number number_in(double value, const Unit& unit);
 
 /// Names that an expression may use, innermost first; `outer` is searched for those not found.
 struct Environment {
@@ -28,19 +35,19 @@ struct Environment {
   const Number* find(std::string_view name) const;
 };
 
-/// Evaluates "2*B", "sqrt(k*m)", "if"-style `a > b ? a : b`, ... with muParser; `pi` is known, and the functions sin, cos,
-/// tan, asin, acos, atan, atan2, sinh, cosh, tanh, asinh, acosh, atanh, exp, ln, log10, log2, sqrt, abs, floor, ceil,
-/// round, sign, min, max. The value is finite, unless a parameter is infinite. The dimension of the result
-/// follows from those of the parameters: adding metres to seconds, or the sine of a length, is an error. Unknown names are
-/// errors with the nearest name as hint.
+/// Evaluates "2*B", "sqrt(k*m)", `a > b ? a : b`, ...; `pi` is known, and the functions of functions.hpp. The value is
+/// finite, unless a parameter is infinite. The dimension of the result follows from those of the parameters: adding metres
+/// to seconds or Hz to rad/s, or the sine of a length, is an error. Of `a > b ? x : y` only what is chosen is looked at.
+/// Unknown names are errors with the nearest name as hint.
 std::variant<Number, TextError> evaluate_expression(std::string_view text, const Environment& environment);
 
 /// A value as a string: "10", "2 in*ozf" (a number, a space, a unit), "inf" (plain), or an expression.
 std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment);
 
 /// The SI value of `number` as `quantity`, or what is wrong with its dimension: "expected a torsional stiffness (N*m/rad),
-/// found a length (m)". A frequency with one rad in its unit (rad/s, rpm) is divided by 2 pi; an angular velocity in Hz is
-/// refused, for want of knowing whether cycles or radians were meant.
+/// found a length (m)". An angular velocity (rad/s, rpm) that is used as a frequency is divided by 2 pi. 1/s from an
+/// expression is no frequency, cycles are no angle and Hz no angular velocity: whether cycles or radians are meant is not
+/// guessed.
 std::variant<double, TextError> as_quantity(const Number& number, Quantity quantity, Domain domain,
                                             double flow_index = 1);
 

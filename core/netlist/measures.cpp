@@ -155,7 +155,7 @@ void read_measures(const std::vector<std::string>& texts, const Environment& env
     claim.spot = parts.path.spot;
     if (parts.figure == Figure::at) claim.time = values.time(*parts.argument, "the time");
     if (parts.figure == Figure::crossing)
-      claim.level = values.level(*parts.argument, "the level", unit_of(scene, *records[i]).dimension);
+      claim.level = values.level(*parts.argument, "the level", one_of(unit_of(scene, *records[i])));
     claim.from = parts.from ? values.time(*parts.from, "`from`") : scene.start;
     claim.to = parts.to ? values.time(*parts.to, "`to`") : scene.stop;
     if (claim.from >= claim.to && claim.from <= scene.stop && claim.to >= scene.start)

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/netlist/characters.hpp"
+#include "core/netlist/counting.hpp"
 #include "core/netlist/expression.hpp"
 
 namespace rheonet {
@@ -53,7 +54,7 @@ bool begins_unit(std::string_view rest) {
 Result quantity(const Leading& leading, std::string_view unit_text, const Environment& environment) {
   const auto parsed = parse_unit(unit_text);
   if (const auto* unit = std::get_if<Unit>(&parsed))
-    return Number{multiplied(leading.value, unit->factor), unit->dimension, false, unit->radian, unit->hertz};
+    return number_in(leading.value, *unit);
   TextError error = std::get<TextError>(parsed);
   // "2 B", where B is a parameter.
   const std::string product = fmt::format("{}*{}", leading.number, unit_text);
@@ -138,7 +139,41 @@ std::string hint_for(const Number& number, Quantity quantity, Domain domain, dou
   return "";
 }
 
+/// The value of a number of the dimension 1/s in Hz.
+std::variant<double, TextError> as_frequency(const Number& number, const std::string& expected) {
+  constexpr double tolerance = 1e-9;  // as for the exponents of a Dimension
+  const auto near = [](double a, double b) { return std::abs(a - b) < tolerance; };
+  if (const auto wrong = miscounted(number, false))
+    return TextError{0, fmt::format("expected {}, {}", expected, wrong->message), wrong->hint};
+  const bool cycles = near(number.hertz, 1) && number.radian < tolerance;
+  const bool radians = near(number.hertz, 0) && near(number.radian, 1);
+  const bool inverse_time = near(number.hertz, 0) && near(number.radian, 0) && near(number.typed_time, -1);
+  if (cycles || inverse_time) return number.value;
+  if (radians) return number.value / (2 * std::numbers::pi);
+  if (!near(number.hertz, 0))
+    return TextError{0, fmt::format("expected {}, found Hz times or over what counts cycles or radians as well", expected),
+                     "2*pi*f of a frequency f is in rad/s, w/(2*pi) of an angular velocity w in Hz"};
+  return TextError{0, fmt::format("expected {}, found 1/s from an expression, that is radians a second", expected),
+                   "divide it by 2*pi, as in `sqrt(k/m)/(2*pi)`; what counts cycles is made of values in Hz, or 1/T of a "
+                   "time T"};
+}
+
 }  // namespace
+
+Number number_in(double value, const Unit& unit) {
+  Number number{.value = multiplied(value, unit.factor),
+                .dimension = unit.dimension,
+                .plain = false,
+                .radian = unit.radian,
+                .hertz = unit.hertz};
+  const Dimension time{0, 0, unit.dimension.second};
+  if (!unit.dimension.same(time) || unit.radian != 0 || unit.hertz != 0) return number;
+  if (unit.dimension.second == -1 && unit.factor != 1)
+    number.hertz = 1;
+  else
+    number.typed_time = unit.dimension.second;
+  return number;
+}
 
 std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment) {
   std::string_view trimmed = without_spaces_before(text);
@@ -157,15 +192,15 @@ std::variant<double, TextError> as_quantity(const Number& number, Quantity quant
                                    ? "a number without a unit"
                                    : fmt::format("{} ({})", with_article(name_of(quantity, domain)), unit);
   if (!number.dimension.same(dimension_of(quantity, domain, flow_index)))
-    return TextError{0, fmt::format("expected {}, found {}", expected, describe(number.dimension, number.radian)),
+    return TextError{0, fmt::format("expected {}, found {}", expected, describe(number)),
                      hint_for(number, quantity, domain, flow_index)};
-  constexpr double tolerance = 1e-9;  // as for the exponents of a Dimension
-  const bool angular = std::abs(number.radian - 1) < tolerance;
-  if (quantity == Quantity::frequency && angular) return number.value / (2 * std::numbers::pi);
-  if (quantity == Quantity::velocity && domain == Domain::rotation && std::abs(number.radian) < tolerance &&
-      std::abs(number.hertz - 1) < tolerance)
-    return TextError{0, fmt::format("expected {}, found a frequency in Hz", expected),
-                     "write `rad/s`, `deg/s` or `rpm`; with a frequency f, `2*pi*f`"};
+  if (quantity == Quantity::frequency) return as_frequency(number, expected);
+  const bool rotation = domain == Domain::rotation;
+  const bool of_angle = quantity == Quantity::angle ||
+                        (rotation && (quantity == Quantity::position || quantity == Quantity::velocity));
+  if (of_angle || quantity == Quantity::velocity)
+    if (const auto wrong = miscounted(number, of_angle))
+      return TextError{0, fmt::format("expected {}, {}", expected, wrong->message), wrong->hint};
   return number.value;
 }
 

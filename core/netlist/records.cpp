@@ -148,6 +148,12 @@ BlockUnit unit_of(const Scene& scene, const Record& record) {
   return {dimension_of(quantity_of(record.channel), scene.domain), radian, false};
 }
 
+Number one_of(const BlockUnit& unit) {
+  return {.value = 1, .dimension = unit.dimension, .plain = unit.open, .radian = unit.radian, .hertz = unit.hertz};
+}
+
+BlockUnit unit_of(const Number& number) { return {number.dimension, number.radian, number.plain, number.hertz}; }
+
 std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
   if (record.subject != Subject::block) return quantity_of(record.channel);
   const BlockUnit unit = unit_of(scene, record);

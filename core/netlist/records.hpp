@@ -14,6 +14,10 @@ namespace rheonet {
 /// What a channel of a node, element or assembly measures. (Outputs of blocks have units of their own: `unit_of`.)
 Quantity quantity_of(Record::Channel channel);
 
+/// One of a unit, plain if it is open; and the unit of a number.
+Number one_of(const BlockUnit& unit);
+BlockUnit unit_of(const Number& number);
+
 /// All there is to record of a scene, in the order of its file.
 std::vector<Record> every_record(const Scene& scene);
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/netlist/counting.hpp"
 #include "core/netlist/keys.hpp"
+#include "core/netlist/records.hpp"
 #include "core/netlist/units.hpp"
 
 namespace rheonet {
@@ -157,11 +159,10 @@ std::optional<double> SignalPlan::in_unit(const Number& number, const Formula& f
     }
     return std::get<double>(checked);
   }
-  if (number.plain) return number.value;
-  if (unit_.open) unit_ = {number.dimension, number.radian, false};
-  if (number.dimension.same(unit_.dimension)) return number.value;
-  context.mistakes.error(spot, formula.name() + ": expected " + describe(unit_.dimension, unit_.radian) +
-                                   ", as the rest of `" + name_ + "`, found " + describe(number.dimension, number.radian));
+  if (unit_.open && !number.plain) unit_ = unit_of(number);
+  if (fits(number, one_of(unit_))) return number.value;
+  context.mistakes.error(spot, formula.name() + ": expected " + describe(one_of(unit_)) +
+                                   ", as the rest of `" + name_ + "`, found " + describe(number));
   return {};
 }
 
@@ -170,11 +171,9 @@ std::optional<Number> SignalPlan::times_amplitude(Number number, const Environme
   if (!keys_[amplitude].given()) return number;
   const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
   if (!factor) return {};
-  number.value *= factor->value;
-  number.dimension = number.dimension * factor->dimension;
-  number.plain = number.plain && factor->plain;
-  number.radian += factor->radian;
-  number.hertz += factor->hertz;
+  const bool plain = number.plain && factor->plain;
+  number = product(number, *factor);
+  number.plain = plain;
   return number;
 }
 
@@ -232,22 +231,16 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
   const Domain domain = context.domain;
   const Spot spot = formula.source().spot;
   const Dimension second = dimension_of(Quantity::time, domain);
-  double value = number->value;
-  if (shape_ == Shape::ramp && quantity_) {
-    const Dimension expected = unit_.dimension / second;
-    if (!number->plain && !number->dimension.same(expected)) {
-      context.mistakes.error(spot, formula.name() + ": expected " + describe(expected) + ", the rise of `" + name_ +
-                                       "` per second, found " + describe(number->dimension, number->radian),
-                             hint_for(formula, environment, context, ""));
-      return {};
-    }
-  } else {
-    if (shape_ == Shape::ramp) number->dimension = number->dimension * second;
-    const auto checked = in_unit(*number, formula, environment, context);
-    if (!checked) return {};
-    value = *checked;
+  const Dimension rise = unit_.dimension / second;
+  if (shape_ == Shape::ramp && quantity_ && !number->plain && !number->dimension.same(rise)) {
+    context.mistakes.error(spot, formula.name() + ": expected " + describe(rise) + ", the rise of `" + name_ +
+                                     "` per second, found " + describe(*number),
+                           hint_for(formula, environment, context, ""));
+    return {};
   }
-  if (std::isfinite(value)) return value;
+  if (shape_ == Shape::ramp) number->dimension = number->dimension * second;
+  const auto value = in_unit(*number, formula, environment, context);
+  if (!value || std::isfinite(*value)) return value;
   context.mistakes.error(spot, formula.name() + " must be finite, but is infinite");
   return {};
 }
@@ -342,7 +335,7 @@ std::optional<Signal> SignalPlan::make_table(const Environment& environment, Con
     if (!file) return {};
     const auto unit = times_amplitude(file->unit, environment, context);
     if (!unit) return {};
-    if (!quantity_ && !unit->plain) unit_ = {unit->dimension, unit->radian, false};
+    if (!quantity_ && !unit->plain) unit_ = unit_of(*unit);
     const auto factor = quantity_ ? as_quantity(*unit, *quantity_, context.domain) : unit->value;
     if (const auto* wrong = std::get_if<TextError>(&factor)) {
       context.mistakes.error(file_name_->spot, "`table`: " + wrong->message,

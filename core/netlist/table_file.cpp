@@ -89,7 +89,7 @@ class TableReader {
     if (heading.unit.empty() && !heading.square) return one;
     const auto parsed = parse_unit(heading.unit);
     if (const auto* unit = std::get_if<Unit>(&parsed))
-      return Number{unit->factor, unit->dimension, false, unit->radian, unit->hertz};
+      return number_in(1, *unit);
     if (heading.square) {
       const TextError& wrong = std::get<TextError>(parsed);
       refuse(field.column, "`" + std::string(heading.unit) + "` is no unit: " + wrong.message, wrong.hint);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/netlist/counting.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/scene_index.hpp"
@@ -146,7 +147,9 @@ class Connection {
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
     for (const OwnUnit& own : loose_.units) {
       if (own.block != block || parameter(own).unit != Parameter::Unit::own) continue;
-      unit = {unit.dimension * own.unit.dimension, unit.radian + own.unit.radian, unit.open || own.unit.open};
+      const bool open = unit.open || own.unit.open;
+      unit = unit_of(product(one_of(unit), one_of(own.unit)));
+      unit.open = open;
     }
     if (inputs.integrates) unit.dimension = unit.dimension * dimension_of(Quantity::time, context_.domain);
     return unit;
@@ -169,7 +172,7 @@ class Connection {
   void check_block(int block) {
     const BlockUnit in = taken_in(block), out = made(block);
     const auto differs = [](const BlockUnit& a, const BlockUnit& b) {
-      return !a.open && !b.open && !a.dimension.same(b.dimension);
+      return !fits(one_of(a), one_of(b));
     };
     for (const LooseEnd& end : loose_.ends) {
       if (end.block != block) continue;
@@ -204,8 +207,7 @@ class Connection {
     const BlockUnit& unit = scene_.blocks[at(feed.block)].unit;
     if (unit.open) return;
     const Parameter& wanted = declaration(end.element).parameters[at(end.wire->parameter)];
-    const Number number{.value = 0, .dimension = unit.dimension, .plain = false, .radian = unit.radian};
-    const auto checked = as_quantity(number, wanted.quantity, context_.domain);
+    const auto checked = as_quantity(one_of(unit), wanted.quantity, context_.domain);
     const auto* wrong = std::get_if<TextError>(&checked);
     if (!wrong) return;
     const Within within(mistakes_, end);
@@ -213,7 +215,7 @@ class Connection {
                     "`" + wanted.name_in(context_.domain) + "` from block `" + end.path + "`: " + wrong->message);
   }
 
-  static std::string words(const BlockUnit& unit) { return describe(unit.dimension, unit.radian); }
+  static std::string words(const BlockUnit& unit) { return describe(one_of(unit)); }
 
   const LooseEnds& loose_;
   const std::set<std::string>& doubtful_;
