@@ -7,17 +7,17 @@ namespace rheonet {
 
 namespace {
 
-constexpr double tolerance = 1e-9;  // as for the exponents of a Dimension
+constexpr double exponent_rounding = 1e-9;  // as for the exponents of a Dimension
 
-bool near(double a, double b) { return std::abs(a - b) <= tolerance; }
-bool zero(double exponent) { return near(exponent, 0); }
+bool same_exponent(double a, double b) { return std::abs(a - b) <= exponent_rounding; }
+bool vanishes(double exponent) { return same_exponent(exponent, 0); }
 
 /// Made of time alone, or of nothing.
-bool is_temporal(Dimension dimension) { return zero(dimension.metre) && zero(dimension.kilogram); }
-bool is_rate(Dimension dimension) { return is_temporal(dimension) && dimension.second < -tolerance; }
+bool is_temporal(Dimension dimension) { return vanishes(dimension.metre) && vanishes(dimension.kilogram); }
+bool is_rate(Dimension dimension) { return is_temporal(dimension) && dimension.second < -exponent_rounding; }
 
 /// Moves as much of the exponent `from` to the exponent `to` as pi can convert.
-void convert(double& from, double& pi, double& to) {
+void convert_by_pi(double& from, double& pi, double& to) {
   const double part = std::min(std::abs(from), std::abs(pi));
   const double moved = from > 0 ? part : -part;
   from -= moved;
@@ -29,12 +29,12 @@ void convert(double& from, double& pi, double& to) {
 /// pi came: then pi is a number.
 void settle(Number& number, bool rate_in_radians) {
   double &radian = number.radian, &hertz = number.hertz, &pi = number.pi;
-  if (zero(pi)) return;
-  if (pi * hertz > 0) convert(hertz, pi, radian);  // 2 pi f; 1/(2 pi f)
-  if (zero(pi) || !is_temporal(number.dimension)) return;
-  const bool lasts = number.dimension.second > tolerance;
-  if (pi < 0 && radian > tolerance && !lasts) convert(radian, pi, hertz);  // omega/(2 pi), theta/(2 pi)
-  if (pi > 0 && radian < -tolerance && lasts) convert(radian, pi, hertz);  // 2 pi/omega
+  if (vanishes(pi)) return;
+  if (pi * hertz > 0) convert_by_pi(hertz, pi, radian);  // 2 pi f; 1/(2 pi f)
+  if (vanishes(pi) || !is_temporal(number.dimension)) return;
+  const bool lasts = number.dimension.second > exponent_rounding;
+  if (pi < 0 && radian > exponent_rounding && !lasts) convert_by_pi(radian, pi, hertz);  // omega/(2 pi), theta/(2 pi)
+  if (pi > 0 && radian < -exponent_rounding && lasts) convert_by_pi(radian, pi, hertz);  // 2 pi/omega
   if (!is_rate(number.dimension)) return;
   if (pi < 0) {  // sqrt(k/m)/(2 pi)
     hertz -= pi;
@@ -46,25 +46,25 @@ void settle(Number& number, bool rate_in_radians) {
 }
 
 /// The cycles that it may count, as pi is a number or a conversion.
-struct Range {
+struct CycleRange {
   double least, most;
 };
-Range cycles_of(const Number& number) {
-  return {std::min(number.hertz, number.hertz - number.pi) - tolerance,
-          std::max(number.hertz, number.hertz - number.pi) + tolerance};
+CycleRange cycles_of(const Number& number) {
+  return {std::min(number.hertz, number.hertz - number.pi) - exponent_rounding,
+          std::max(number.hertz, number.hertz - number.pi) + exponent_rounding};
 }
 
 /// Whether `number`, beside one that counts cycles, may be taken to count them too: it is a count, a duration or a
 /// mechanical quantity without any angle, or the inverse of a time.
 bool may_count_cycles(const Number& number) {
   const Dimension& dimension = number.dimension;
-  if (!zero(number.hertz) || !zero(number.radian)) return false;
+  if (!vanishes(number.hertz) || !vanishes(number.radian)) return false;
   if (!is_temporal(dimension)) return true;
-  return zero(number.pi) && (!is_rate(dimension) || near(number.typed_time, dimension.second));
+  return vanishes(number.pi) && (!is_rate(dimension) || same_exponent(number.typed_time, dimension.second));
 }
 
 /// 2 pi times 600 rpm.
-bool counts_radians_times_pi(const Number& number) { return number.radian > tolerance && number.pi > tolerance; }
+bool counts_radians_times_pi(const Number& number) { return number.radian > exponent_rounding && number.pi > exponent_rounding; }
 
 }  // namespace
 
@@ -76,7 +76,7 @@ Number product(const Number& a, const Number& b) {
                 .hertz = a.hertz + b.hertz,
                 .pi = a.pi + b.pi,
                 .typed_time = a.typed_time + b.typed_time};
-  const auto in_radians = [](const Number& factor) { return is_rate(factor.dimension) && factor.radian > tolerance; };
+  const auto in_radians = [](const Number& factor) { return is_rate(factor.dimension) && factor.radian > exponent_rounding; };
   settle(result, in_radians(a) || in_radians(b));
   return result;
 }
@@ -89,14 +89,14 @@ Number raised(const Number& a, double n) {
                 .hertz = n * a.hertz,
                 .pi = n * a.pi,
                 .typed_time = n * a.typed_time};
-  settle(result, result.radian > tolerance);
+  settle(result, result.radian > exponent_rounding);
   return result;
 }
 
 Likeness likeness(const Number& a, const Number& b) {
   if (a.plain || b.plain) return Likeness::alike;
   if (!a.dimension.same(b.dimension)) return Likeness::unlike;
-  const Range x = cycles_of(a), y = cycles_of(b);
+  const CycleRange x = cycles_of(a), y = cycles_of(b);
   if (x.least <= y.most && y.least <= x.most) return Likeness::alike;
   return may_count_cycles(a) || may_count_cycles(b) ? Likeness::alike : Likeness::mixed;
 }
@@ -107,24 +107,24 @@ Number common(const Number& a, const Number& b) {
     one.value = a.value;
     return one;
   }
-  const auto shared = [](double x, double y) { return near(x, y) ? x : 0; };
-  const auto either = [](double x, double y) { return zero(x) ? y : x; };
+  const auto shared = [](double x, double y) { return same_exponent(x, y) ? x : 0; };
+  const auto either = [](double x, double y) { return vanishes(x) ? y : x; };
   Number result = a;
   result.radian = shared(a.radian, b.radian);
-  result.hertz = near(a.hertz, b.hertz) ? a.hertz : either(a.hertz, b.hertz);
+  result.hertz = same_exponent(a.hertz, b.hertz) ? a.hertz : either(a.hertz, b.hertz);
   result.pi = is_rate(a.dimension) ? either(a.pi, b.pi) : shared(a.pi, b.pi);
   result.typed_time = shared(a.typed_time, b.typed_time);
   return result;
 }
 
 bool counts_cycles(const Number& number) {
-  const Range cycles = cycles_of(number);
+  const CycleRange cycles = cycles_of(number);
   return cycles.least > 0 || cycles.most < 0;
 }
 
 bool fits(const Number& number, const Number& expected) {
   if (number.plain || expected.plain) return true;
-  const bool of_angle = expected.radian > tolerance && is_temporal(expected.dimension);
+  const bool of_angle = expected.radian > exponent_rounding && is_temporal(expected.dimension);
   return likeness(number, expected) == Likeness::alike && !(of_angle && counts_radians_times_pi(number));
 }
 
@@ -141,8 +141,8 @@ std::optional<TextError> miscounted(const Number& number, bool of_angle) {
 
 std::string describe(const Number& number) {
   if (counts_radians_times_pi(number) && is_temporal(number.dimension)) return "pi times what is in radians";
-  if (near(number.hertz, 1) && zero(number.radian) && is_temporal(number.dimension)) {
-    if (near(number.dimension.second, -1)) return "a frequency (Hz)";
+  if (same_exponent(number.hertz, 1) && vanishes(number.radian) && is_temporal(number.dimension)) {
+    if (same_exponent(number.dimension.second, -1)) return "a frequency (Hz)";
     if (number.dimension.is_number()) return "a number of cycles";
   }
   return describe(number.dimension, number.radian);

@@ -19,7 +19,6 @@ struct Dimension {
   bool is_number() const { return same(Dimension{}); }
   /// Equal up to the rounding of fractional exponents (1e-9).
   bool same(Dimension other) const;
-  friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
 /// Translation: positions in m, forces in N, masses in kg. Rotation: angles in rad, torques in N*m, inertias in kg*m^2.
@@ -29,7 +28,7 @@ enum class Domain { translation, rotation };
 enum class Quantity {
   number,     ///< dimensionless
   time,       ///< s
-  frequency,  ///< Hz (cycles a second); an angular velocity is divided by 2 pi
+  frequency,  ///< Hz (cycles a second); a unit with rad in it is an angular frequency and is divided by 2 pi
   angle,      ///< rad, whatever the domain (the phase of a signal)
   position,   ///< m | rad; displacements too
   velocity,   ///< m/s | rad/s

@@ -20,11 +20,9 @@ namespace rheonet {
 namespace {
 
 using Result = std::variant<Number, TextError>;
-using Part = ExpressionCode::Part;
-using Op = ExpressionCode::Op;
 
 /// What other languages call it.
-constexpr std::pair<std::string_view, std::string_view> translations[] = {
+constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
     {"if", "a choice is written `a > b ? x : y`"},
     {"pow", "a power is written with `^`"},
     {"power", "a power is written with `^`"},
@@ -40,7 +38,7 @@ constexpr std::pair<std::string_view, std::string_view> translations[] = {
 };
 
 std::string hint_for_call(const std::string& name) {
-  for (const auto& [foreign, hint] : translations)
+  for (const auto& [foreign, hint] : foreign_names)
     if (name == foreign) return std::string(hint);
   std::vector<std::string> names;
   for (const ExpressionFunction& function : expression_functions()) names.emplace_back(function.name);
@@ -49,16 +47,19 @@ std::string hint_for_call(const std::string& name) {
 }
 
 /// A number times an angle that may be its unit: see counting.hpp.
-constexpr Number pi{.value = std::numbers::pi, .dimension = {}, .plain = true, .pi = 1};
+constexpr Number pi_number{.value = std::numbers::pi, .dimension = {}, .plain = true, .pi = 1};
 
 bool is_pi(std::string_view name) { return name == "PI" || name == "Pi" || name == "π"; }
 
-void names_of(const Environment& environment, std::vector<std::string>& names) {
+void add_names(const Environment& environment, std::vector<std::string>& names) {
   for (const auto& [name, number] : environment.names) names.push_back(name);
-  if (environment.outer) names_of(*environment.outer, names);
+  if (environment.outer) add_names(*environment.outer, names);
 }
 
 class Evaluation {
+  using Op = ExpressionCode::Op;
+  using Part = ExpressionCode::Part;
+
  public:
   Evaluation(std::string_view text, const ExpressionCode& code, const Environment& environment)
       : text_(text), code_(code) {
@@ -102,7 +103,7 @@ class Evaluation {
   Number look_up(const ExpressionCode::Variable& variable, const Environment& environment) const {
     const auto& [name, at, before_parenthesis] = variable;
     const Number* number = environment.find(name);
-    if (!number && name == "pi") number = &pi;
+    if (!number && name == "pi") number = &pi_number;
     if (number && before_parenthesis)
       fail(at, fmt::format("`{}` is a value, not a function", name), "is an operator missing before the parenthesis?");
     if (number) return *number;
@@ -119,7 +120,7 @@ class Evaluation {
       fail(at, fmt::format("there is no parameter `{}`, and a unit cannot stand in an expression", name),
            fmt::format("a quantity is one number, a space and a unit: \"0.5 {}\"", name));
     std::vector<std::string> names{"pi"};
-    names_of(environment, names);
+    add_names(environment, names);
     const std::string meant = nearest(name, names);
     fail(at, fmt::format("unknown name `{}`", name),
          meant.empty() ? "it must be a parameter" : fmt::format("did you mean `{}`?", meant));

@@ -20,8 +20,6 @@ struct Number {
   double hertz = 0;       ///< exponent of cycles: of Hz, as in Unit, and what comes of it: omega/(2*pi) counts cycles
   double pi = 0;          ///< exponent of pi, as long as it may be a number or the conversion of cycles (counting.hpp)
   double typed_time = 0;  ///< the part of the exponent of s that comes of times typed as such: 1/T of a time T is a frequency
-
-  friend bool operator==(const Number&, const Number&) = default;
 };
 
 /// So much of a unit. The inverse of a unit of time other than s counts cycles, as Hz does: 600 1/min are 10 Hz.

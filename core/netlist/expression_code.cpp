@@ -12,96 +12,91 @@ namespace rheonet {
 
 namespace {
 
-using Part = ExpressionCode::Part;
-using Op = ExpressionCode::Op;
+constexpr int most_parentheses = 500;  // the parser calls itself for each
+// Signs, powers and choices within each other: a parenthesis counts as two at least.
+constexpr int most_nested = 4 * most_parentheses;
 
-constexpr int deepest = 500;  // parentheses: the parser calls itself for each
-constexpr int most_levels = 4 * deepest;  // of signs, powers and choices within each other: two for each parenthesis at least
+bool begins_name(char c) { return is_letter(c) || c == '_'; }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
-}
-
-struct Token {
+struct ExpressionToken {
   enum class Kind { number, name, sign, end };
   Kind kind;
-  Part part;
+  ExpressionCode::Part part;
   double number = 0;
 };
 
-[[noreturn]] void fail(std::size_t byte, std::string_view text, std::string message, std::string hint = "") {
+[[noreturn]] void refuse_at(std::size_t byte, std::string_view text, std::string message, std::string hint = "") {
   throw TextError{count_characters(text.substr(0, byte)), std::move(message), std::move(hint)};
 }
 
 /// Splits a text into numbers, names and signs.
-class Scanner {
+class ExpressionScanner {
  public:
-  explicit Scanner(std::string_view text) : text_(text) {}
+  explicit ExpressionScanner(std::string_view text) : text_(text) {}
 
-  std::vector<Token> run() {
-    std::vector<Token> tokens;
+  std::vector<ExpressionToken> run() {
+    std::vector<ExpressionToken> tokens;
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (c == ' ' || c == '\t' || c == '\r' || c == '\n')
         ++at_;
       else if (is_digit(c) || (c == '.' && is_digit(next())))
         tokens.push_back(number());
-      else if (is_name(c))
+      else if (begins_name(c))
         tokens.push_back(name());
       else
         tokens.push_back(sign());
     }
-    tokens.push_back({Token::Kind::end, {text_.size(), text_.size()}});
+    tokens.push_back({ExpressionToken::Kind::end, {text_.size(), text_.size()}});
     return tokens;
   }
 
  private:
   char next() const { return at_ + 1 < text_.size() ? text_[at_ + 1] : '\0'; }
 
-  Token number() {
+  ExpressionToken number() {
     const std::size_t begin = at_;
     double value = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     at_ = static_cast<std::size_t>(end - text_.data());
     const std::string_view digits = text_.substr(begin, at_ - begin);
-    if (at_ < text_.size() && is_name(text_[at_])) {
+    if (at_ < text_.size() && begins_name(text_[at_])) {
       std::size_t last = at_;
-      while (last < text_.size() && (is_name(text_[last]) || is_digit(text_[last]))) ++last;
+      while (last < text_.size() && (begins_name(text_[last]) || is_digit(text_[last]))) ++last;
       const std::string_view name = text_.substr(at_, last - at_);
-      fail(at_, text_, fmt::format("`{}` follows a number without an operator", name),
+      refuse_at(at_, text_, fmt::format("`{}` follows a number without an operator", name),
            fmt::format("`{0}*{1}` for a parameter, `{0} {1}` for a unit", digits, name));
     }
-    if (error != std::errc{}) fail(begin, text_, fmt::format("`{}` is beyond the range of numbers", digits));
-    return {Token::Kind::number, {begin, at_}, value};
+    if (error != std::errc{}) refuse_at(begin, text_, fmt::format("`{}` is beyond the range of numbers", digits));
+    return {ExpressionToken::Kind::number, {begin, at_}, value};
   }
 
-  Token name() {
+  ExpressionToken name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (is_name(text_[at_]) || is_digit(text_[at_]))) ++at_;
-    return {Token::Kind::name, {begin, at_}};
+    while (at_ < text_.size() && (begins_name(text_[at_]) || is_digit(text_[at_]))) ++at_;
+    return {ExpressionToken::Kind::name, {begin, at_}};
   }
 
-  Token sign() {
+  ExpressionToken sign() {
     const char c = text_[at_];
     const std::size_t begin = at_;
     const std::string_view two = text_.substr(at_, 2);
     for (const std::string_view known : {"<=", ">=", "==", "!=", "&&", "||"})
       if (two == known) {
         at_ += 2;
-        return {Token::Kind::sign, {begin, at_}};
+        return {ExpressionToken::Kind::sign, {begin, at_}};
       }
-    if (two == "**") fail(at_, text_, "unexpected `**`", "a power is written with `^`");
-    if (c == '=') fail(at_, text_, "an expression cannot assign", "`==` compares");
-    if (c == '!') fail(at_, text_, "unexpected `!`", "`!=` compares, `a == 0` negates");
-    if (c == '&' || c == '|') fail(at_, text_, fmt::format("unexpected `{}`", c), "`&&` is and, `||` is or");
+    if (two == "**") refuse_at(at_, text_, "unexpected `**`", "a power is written with `^`");
+    if (c == '=') refuse_at(at_, text_, "an expression cannot assign", "`==` compares");
+    if (c == '!') refuse_at(at_, text_, "unexpected `!`", "`!=` compares, `a == 0` negates");
+    if (c == '&' || c == '|') refuse_at(at_, text_, fmt::format("unexpected `{}`", c), "`&&` is and, `||` is or");
     depth_ += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (depth_ > deepest) fail(at_, text_, "parentheses are nested too deeply");
-    if (c == ',' && depth_ <= 0) fail(at_, text_, "an expression has one value", "a decimal point is written `.`");
+    if (depth_ > most_parentheses) refuse_at(at_, text_, "parentheses are nested too deeply");
+    if (c == ',' && depth_ <= 0) refuse_at(at_, text_, "an expression has one value", "a decimal point is written `.`");
     if (std::string_view("+-*/^(),?:<>").find(c) == std::string_view::npos)
-      fail(at_, text_, fmt::format("unexpected `{}` in an expression", c));
+      refuse_at(at_, text_, fmt::format("unexpected `{}` in an expression", c));
     ++at_;
-    return {Token::Kind::sign, {begin, at_}};
+    return {ExpressionToken::Kind::sign, {begin, at_}};
   }
 
   std::string_view text_;
@@ -112,9 +107,12 @@ class Scanner {
 /// choice = either [ "?" choice ":" choice ];  either = both { "||" both };  both = comparison { "&&" comparison };
 /// comparison = sum { "<" sum };  sum = product { "+" product };  product = signed { "*" signed };
 /// signed = [ "-" ] signed | power;  power = value [ "^" signed ];  value = number | name | call | "(" choice ")".
-class Parser {
+class ExpressionParser {
+  using Op = ExpressionCode::Op;
+  using Part = ExpressionCode::Part;
+
  public:
-  Parser(std::string_view text, std::vector<Token> tokens) : text_(text), tokens_(std::move(tokens)) {
+  ExpressionParser(std::string_view text, std::vector<ExpressionToken> tokens) : text_(text), tokens_(std::move(tokens)) {
     find_variables();
   }
 
@@ -129,13 +127,13 @@ class Parser {
   }
 
  private:
-  using Level = Part (Parser::*)();
+  using Level = Part (ExpressionParser::*)();
 
-  const Token& now() const { return tokens_[at_]; }
-  bool at_end() const { return now().kind == Token::Kind::end; }
+  const ExpressionToken& now() const { return tokens_[at_]; }
+  bool at_end() const { return now().kind == ExpressionToken::Kind::end; }
   std::string_view text_of(const Part& part) const { return text_.substr(part.begin, part.end - part.begin); }
   bool is_sign(std::size_t at, std::string_view sign) const {
-    return tokens_[at].kind == Token::Kind::sign && text_of(tokens_[at].part) == sign;
+    return tokens_[at].kind == ExpressionToken::Kind::sign && text_of(tokens_[at].part) == sign;
   }
   bool take(std::string_view sign) {
     if (!is_sign(at_, sign)) return false;
@@ -143,10 +141,10 @@ class Parser {
     return true;
   }
   [[noreturn]] void unexpected() const {
-    if (at_end()) fail(text_.size(), text_, "the expression ends too early");
+    if (at_end()) refuse_at(text_.size(), text_, "the expression ends too early");
     const std::string_view found = text_of(now().part);
-    const bool value = now().kind != Token::Kind::sign;
-    fail(now().part.begin, text_, fmt::format("unexpected `{}`", found),
+    const bool value = now().kind != ExpressionToken::Kind::sign;
+    refuse_at(now().part.begin, text_, fmt::format("unexpected `{}`", found),
          value ? fmt::format("is an operator missing before `{}`?", found) : "");
   }
 
@@ -154,7 +152,7 @@ class Parser {
 
   void find_variables() {
     for (std::size_t i = 0; i < tokens_.size(); ++i) {
-      if (tokens_[i].kind != Token::Kind::name || is_call(i)) continue;
+      if (tokens_[i].kind != ExpressionToken::Kind::name || is_call(i)) continue;
       const std::string_view name = text_of(tokens_[i].part);
       if (variable(name) == code_.variables.size())
         code_.variables.push_back({std::string(name), tokens_[i].part.begin, is_sign(i + 1, "(")});
@@ -192,7 +190,7 @@ class Parser {
   }
 
   Part choice() {
-    if (++depth_ > most_levels) fail(now().part.begin, text_, "the expression is nested too deeply");
+    if (++depth_ > most_nested) refuse_at(now().part.begin, text_, "the expression is nested too deeply");
     Part whole = either();
     if (take("?")) {
       const std::size_t test = emit({.op = Op::unless_jump});
@@ -201,7 +199,7 @@ class Parser {
       code_.instructions[test].index = code_.instructions.size();
       if (!take(":")) {
         if (at_end())
-          fail(text_.size(), text_, "the expression ends too early", "a choice is written `a > b ? x : y`");
+          refuse_at(text_.size(), text_, "the expression ends too early", "a choice is written `a > b ? x : y`");
         unexpected();
       }
       whole.end = choice().end;
@@ -210,24 +208,24 @@ class Parser {
     --depth_;
     return whole;
   }
-  Part either() { return chain(&Parser::both, {std::pair{std::string_view("||"), Op::either}}); }
-  Part both() { return chain(&Parser::comparison, {std::pair{std::string_view("&&"), Op::both}}); }
+  Part either() { return chain(&ExpressionParser::both, {std::pair{std::string_view("||"), Op::either}}); }
+  Part both() { return chain(&ExpressionParser::comparison, {std::pair{std::string_view("&&"), Op::both}}); }
   Part comparison() {
     using Pair = std::pair<std::string_view, Op>;
-    return chain(&Parser::sum, {Pair{"<=", Op::at_most}, Pair{">=", Op::at_least}, Pair{"==", Op::equal},
+    return chain(&ExpressionParser::sum, {Pair{"<=", Op::at_most}, Pair{">=", Op::at_least}, Pair{"==", Op::equal},
                                 Pair{"!=", Op::unequal}, Pair{"<", Op::less}, Pair{">", Op::greater}});
   }
   Part sum() {
     using Pair = std::pair<std::string_view, Op>;
-    return chain(&Parser::product, {Pair{"+", Op::plus}, Pair{"-", Op::minus}});
+    return chain(&ExpressionParser::product, {Pair{"+", Op::plus}, Pair{"-", Op::minus}});
   }
   Part product() {
     using Pair = std::pair<std::string_view, Op>;
-    return chain(&Parser::with_sign, {Pair{"*", Op::times}, Pair{"/", Op::over}});
+    return chain(&ExpressionParser::with_sign, {Pair{"*", Op::times}, Pair{"/", Op::over}});
   }
 
   Part with_sign() {
-    if (++depth_ > most_levels) fail(now().part.begin, text_, "the expression is nested too deeply");
+    if (++depth_ > most_nested) refuse_at(now().part.begin, text_, "the expression is nested too deeply");
     const std::size_t begin = now().part.begin;
     Part whole;
     if (take("-")) {
@@ -252,13 +250,13 @@ class Parser {
   }
 
   Part value() {
-    const Token token = now();
-    if (token.kind == Token::Kind::number) {
+    const ExpressionToken token = now();
+    if (token.kind == ExpressionToken::Kind::number) {
       ++at_;
       emit({.op = Op::number, .number = token.number, .whole = token.part});
       return token.part;
     }
-    if (token.kind == Token::Kind::name) {
+    if (token.kind == ExpressionToken::Kind::name) {
       if (is_call(at_)) return call();
       ++at_;
       emit({.op = Op::variable, .index = variable(text_of(token.part)), .whole = token.part});
@@ -271,7 +269,7 @@ class Parser {
 
   std::size_t close(std::size_t open) {
     const std::size_t end = now().part.end;
-    if (at_end()) fail(open, text_, "a `)` is missing");
+    if (at_end()) refuse_at(open, text_, "a `)` is missing");
     if (!take(")")) unexpected();
     return end;
   }
@@ -289,7 +287,7 @@ class Parser {
     const int count = static_cast<int>(arguments.size());
     const bool too_many = function.most_arguments >= 0 && count > function.most_arguments;
     if (too_many || count < function.least_arguments)
-      fail(name.begin, text_, fmt::format("too {} arguments for `{}`", too_many ? "many" : "few", function.name),
+      refuse_at(name.begin, text_, fmt::format("too {} arguments for `{}`", too_many ? "many" : "few", function.name),
            fmt::format("it is called so: `{}({})`", function.name, function.arguments));
     emit({.op = Op::call,
           .index = code_.arguments.size(),
@@ -301,7 +299,7 @@ class Parser {
   }
 
   std::string_view text_;
-  std::vector<Token> tokens_;
+  std::vector<ExpressionToken> tokens_;
   std::size_t at_ = 0;
   int depth_ = 0;
   ExpressionCode code_;
@@ -309,6 +307,6 @@ class Parser {
 
 }  // namespace
 
-ExpressionCode compile_expression(std::string_view text) { return Parser(text, Scanner(text).run()).run(); }
+ExpressionCode compile_expression(std::string_view text) { return ExpressionParser(text, ExpressionScanner(text).run()).run(); }
 
 }  // namespace rheonet

@@ -7,77 +7,76 @@ namespace rheonet {
 
 namespace {
 
-using Arguments = std::span<const double>;
-using enum FunctionRule;
+using FunctionArguments = std::span<const double>;
 
-constexpr ExpressionFunction functions[] = {
-    {"sin", 1, 1, of_angle, [](Arguments x) { return std::sin(x[0]); }, "x", "sine", "sin(pi/6)", 0.5},
-    {"cos", 1, 1, of_angle, [](Arguments x) { return std::cos(x[0]); }, "x", "cosine", "cos(pi/3)", 0.5},
-    {"tan", 1, 1, of_angle, [](Arguments x) { return std::tan(x[0]); }, "x", "tangent", "tan(pi/4)", 1},
-    {"asin", 1, 1, gives_angle, [](Arguments x) { return std::asin(x[0]); }, "x",
+constexpr ExpressionFunction function_table[] = {
+    {"sin", 1, 1, FunctionRule::of_angle, [](FunctionArguments x) { return std::sin(x[0]); }, "x", "sine", "sin(pi/6)", 0.5},
+    {"cos", 1, 1, FunctionRule::of_angle, [](FunctionArguments x) { return std::cos(x[0]); }, "x", "cosine", "cos(pi/3)", 0.5},
+    {"tan", 1, 1, FunctionRule::of_angle, [](FunctionArguments x) { return std::tan(x[0]); }, "x", "tangent", "tan(pi/4)", 1},
+    {"asin", 1, 1, FunctionRule::gives_angle, [](FunctionArguments x) { return std::asin(x[0]); }, "x",
      "angle in [-pi/2, pi/2] whose sine is x", "asin(0.5)*6/pi", 1},
-    {"acos", 1, 1, gives_angle, [](Arguments x) { return std::acos(x[0]); }, "x",
+    {"acos", 1, 1, FunctionRule::gives_angle, [](FunctionArguments x) { return std::acos(x[0]); }, "x",
      "angle in [0, pi] whose cosine is x", "acos(0.5)*3/pi", 1},
-    {"atan", 1, 1, gives_angle, [](Arguments x) { return std::atan(x[0]); }, "x",
+    {"atan", 1, 1, FunctionRule::gives_angle, [](FunctionArguments x) { return std::atan(x[0]); }, "x",
      "angle in (-pi/2, pi/2) whose tangent is x", "atan(1)*4/pi", 1},
-    {"atan2", 2, 2, alike_angle, [](Arguments x) { return std::atan2(x[0], x[1]); }, "y, x",
+    {"atan2", 2, 2, FunctionRule::alike_angle, [](FunctionArguments x) { return std::atan2(x[0], x[1]); }, "y, x",
      "angle in (-pi, pi] of the point (x, y)", "atan2(1, -1)*4/pi", 3},
-    {"sinh", 1, 1, of_number, [](Arguments x) { return std::sinh(x[0]); }, "x", "hyperbolic sine", "sinh(ln(2))", 0.75},
-    {"cosh", 1, 1, of_number, [](Arguments x) { return std::cosh(x[0]); }, "x", "hyperbolic cosine", "cosh(ln(2))", 1.25},
-    {"tanh", 1, 1, of_number, [](Arguments x) { return std::tanh(x[0]); }, "x", "hyperbolic tangent", "tanh(ln(2))", 0.6},
-    {"asinh", 1, 1, of_number, [](Arguments x) { return std::asinh(x[0]); }, "x",
+    {"sinh", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::sinh(x[0]); }, "x", "hyperbolic sine", "sinh(ln(2))", 0.75},
+    {"cosh", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::cosh(x[0]); }, "x", "hyperbolic cosine", "cosh(ln(2))", 1.25},
+    {"tanh", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::tanh(x[0]); }, "x", "hyperbolic tangent", "tanh(ln(2))", 0.6},
+    {"asinh", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::asinh(x[0]); }, "x",
      "number whose hyperbolic sine is x", "exp(asinh(0.75))", 2},
-    {"acosh", 1, 1, of_number, [](Arguments x) { return std::acosh(x[0]); }, "x",
+    {"acosh", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::acosh(x[0]); }, "x",
      "number, at least 0, whose hyperbolic cosine is x", "exp(acosh(1.25))", 2},
-    {"atanh", 1, 1, of_number, [](Arguments x) { return std::atanh(x[0]); }, "x",
+    {"atanh", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::atanh(x[0]); }, "x",
      "number whose hyperbolic tangent is x", "exp(atanh(0.6))", 2},
-    {"exp", 1, 1, of_number, [](Arguments x) { return std::exp(x[0]); }, "x", "e to the power x", "exp(ln(2.5))", 2.5},
-    {"ln", 1, 1, of_number, [](Arguments x) { return std::log(x[0]); }, "x", "natural logarithm", "ln(exp(2.5))", 2.5},
-    {"log10", 1, 1, of_number, [](Arguments x) { return std::log10(x[0]); }, "x", "decimal logarithm", "log10(1000)", 3},
-    {"log2", 1, 1, of_number, [](Arguments x) { return std::log2(x[0]); }, "x", "binary logarithm", "log2(32)", 5},
-    {"sqrt", 1, 1, half, [](Arguments x) { return std::sqrt(x[0]); }, "x", "square root", "sqrt(6.25)", 2.5},
-    {"abs", 1, 1, same, [](Arguments x) { return std::abs(x[0]); }, "x", "absolute value", "abs(-7)", 7},
-    {"sign", 1, 1, FunctionRule::sign, [](Arguments x) { return x[0] > 0 ? 1.0 : x[0] < 0 ? -1.0 : 0.0; }, "x",
+    {"exp", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::exp(x[0]); }, "x", "e to the power x", "exp(ln(2.5))", 2.5},
+    {"ln", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::log(x[0]); }, "x", "natural logarithm", "ln(exp(2.5))", 2.5},
+    {"log10", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::log10(x[0]); }, "x", "decimal logarithm", "log10(1000)", 3},
+    {"log2", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::log2(x[0]); }, "x", "binary logarithm", "log2(32)", 5},
+    {"sqrt", 1, 1, FunctionRule::half, [](FunctionArguments x) { return std::sqrt(x[0]); }, "x", "square root", "sqrt(6.25)", 2.5},
+    {"abs", 1, 1, FunctionRule::same, [](FunctionArguments x) { return std::abs(x[0]); }, "x", "absolute value", "abs(-7)", 7},
+    {"sign", 1, 1, FunctionRule::sign, [](FunctionArguments x) { return x[0] > 0 ? 1.0 : x[0] < 0 ? -1.0 : 0.0; }, "x",
      "-1, 0 or 1, as x is below, at or above 0", "sign(-3)", -1},
-    {"floor", 1, 1, of_number, [](Arguments x) { return std::floor(x[0]); }, "x", "largest whole number not above x",
+    {"floor", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::floor(x[0]); }, "x", "largest whole number not above x",
      "floor(-0.5)", -1},
-    {"ceil", 1, 1, of_number, [](Arguments x) { return std::ceil(x[0]); }, "x", "smallest whole number not below x",
+    {"ceil", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::ceil(x[0]); }, "x", "smallest whole number not below x",
      "ceil(0.1)", 1},
-    {"round", 1, 1, of_number, [](Arguments x) { return std::round(x[0]); }, "x",
+    {"round", 1, 1, FunctionRule::of_number, [](FunctionArguments x) { return std::round(x[0]); }, "x",
      "nearest whole number; halves away from 0", "round(2.5)", 3},
-    {"min", 1, -1, alike, [](Arguments x) { return *std::min_element(x.begin(), x.end()); }, "a, b, ...",
+    {"min", 1, -1, FunctionRule::alike, [](FunctionArguments x) { return *std::min_element(x.begin(), x.end()); }, "a, b, ...",
      "smallest of the arguments", "min(3, 1, 2)", 1},
-    {"max", 1, -1, alike, [](Arguments x) { return *std::max_element(x.begin(), x.end()); }, "a, b, ...",
+    {"max", 1, -1, FunctionRule::alike, [](FunctionArguments x) { return *std::max_element(x.begin(), x.end()); }, "a, b, ...",
      "largest of the arguments", "max(3, 1, 2)", 3},
 };
 
 }  // namespace
 
-std::span<const ExpressionFunction> expression_functions() { return functions; }
+std::span<const ExpressionFunction> expression_functions() { return function_table; }
 
 const ExpressionFunction* find_function(std::string_view name) {
-  const auto* const found = std::find_if(std::begin(functions), std::end(functions),
+  const auto* const found = std::find_if(std::begin(function_table), std::end(function_table),
                                          [&](const ExpressionFunction& function) { return function.name == name; });
-  return found != std::end(functions) ? found : nullptr;
+  return found != std::end(function_table) ? found : nullptr;
 }
 
 std::string_view words_of(FunctionRule rule) {
   switch (rule) {
-    case of_angle:
+    case FunctionRule::of_angle:
       return "an angle or a pure number -> a pure number";
-    case gives_angle:
+    case FunctionRule::gives_angle:
       return "a pure number -> an angle";
-    case of_number:
+    case FunctionRule::of_number:
       return "a pure number -> a pure number";
-    case half:
+    case FunctionRule::half:
       return "any dimension -> its square root";
-    case same:
+    case FunctionRule::same:
       return "any dimension -> the same";
     case FunctionRule::sign:
       return "any dimension -> a pure number";
-    case alike:
+    case FunctionRule::alike:
       return "all of one dimension -> that dimension";
-    case alike_angle:
+    case FunctionRule::alike_angle:
       return "both of one dimension -> an angle";
   }
   return {};

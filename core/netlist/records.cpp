@@ -149,10 +149,10 @@ BlockUnit unit_of(const Scene& scene, const Record& record) {
 }
 
 Number one_of(const BlockUnit& unit) {
-  return {.value = 1, .dimension = unit.dimension, .plain = unit.open, .radian = unit.radian, .hertz = unit.hertz};
+  return {.value = 1, .dimension = unit.dimension, .plain = unit.open, .radian = unit.radian};
 }
 
-BlockUnit unit_of(const Number& number) { return {number.dimension, number.radian, number.plain, number.hertz}; }
+BlockUnit unit_of(const Number& number) { return {number.dimension, number.radian, number.plain}; }
 
 std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
   if (record.subject != Subject::block) return quantity_of(record.channel);

@@ -65,9 +65,8 @@ struct SceneAssembly {
 /// What a block puts out is in this unit; `open` if nothing says in which one: it is taken in SI whatever it is for.
 struct BlockUnit {
   Dimension dimension;
-  double radian = 0;  ///< the exponents of rad and of Hz that came with it: they tell rad/s from Hz
+  double radian = 0;  ///< the exponent of rad that came with it, for messages
   bool open = true;
-  double hertz = 0;
 };
 
 /// An element that makes a signal of others: its name, declaration and values are those of the element.

@@ -14,7 +14,7 @@ struct Unit {
   double factor = 1;
   Dimension dimension;
   double radian = 0;  ///< exponent of rad in it, which `dimension` ignores: tells rad/s from 1/s
-  double hertz = 0;   ///< exponent of Hz in it: tells cycles from 1/s, which may be an angular velocity
+  double hertz = 0;   ///< exponent of Hz in it: tells Hz, which is no angular velocity, from 1/s, which may be one
 };
 
 /// Why a piece of text is no unit or no expression. `offset` counts characters (code points) from the start of the

@@ -72,6 +72,12 @@ bool uses_names_of(const Environment& environment, std::string_view text) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return environment.find(word); });
 }
 
+bool identical(const Number& a, const Number& b) {
+  return a.value == b.value && a.plain == b.plain && a.dimension.metre == b.dimension.metre &&
+         a.dimension.kilogram == b.dimension.kilogram && a.dimension.second == b.dimension.second &&
+         a.radian == b.radian && a.hertz == b.hertz && a.pi == b.pi && a.typed_time == b.typed_time;
+}
+
 std::string with_unit(double value, const std::string& unit) {
   return unit == "1" || value == 0 ? number_text(value) : number_text(value) + ' ' + unit;
 }
@@ -115,7 +121,7 @@ std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes
     if (count == inputs.size()) {
       inputs.push_back(*value);
       changed = true;
-    } else if (inputs[count] != *value) {
+    } else if (!identical(inputs[count], *value)) {
       inputs[count] = *value;
       changed = true;
     }
