@@ -14,7 +14,7 @@ namespace {
 
 constexpr int most_parentheses = 500;  // the parser calls itself for each
 // Signs, powers and choices within each other: a parenthesis counts as two at least.
-constexpr int most_nested = 4 * most_parentheses;
+constexpr int most_levels_within = 4 * most_parentheses;
 
 bool begins_name(char c) { return is_letter(c) || c == '_'; }
 
@@ -190,7 +190,7 @@ class ExpressionParser {
   }
 
   Part choice() {
-    if (++depth_ > most_nested) refuse_at(now().part.begin, text_, "the expression is nested too deeply");
+    if (++depth_ > most_levels_within) refuse_at(now().part.begin, text_, "the expression is nested too deeply");
     Part whole = either();
     if (take("?")) {
       const std::size_t test = emit({.op = Op::unless_jump});
@@ -225,7 +225,7 @@ class ExpressionParser {
   }
 
   Part with_sign() {
-    if (++depth_ > most_nested) refuse_at(now().part.begin, text_, "the expression is nested too deeply");
+    if (++depth_ > most_levels_within) refuse_at(now().part.begin, text_, "the expression is nested too deeply");
     const std::size_t begin = now().part.begin;
     Part whole;
     if (take("-")) {
