@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# package.sh PACKAGE: a Debian package of rheonet brings nothing but libraries, and installed in a bare Debian it runs.
-# Where debootstrap is missing, or for others than root, it exits with 77: skipped. `--made-by CPACK CONFIG` makes the package.
+# package.sh [--only-fields] PACKAGE, or package.sh [--only-fields] CPACK CONFIG, which makes the package: a Debian package of
+# rheonet depends on libraries alone, and installed in a bare Debian it runs. It exits with 77 (skipped) where debootstrap is
+# missing, or when root does not run it.
 set -euo pipefail
 folder=$(mktemp -d)
 finish() {
@@ -10,9 +11,11 @@ finish() {
 trap finish EXIT
 skip() { echo "skipped: $1"; exit 77; }
 
-if [ "$1" = --made-by ]; then
+only_fields=no
+if [ "$1" = --only-fields ]; then only_fields=yes; shift; fi
+if [ $# -eq 2 ]; then
   for tool in dpkg-shlibdeps file; do command -v "$tool" >/dev/null || skip "$tool is missing (Debian: dpkg-dev, file)"; done
-  "$2" --config "$3" -B "$folder/package" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+  "$1" --config "$2" -B "$folder/package" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
   package=$(echo "$folder"/package/*.deb)
 else
   package=$1
@@ -25,6 +28,7 @@ if tr ',' '\n' <<<"$depends" | sed 's/^ *//; s/ .*//' | grep -vE '^lib[a-z0-9.+-
   exit 1
 fi
 
+[ "$only_fields" = no ] || exit 0
 [ "$(id -u)" -eq 0 ] || skip "only root makes a bare Debian"
 command -v debootstrap >/dev/null || skip "debootstrap is missing (Debian: debootstrap)"
 # From where this machine has its own packages.
