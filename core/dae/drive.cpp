@@ -266,6 +266,8 @@ double Drive::search_reversal(int a, int b, double t, double limit, double grain
     // |w| falls at most as fast as |w| - fall tau - bound tau^2/2: it is safe to go on to where that is 0.
     const double fall = std::max(0.0, -side * f.dw);
     const double root = std::hypot(fall, std::sqrt(2 * f.bound) * std::sqrt(std::abs(f.w)));
+    // Beyond the range of double precision no stride is safe: the search would go on by the grain of time.
+    if (!std::isfinite(root)) return never;
     const double stride = fall + root > 0 ? 2 * std::abs(f.w) / (fall + root) : never;
     now += std::max(stride, grain);
   }

@@ -15,7 +15,8 @@ class Joiner {
       : scene_(scene), 
         sets_(scene.nodes.size() + scene.elements.size()),
         shared_(scene.nodes.size(), 0),
-        ignored_(scene.elements.size(), 0) {
+        ignored_(scene.elements.size(), 0),
+        sensed_(scene.elements.size(), 0) {
     std::vector<char> fed(scene.elements.size(), 0);
     for (const SceneFeed& feed : scene.feeds) fed[at(feed.element)] = 1;
     shared_[ground] = 1;
@@ -36,9 +37,11 @@ class Joiner {
   }
 
   bool shared(NodeId node) const { return shared_[at(node)] != 0; }
-  /// It stands at shared nodes alone, and nothing in it moves by itself; or it is not looked at.
+  /// It stands at shared nodes alone, and nothing in it moves by itself; or it is not looked at. An element whose force a block
+  /// takes in belongs to the part of the block, but for a motion, which all parts at its node have.
   bool bound(std::size_t e) const {
     if (ignored_[e]) return true;
+    if (sensed_[e] && role(e) != Role::motion) return false;
     const SceneElement& element = scene_.elements[e];
     return element.at && role(e) != Role::block && shared(element.a);
   }
@@ -48,6 +51,10 @@ class Joiner {
  private:
   Role role(std::size_t e) const { return components()[at(scene_.elements[e].declaration)]->role; }
   void join(int e, int other) { sets_.join(static_cast<int>(scene_.nodes.size()) + e, static_cast<int>(scene_.nodes.size()) + other); }
+  void sense(int block, int e) {
+    join(block, e);
+    sensed_[at(e)] = 1;
+  }
   void join_node(int e, NodeId node) {
     if (!shared(node)) sets_.join(static_cast<int>(scene_.nodes.size()) + e, node);
   }
@@ -64,19 +71,19 @@ class Joiner {
       }
       const Record& record = scene_.sensed[at(input.index)];
       if (record.subject == Record::Subject::node) join_node(block.element, record.index);
-      if (record.subject == Record::Subject::element) join(block.element, record.index);
+      if (record.subject == Record::Subject::element) sense(block.element, record.index);
       if (record.subject == Record::Subject::assembly) {
         const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
         join_node(block.element, assembly.a);
         join_node(block.element, assembly.b);
-        for (const SceneAssembly::Term& term : assembly.force) join(block.element, term.element);
+        for (const SceneAssembly::Term& term : assembly.force) sense(block.element, term.element);
       }
     }
   }
 
   const Scene& scene_;
   Sets sets_;
-  std::vector<char> shared_, ignored_;
+  std::vector<char> shared_, ignored_, sensed_;
 };
 
 }  // namespace

@@ -209,6 +209,10 @@ class Cutter {
       jobs_of_node_[at(element.a)].insert(job(parts.of_element[e]));
       if (!element.at) jobs_of_node_[at(element.b)].insert(job(parts.of_element[e]));
     }
+    for (const SceneBlock& block : scene_.blocks) {
+      const int part = parts.of_element[at(block.element)];
+      if (part >= 0) find_jobs_of_sensed(block, job(part));
+    }
     for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
       if (parts.of_element[e] >= 0 || role(e) == Role::block) continue;
       std::set<int>& there = jobs_of_node_[at(scene_.elements[e].a)];
@@ -218,6 +222,23 @@ class Cutter {
       } else {
         jobs_of_element_[e].insert(*there.begin());
       }
+    }
+  }
+
+  /// A block may take in a quantity of a node that moves as it is given to: no element of its part need be there.
+  void find_jobs_of_sensed(const SceneBlock& block, int job) {
+    for (const SceneBlock::Input& input : block.inputs) {
+      if (input.from_block) continue;
+      const Record& sensed = scene_.sensed[at(input.index)];
+      const auto need_motion = [&](int e) {
+        if (role(at(e)) == Role::motion) jobs_of_node_[at(scene_.elements[at(e)].a)].insert(job);
+      };
+      if (sensed.subject == Record::Subject::node) jobs_of_node_[at(sensed.index)].insert(job);
+      if (sensed.subject == Record::Subject::element) need_motion(sensed.index);
+      if (sensed.subject != Record::Subject::assembly) continue;
+      const SceneAssembly& assembly = scene_.assemblies[at(sensed.index)];
+      for (const NodeId end : {assembly.a, assembly.b}) jobs_of_node_[at(end)].insert(job);
+      for (const SceneAssembly::Term& term : assembly.force) need_motion(term.element);
     }
   }
 

@@ -204,7 +204,7 @@ TEST_CASE("the fastest oscillation of a drive") {
 
 // The square of a speed of 1e298 m/s is beyond the numbers: strides became 0, and the search did not end.
 TEST_CASE("reversals of a sine are found at any amplitude") {
-  for (const double amplitude : {1e-300, 1e-160, 1e-12, 1.0, 1e12, 1e160, 1e297, 1e306}) {
+  for (const double amplitude : {1e-300, 1e-160, 1e-12, 1.0, 1e12, 1e160, 1e297, 1e304}) {
     CAPTURE(amplitude);
     SceneBuilder b;
     b.motion("m", "a", "position", Signal(Signal::Sine{amplitude, 1, 0, 0, 0}));
@@ -214,6 +214,12 @@ TEST_CASE("reversals of a sine are found at any amplitude") {
     CHECK(driven.drive.next_reversal(0, -1, 0.3, 0.9) == doctest::Approx(0.75).epsilon(1e-12));
     CHECK(std::isinf(driven.drive.next_reversal(0, -1, 0.3, 0.7)));
   }
+  // Where the third derivative is beyond the numbers, there is an answer at once.
+  SceneBuilder b;
+  b.motion("m", "a", "position", Signal(Signal::Sine{1e307, 1, 0, 0, 0}));
+  Driven driven(b, 0, {0, 0});
+  driven.drive.enter(0);
+  CHECK(driven.drive.next_reversal(0, -1, 0, 0.9) > 0.2);
 }
 
 }  // namespace rheonet::test

@@ -166,12 +166,7 @@ class Fuzzing {
     words.push_back(copy_of(folder));
     TrialLimits limits = options_.limits;
     if (number / 10 % 10 == 0) limits.cpu_seconds *= 10;
-    // A machine that is busy may be late by itself, but not again and again.
-    constexpr int tries = 3;
-    Trial trial;
-    for (int k = 0; k < tries; ++k)
-      if (trial = try_program(words, text, limits); trial.fault != "a signal is not answered") break;
-    return trial;
+    return try_program(words, text, limits);
   }
 
   /// The path of the fuzzed scene: in a copy of `folder`, where it finds its includes and tables.

@@ -9,7 +9,7 @@ namespace rheonet::test {
 /// Bounds of a run of the program.
 struct TrialLimits {
   double cpu_seconds = 0.05;     ///< after this it is sent SIGTERM
-  double answer_seconds = 2;     ///< within this it has to end then
+  double answer_seconds = 2;     ///< of CPU time, within which it has to end then
   long megabytes = 2000;         ///< of memory; without a bound where sanitizers take all addresses
 };
 
