@@ -2,6 +2,7 @@
 // never a run without end.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "tests/support/program.hpp"
@@ -84,4 +85,30 @@ s2 = { type = "slider", between = ["second", "ground"], coulomb = 0.9, breakaway
 [simulate]
 stop = "5e159 s"
 )");
+}
+
+// A scene in several parts was cut into scenes of their own, and a block lost the node or the element that it takes in where that
+// stands at a prescribed motion: memory was overwritten, or the force was 0.
+TEST_CASE("a block takes in what stands at a prescribed motion, in a scene of several parts") {
+  const auto scene = [](const std::string& input, const std::string& gain) {
+    return R"([elements]
+d  = { type = "motion", at = "a", velocity = { sine = 1, frequency = 1 } }
+p  = { type = "force", at = "a", force = { sine = 2, frequency = 0.5 } }
+k  = { type = "spring", between = ["a", "b"], stiffness = 10 }
+mb = { type = "mass", at = "b", mass = 1 }
+k2 = { type = "spring", between = ["c", "ground"], stiffness = 1000 }
+c2 = { type = "dashpot", between = ["c", "ground"], damping = 1e-3 }
+f2 = { type = "force", at = "c", force = { block = "g" } }
+g  = { type = "gain", in = ")" + input + "\", gain = " + gain + R"( }
+[simulate]
+stop   = "0.5 s"
+output = { points = 2 }
+record = ["c.position"]
+)";
+  };
+  const auto last = [](const Finished& run) { return std::stod(run.out.substr(run.out.rfind(',') + 1)); };
+  // At 0.5 s the motion is at 1/pi, and the force at its peak, 2 N.
+  CHECK(last(run_any(scene("a.position", "\"3 N/m\""))) == doctest::Approx(3e-3 / 3.14159265358979).epsilon(1e-4));
+  CHECK(last(run_any(scene("p.force", "3"))) == doctest::Approx(6e-3).epsilon(1e-4));
+  CHECK(contains(run_any(scene("d.force", "3")).err, "cannot take in `d.force`"));
 }
