@@ -79,7 +79,7 @@ TEST_CASE("a dimension follows from those of the parameters") {
   check("max(L, c*L, 0.1*L)", 1.75 * 0.35, {1, 0, 0});
   check("L > 0 ? k : 2*k", 123.4, {0, 1, -2});
   check("B*(i+1)", 0.61 * 4, {0, 1, -1});
-  check("atan2(L, L2)", pi / 4, {});
+  check("atan2(L, L2)", pi / 4, {}, 1);  // an angle
   check("(L - L2) + 3*L", 1.05, {1, 0, 0});  // a difference that vanishes
   check("L - L2", 0, {1, 0, 0});
   check("none", 0, {1, 0, 0});
@@ -125,6 +125,9 @@ TEST_CASE("functions mean what their names say, and an ambiguous name is refused
   CHECK(error.offset == 2);
   CHECK(refusal("pow(2, 3)").hint == "a power is written with `^`");
   CHECK(refusal("squrt(4)").hint == "did you mean `sqrt`?");
+  CHECK(refusal("if(c > 1, c, i)").hint == "a choice is written `a > b ? x : y`");
+  CHECK(refusal("2*PI").hint == "write `pi`");
+  CHECK(refusal("2*exp").hint == "`exp` is a function: write `exp(x)`");
 }
 
 TEST_CASE("unlike things are not added, compared or put into functions") {
@@ -151,8 +154,8 @@ TEST_CASE("unlike things are not added, compared or put into functions") {
 TEST_CASE("a radian is a number, but which of rad/s and Hz was meant is remembered") {
   check("omega", 31, {0, 0, -1}, 1);
   check("2*omega", 62, {0, 0, -1}, 1);
-  check("omega/(2*pi)", 31 / (2 * pi), {0, 0, -1});
-  check("2*pi*f", 2 * pi * 5.3, {0, 0, -1}, 1, 1);
+  check("omega/(2*pi)", 31 / (2 * pi), {0, 0, -1}, 0, 1);  // counts cycles
+  check("2*pi*f", 2 * pi * 5.3, {0, 0, -1}, 1);           // counts radians
   check("f/2", 2.65, {0, 0, -1}, 0, 1);
   check("omega*T", 31 * 1.9, {}, 1);
   check("theta + 1", 1.83, {});
