@@ -95,14 +95,10 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
     if (balanced(load, force)) return !of_least_norm(force) ? Outcome::failed : cuts_.empty() ? Outcome::within : Outcome::beyond;
     const double newton = find_direction(), least = minimum_along();
     const bool bounded = std::isfinite(least);
-    const CutSearch search(branches_, open_, held_, open_load);
-    auto cut = search.along(direction_, bounded ? wide_gap : 0, CutSearch::Excess::beyond_round_off);
-    // Without a minimum in this direction some cut is overloaded, be it by round-off.
-    if (!cut && !bounded) cut = search.along(direction_, 0, CutSearch::Excess::any);
-    if (cut) {
+    if (const auto cut = CutSearch(branches_, open_, held_, open_load).along(direction_, bounded ? wide_gap : 0)) {
       give_way(*cut, open_load, force);
     } else {
-      move(bounded ? least : newton);
+      move(bounded ? least : newton);  // unbounded by round-off: the load of a cut is what the cut can carry
     }
   }
   return Outcome::failed;

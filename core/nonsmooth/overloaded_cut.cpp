@@ -13,7 +13,7 @@ namespace rheonet {
 // The slope of the dual along a direction d, far out, is the integral over all levels of capacity - load of the nodes above the
 // level (below it, for levels under 0). So where that slope is negative there is an overloaded cut between two levels, most
 // likely at the widest gap.
-std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& direction, double share, Excess wanted) const {
+std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& direction, double share) const {
   std::vector<int> order(direction.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int i, int j) { return direction[at(i)] < direction[at(j)]; });
@@ -39,7 +39,7 @@ std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& directi
     if (gap.width < share * range) break;
     const int side = gap.level > 0 ? 1 : -1;
     for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = side * direction[n] >= side * gap.level;
-    if (overloaded(inside, side, wanted)) return simple(inside, side);
+    if (overloaded(inside, side)) return simple(inside, side);
   }
   return std::nullopt;
 }
@@ -64,9 +64,9 @@ CutSearch::Balance CutSearch::balance(const std::vector<char>& inside, int side)
   return {excess, terms * std::numeric_limits<double>::epsilon() * magnitude};
 }
 
-bool CutSearch::overloaded(const std::vector<char>& inside, int side, Excess wanted) const {
+bool CutSearch::overloaded(const std::vector<char>& inside, int side) const {
   const auto [excess, rounding] = balance(inside, side);
-  return std::isfinite(excess) && excess > (wanted == Excess::any ? 0 : rounding);
+  return std::isfinite(excess) && excess > rounding;
 }
 
 /// The connected parts of the nodes with this value, without the part that reaches a held node.
@@ -104,7 +104,7 @@ OverloadedCut CutSearch::simple(std::vector<char> inside, int side) const {
     inside.swap(piece);
   }
   for (const std::vector<char>& loose : pieces(inside, 0)) {
-    if (overloaded(loose, -side, Excess::beyond_round_off)) {
+    if (overloaded(loose, -side)) {
       inside = loose;
       side = -side;
       break;

@@ -26,16 +26,14 @@ class CutSearch {
             const std::vector<double>& load)
       : branches_(branches), open_(open), held_(held), load_(load) {}
 
-  enum class Excess { any, beyond_round_off };
-
-  /// An overloaded cut between nodes that move apart in this direction, of each node (0 where it is held), if there is one with such
-  /// an excess. Looks where the nodes are apart by at least this share of the whole range.
-  std::optional<OverloadedCut> along(const std::vector<double>& direction, double share, Excess wanted) const;
+  /// An overloaded cut between nodes that move apart in this direction, of each node (0 where it is held), if there is one by more
+  /// than round-off. Looks where they are apart by at least this share of the whole range.
+  std::optional<OverloadedCut> along(const std::vector<double>& direction, double share) const;
 
  private:
   struct Balance { double excess, rounding; };
   Balance balance(const std::vector<char>& inside, int side) const;
-  bool overloaded(const std::vector<char>& inside, int side, Excess wanted) const;
+  bool overloaded(const std::vector<char>& inside, int side) const;
   OverloadedCut simple(std::vector<char> inside, int side) const;
   std::vector<std::vector<char>> pieces(const std::vector<char>& of, char value) const;
   bool within(const std::vector<char>& inside, int node) const { return node >= 0 && inside[static_cast<std::size_t>(node)] != 0; }
