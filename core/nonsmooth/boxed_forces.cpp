@@ -67,8 +67,6 @@ double BoxedForces::difference(const BoxedBranch& b, const std::vector<double>& 
   return (b.a < 0 ? 0 : of_nodes[at(b.a)]) - (b.b < 0 ? 0 : of_nodes[at(b.b)]);
 }
 
-bool BoxedForces::in_box(std::size_t k, double force) const { return branches_[k].low <= force && force <= branches_[k].high; }
-
 double BoxedForces::force_at(std::size_t k, double step) const {
   return std::clamp(difference_[k] + step * along_[k], branches_[k].low, branches_[k].high);
 }
@@ -76,12 +74,7 @@ double BoxedForces::force_at(std::size_t k, double step) const {
 BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::vector<double>& force) {
   cuts_.clear();
   failed_branch_ = -1;
-  if (without_bounds(load, force)) {
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      if (!in_box(k, force[k])) return Outcome::beyond;
-    }
-    return Outcome::within;
-  }
+  if (without_bounds(load, force)) return Outcome::within;
   std::fill(open_.begin(), open_.end(), 1);
   std::fill(difference_.begin(), difference_.end(), 0.0);
   std::fill(phi_.begin(), phi_.end(), 0.0);
@@ -104,12 +97,10 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
   return Outcome::failed;
 }
 
-/// The forces of least norm without regard to the boxes. They are the answer where they lie in their boxes, and where the branches
-/// have no loops, so that the balance alone determines every force. Differences of large potentials lose digits: the same factors
-/// bring them back.
+/// The forces of least norm, which are the answer where they lie in their boxes. Differences of large potentials lose digits: the
+/// same factors bring them back.
 bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<double>& force) {
   if (!factors_) return false;
-  const bool determined = branches_.size() == phi_.size();
   std::fill(held_.begin(), held_.end(), 0);
   std::fill(force.begin(), force.end(), 0.0);
   left_ = load;
@@ -118,7 +109,7 @@ bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<do
     Eigen::Map<Eigen::VectorXd>(phi_.data(), nodes) = factors_->solve(Eigen::Map<const Eigen::VectorXd>(left_.data(), nodes));
     for (std::size_t k = 0; k < branches_.size(); ++k) {
       force[k] += difference(branches_[k], phi_);
-      if (!determined && !in_box(k, force[k])) return false;
+      if (!(branches_[k].low <= force[k] && force[k] <= branches_[k].high)) return false;
     }
     if (balanced(load, force)) return true;
   }

@@ -27,7 +27,7 @@ class BoxedForces {
 
   enum class Outcome {
     within,  ///< every force is in its box
-    beyond,  ///< the load is more than the boxes allow: without loops forces are beyond their boxes, else see `cuts`
+    beyond,  ///< cuts are overloaded: see `cuts`
     failed,  ///< a condition is not met to round-off: see `failed_node` and `failed_branch`
   };
   /// `load`: of each node [N], finite. Writes the force of each branch.
@@ -42,7 +42,6 @@ class BoxedForces {
  private:
   struct Factors;
   double difference(const BoxedBranch& b, const std::vector<double>& of_nodes) const;
-  bool in_box(std::size_t k, double force) const;
   double force_at(std::size_t k, double step) const;
   double round_off(std::size_t node) const;
   bool balanced(const std::vector<double>& load, const std::vector<double>& force);
