@@ -86,12 +86,16 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
       if (open_[k]) force[k] = force_at(k, 0);
     }
     if (balanced(load, force)) return !of_least_norm(force) ? Outcome::failed : cuts_.empty() ? Outcome::within : Outcome::beyond;
-    const double newton = find_direction(), least = minimum_along();
+    find_direction();
+    const double least = minimum_along();
+    // Without a minimum along the direction, the load of a cut is at least what the cut can carry, but for round-off.
     const bool bounded = std::isfinite(least);
     if (const auto cut = CutSearch(branches_, open_, held_, open_load).along(direction_, bounded ? wide_gap : 0)) {
       give_way(*cut, open_load, force);
+    } else if (bounded) {
+      move(least);
     } else {
-      move(bounded ? least : newton);  // unbounded by round-off: the load of a cut is what the cut can carry
+      return Outcome::failed;
     }
   }
   return Outcome::failed;
@@ -151,9 +155,8 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
 
 /// Newton's direction for the active set at present. Branches within their boxes join nodes to parts. First those parts that do
 /// not reach a held node move as a whole, as if the branches between them were within their boxes, until all parts balance; then the
-/// nodes within the parts. Scaled to a length of about 1, as products of forces might
-/// overflow; returns the step that Newton's method would take.
-double BoxedForces::find_direction() {
+/// nodes within the parts. Scaled to a length of about 1, because products of forces might overflow.
+void BoxedForces::find_direction() {
   const int nodes = static_cast<int>(phi_.size());
   Sets parts(phi_.size() + 1);  // the last one is held
   const auto slot = [&](int node) { return node < 0 || held_[at(node)] ? nodes : node; };
@@ -193,7 +196,6 @@ double BoxedForces::find_direction() {
   const double length = std::ldexp(1, std::ilogb(d.cwiseAbs().maxCoeff()));
   for (int n = 0; n < nodes; ++n) direction_[at(n)] = unknown(n) < 0 ? 0 : d[unknown(n)] / length;
   for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? difference(branches_[k], direction_) : 0;
-  return length;
 }
 
 /// Slope of the dual along the direction, which grows with the step.
@@ -266,7 +268,7 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
     if (cut.inside[n] && (heaviest < 0 || magnitude_[n] > magnitude_[at(heaviest)])) heaviest = static_cast<int>(n);
   }
   held_[at(heaviest)] = 1;
-  cuts_.push_back(cut);
+  if (cut.beyond) cuts_.push_back(cut);
 }
 
 /// Whether every force is the potential difference, or the bound that lies before it.

@@ -46,7 +46,7 @@ class BoxedForces {
   double round_off(std::size_t node) const;
   bool balanced(const std::vector<double>& load, const std::vector<double>& force);
   bool without_bounds(const std::vector<double>& load, std::vector<double>& force);
-  double find_direction();
+  void find_direction();
   double slope_at(double step) const;
   double minimum_along() const;
   void move(double step);

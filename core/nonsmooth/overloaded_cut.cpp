@@ -34,14 +34,22 @@ std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& directi
   std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.width > b.width; });
   double range = 0;
   for (const Gap& gap : gaps) range += gap.width;
-  std::vector<char> inside(direction.size());
+  std::vector<char> inside(direction.size()), tightest;
+  double most = -std::numeric_limits<double>::infinity();
+  int tight_side = 1;
   for (const Gap& gap : gaps) {
-    if (gap.width < share * range) break;
+    if (gap.width < share * range) return std::nullopt;
     const int side = gap.level > 0 ? 1 : -1;
     for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = side * direction[n] >= side * gap.level;
     if (overloaded(inside, side)) return simple(inside, side);
+    if (const double excess = balance(inside, side).excess; excess > most) {
+      most = excess;
+      tight_side = side;
+      tightest = inside;
+    }
   }
-  return std::nullopt;
+  if (share > 0 || tightest.empty()) return std::nullopt;
+  return simple(tightest, tight_side);
 }
 
 CutSearch::Balance CutSearch::balance(const std::vector<char>& inside, int side) const {
@@ -111,8 +119,10 @@ OverloadedCut CutSearch::simple(std::vector<char> inside, int side) const {
     }
     for (std::size_t n = 0; n < loose.size(); ++n) inside[n] = inside[n] || loose[n];
   }
-  OverloadedCut cut{.inside = std::move(inside), .side = side, .branches = {}, .excess = 0};
-  cut.excess = balance(cut.inside, side).excess;
+  OverloadedCut cut{.inside = std::move(inside), .side = side, .branches = {}};
+  const auto [excess, rounding] = balance(cut.inside, side);
+  cut.excess = excess;
+  cut.beyond = excess > rounding;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (open_[k] && within(cut.inside, branches_[k].a) != within(cut.inside, branches_[k].b)) cut.branches.push_back(static_cast<int>(k));
   }

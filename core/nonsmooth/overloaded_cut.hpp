@@ -16,6 +16,7 @@ struct OverloadedCut {
   int side = 1;               ///< the direction in which the load pushes the set
   std::vector<int> branches;  ///< that leave the set
   double excess = 0;          ///< of the load over what the branches can carry [N]
+  bool beyond = false;        ///< the excess is more than round-off
 };
 
 /// Loads at the nodes of a graph, held up by branches. `open`: of each branch whether it takes part; `held`: of each node
@@ -26,8 +27,9 @@ class CutSearch {
             const std::vector<double>& load)
       : branches_(branches), open_(open), held_(held), load_(load) {}
 
-  /// An overloaded cut between nodes that move apart in this direction, of each node (0 where it is held), if there is one by more
-  /// than round-off. Looks where they are apart by at least this share of the whole range.
+  /// An overloaded cut between nodes that move apart in this direction, of each node (0 where it is held). Looks where they are
+  /// apart by at least this share of the whole range. With a share of 0, the cut with the largest excess if no excess is more
+  /// than round-off.
   std::optional<OverloadedCut> along(const std::vector<double>& direction, double share) const;
 
  private:
