@@ -51,7 +51,8 @@ void flatten(const Environment& environment, Environment& all) {
 Number time_of(double t, const Environment& parameters, Domain domain) {
   const bool plain = std::all_of(parameters.names.begin(), parameters.names.end(),
                                  [](const auto& named) { return named.second.plain; });
-  return {.value = t, .dimension = dimension_of(Quantity::time, domain), .plain = plain, .typed_time = 1};
+  if (plain) return {.value = t, .dimension = {}, .plain = true};
+  return {.value = t, .dimension = dimension_of(Quantity::time, domain), .plain = false, .typed_time = 1};
 }
 
 }  // namespace

@@ -163,8 +163,12 @@ double Channels::element_force(int element, const Dae::View& view) const {
     return (element == pair.pair.spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.force();
   }
   switch (place.role) {
-    case Role::deflection:
-      return view.f[at(place.index)];
+    case Role::deflection: {
+      // Round-off of the displacement times a stiffness of 1e12 N/m puts a force beyond its bound where the event is found.
+      std::size_t i = 0;
+      const double bound = network.batch_of(place.index, i).steady(i).bound;
+      return std::clamp(view.f[at(place.index)], -bound, bound);
+    }
     case Role::rate:
       return view.rate_force[at(place.index)];
     case Role::slip:

@@ -1,6 +1,7 @@
 #include "core/result/csv.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <bit>
 #include <cmath>
@@ -106,7 +107,12 @@ TEST_CASE("rows reach the file while it is written, all of them when it is flush
   CsvWriter csv(file.get(), "the results");
   csv.header({"a"});
   int rows = 0;
-  for (; std::ftell(file.get()) == 0; ++rows) {
+  const auto size = [&] {
+    struct stat status {};
+    REQUIRE(::fstat(::fileno(file.get()), &status) == 0);
+    return status.st_size;
+  };
+  for (; size() == 0; ++rows) {
     REQUIRE(rows < 1000000);
     csv.row(rows, {rows / 3.0});
   }

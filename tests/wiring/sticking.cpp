@@ -76,7 +76,9 @@ std::string wrong_sticking(const Scene& scene, const Trajectory& rows) {
       sum[static_cast<std::size_t>(e.a)] += counted;
       if (!e.at) sum[static_cast<std::size_t>(e.b)] -= counted;
       // One that begins to slip under its force of sliding has no velocity yet.
-      const bool slips = !force.velocity || (*force.velocity)[row] != 0 || (force.breakaway > force.coulomb && std::abs(f) == force.coulomb);
+      const double next = !force.velocity || row + 1 == rows.time().size() ? 0 : (*force.velocity)[row + 1];
+      const bool begins = std::abs(f) == force.coulomb && (force.breakaway > force.coulomb || next * f > 0);
+      const bool slips = !force.velocity || (*force.velocity)[row] != 0 || begins;
       if (slips) continue;
       joined[static_cast<std::size_t>(e.a)] = joined[static_cast<std::size_t>(e.b)] = 1;
       if (!(std::abs(f) <= force.breakaway * (1 + of_accuracy * scene.accuracy))) {
