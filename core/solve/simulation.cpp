@@ -314,12 +314,13 @@ class Run {
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * course(t);
     std::vector<double> ypp;
-    system_->consistency.second_derivative(t, glimpse * course(t), y_, yp_, ypp);
+    // Within a stretch that is short for its time a glimpse would be none.
+    system_->consistency.second_derivative(t, std::max(glimpse * course(t), time_grain(t)), y_, yp_, ypp);
     double foreseen = 0;
     if (tolerances_.blind()) {
       const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
-      foreseen = ahead = std::max(ahead, grains_ahead * time_grain(t));
+      foreseen = ahead = std::max(ahead, std::min(grains_ahead * time_grain(t), until - t));
     }
     std::vector<double> size;
     if (foreseen > 0) size = coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen);

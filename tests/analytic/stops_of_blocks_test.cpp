@@ -88,21 +88,21 @@ m1    = {{ type = "mass", at = "a", mass = {0:.17g} }}
 left  = {{ type = "generator", signal = {2:.17g} }}
 right = {{ type = "generator", signal = {3:.17g} }}
 below = {{ type = "sum", in = ["left", "-a.position"] }}
-above = {{ type = "sum", in = ["right", "-a.position"] }}
+above = {{ type = "sum", in = ["a.position", "-right"] }}
 push  = {{ type = "limiter", in = "below", lower = 0, upper = "inf" }}
-pull  = {{ type = "limiter", in = "above", lower = "-inf", upper = 0 }}
-both  = {{ type = "sum", in = ["push", "pull"] }}
+pull  = {{ type = "limiter", in = "above", lower = 0, upper = "inf" }}
+both  = {{ type = "sum", in = ["push", "-pull"] }}
 F     = {{ type = "gain", in = "both", gain = {1:.17g} }}
 walls = {{ type = "force", at = "a", force = {{ block = "F" }} }}
 [nodes]
-a = {{ position = {2:.17g}, velocity = {4:.17g} }}
+a = {{ position = {5:.17g}, velocity = {4:.17g} }}
 [simulate]
 stop   = 5
 output = {{ points = 2001 }}
 record = ["a.position"]
-)", m, k, low, high, v);
+)", m, k, low, high, v, low + gap / 2);
   const auto position = [=](double t) {
-    const double n = std::floor(t / half), u = t - n * half;
+    const double since_low = t + gap / (2 * v), n = std::floor(since_low / half), u = since_low - n * half;
     const double way = u < gap / v ? v * u : gap + amplitude * std::sin((u - gap / v) / std::sqrt(m / k));
     return std::fmod(n, 2) == 0 ? low + way : high - way;
   };
@@ -111,8 +111,8 @@ record = ["a.position"]
 
 // m x'' + c x' = k (place - x) + f(t), where all that is fast has long been damped.
 TEST_CASE("A stiff spring made of blocks between places that are not 0") {
-  constexpr double m = 0.15, c = 2500, force = 150, omega = 2 * pi * 0.01;
-  for (const double k : {1e3, 1e6, 1e8}) {
+  constexpr double m = 0.15, c = 2500, force = 150, omega = 2 * pi;
+  for (const double k : {1e5, 1e6}) {
     for (const double place : {0.0, -0.08025, 1.0}) {
       CAPTURE(k);
       CAPTURE(place);
@@ -120,7 +120,7 @@ TEST_CASE("A stiff spring made of blocks between places that are not 0") {
 [elements]
 m1   = {{ type = "mass", at = "a", mass = {0:.17g} }}
 c1   = {{ type = "dashpot", between = ["a", "ground"], damping = {1:.17g} }}
-f1   = {{ type = "force", at = "a", force = {{ sine = {2:.17g}, frequency = 0.01 }} }}
+f1   = {{ type = "force", at = "a", force = {{ sine = {2:.17g}, frequency = 1 }} }}
 rest = {{ type = "generator", signal = {3:.17g} }}
 d    = {{ type = "sum", in = ["rest", "-a.position"] }}
 F    = {{ type = "gain", in = "d", gain = {4:.17g} }}
@@ -128,13 +128,13 @@ k1   = {{ type = "force", at = "a", force = {{ block = "F" }} }}
 [nodes]
 a = {{ position = {3:.17g} }}
 [simulate]
-stop   = 100
+stop   = 2
 output = {{ points = 401 }}
 record = ["a.velocity", "k1.force"]
 )", m, c, force, place, k);
-      // x = place + Im(X e^(i w t)) once the start has been damped, which takes some c/k.
+      // x = place + Im(X e^(i w t)) once the start has been damped, which takes some c/k + m/c.
       const std::complex<double> s(0, omega), X = force / (m * s * s + c * s + k);
-      const double settled = 40 * c / k;
+      const double settled = 40 * (c / k + m / c);
       const auto velocity = [=](double t) { return (X * s * std::exp(s * t)).imag(); };
       const auto spring = [=](double t) { return -k * (X * std::exp(s * t)).imag(); };
       for (const double accuracy : accuracies) {
