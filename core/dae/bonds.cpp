@@ -9,74 +9,82 @@
 #include "core/network/around.hpp"
 #include "core/network/index.hpp"
 #include "core/network/listed.hpp"
+#include "core/network/sets.hpp"
 
 namespace rheonet {
 
-namespace {
-
-struct Joined {
-  std::vector<std::size_t> sliders;
-  std::vector<NodeId> nodes;
-  std::vector<BoxedBranch> branches;
-};
-
-/// The nodes that sticking sliders join. The leading node of each cluster is left out: its balance is the sum of the balances of the
-/// other nodes.
-Joined joined(const Network& network, const Structure& structure) {
-  Joined result;
-  std::vector<int> row(structure.kind.size(), -1);
+// The problem has the nodes that sticking sliders join. The leading node of each cluster is left out, as known nodes are: its balance
+// is the sum of the balances of the other nodes. The rest falls into separate parts.
+Bonds::Bonds(const Network& network, const Structure& structure) : network_(network) {
+  const auto inner = [&](NodeId node) { return structure.kind[at(node)] == Kind::joined; };
+  Sets parts(structure.kind.size());
+  std::vector<int> sliders_at(structure.kind.size(), 0);
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const auto& [element, a, b] = network.sliders[k].branch;
     if (!structure.stuck[k]) continue;
-    const Network::Slider& s = network.sliders[k];
-    for (const NodeId node : {s.branch.a, s.branch.b}) {
-      if (structure.kind[at(node)] != Kind::joined || row[at(node)] >= 0) continue;
-      row[at(node)] = static_cast<int>(result.nodes.size());
-      result.nodes.push_back(node);
-    }
-    result.sliders.push_back(k);
-    result.branches.push_back({row[at(s.branch.a)], row[at(s.branch.b)], -s.law.breakaway, s.law.breakaway});
+    if (inner(a) && inner(b)) parts.join(a, b);
+    ++sliders_at[at(a)];
+    ++sliders_at[at(b)];
   }
-  return result;
-}
-
-}  // namespace
-
-Bonds::Bonds(const Network& network, const Structure& structure) : network_(network), problem_(0, {}) {
-  Joined all = joined(network, structure);
-  slider_ = std::move(all.sliders);
-  node_ = std::move(all.nodes);
-  load_.resize(node_.size());
-  force_.resize(slider_.size());
-  if (slider_.size() == 1 && node_.size() == 1) {
-    side_ = all.branches[0].a >= 0 ? 1 : -1;
-  } else {
-    problem_ = BoxedForces(static_cast<int>(node_.size()), std::move(all.branches));
+  std::vector<int> part(structure.kind.size(), -1), row(part);  // of each node: its part, and its place there
+  std::vector<std::vector<BoxedBranch>> branches;
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const Network::Slider& s = network.sliders[k];
+    if (!structure.stuck[k]) continue;
+    const NodeId a = s.branch.a, b = s.branch.b, node = inner(a) ? a : b;
+    if (!(inner(a) && inner(b)) && (!inner(node) || sliders_at[at(node)] == 1)) {
+      lone_.push_back({k, node, !inner(node) ? 0.0 : node == a ? 1.0 : -1.0});
+      continue;
+    }
+    int& of = part[at(parts.find(node))];
+    if (of < 0) {
+      of = static_cast<int>(branches.size());
+      branches.emplace_back();
+      shared_.push_back({{}, {}, BoxedForces(0, {}), {}, {}});
+    }
+    Shared& shared = shared_[at(of)];
+    const auto place = [&](NodeId end) {
+      if (!inner(end)) return -1;
+      if (row[at(end)] < 0) {
+        row[at(end)] = static_cast<int>(shared.nodes.size());
+        shared.nodes.push_back(end);
+      }
+      return row[at(end)];
+    };
+    const int first = place(a);
+    shared.sliders.push_back(k);
+    branches[at(of)].push_back({first, place(b), -s.law.breakaway, s.law.breakaway});
+  }
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    Shared& shared = shared_[k];
+    shared.load.resize(shared.nodes.size());
+    shared.force.resize(shared.sliders.size());
+    shared.problem = BoxedForces(static_cast<int>(shared.nodes.size()), std::move(branches[k]));
   }
 }
 
 void Bonds::solve(double t, const std::vector<double>& left, std::vector<double>& force) {
-  if (side_ != 0) {  // a block that sticks by itself: there is nothing to share
-    force[slider_[0]] = -side_ * left[at(node_[0])];
-    return;
+  for (const auto& [slider, node, side] : lone_) force[slider] = side == 0 ? 0 : -side * left[at(node)];
+  for (Shared& shared : shared_) {
+    double sum = 0;
+    for (std::size_t n = 0; n < shared.nodes.size(); ++n) sum += shared.load[n] = -left[at(shared.nodes[n])];
+    if (!std::isfinite(sum)) {  // the integrator tries a step too far: it takes no state that is not finite
+      for (const std::size_t k : shared.sliders) force[k] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    if (shared.problem.solve(shared.load, shared.force) == BoxedForces::Outcome::failed) report_unbalanced(t, shared);
+    for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];
   }
-  double sum = 0;
-  for (std::size_t n = 0; n < node_.size(); ++n) sum += load_[n] = -left[at(node_[n])];
-  if (!std::isfinite(sum)) {  // the integrator tries a step too far: it takes no state that is not finite
-    for (const std::size_t k : slider_) force[k] = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
-  if (problem_.solve(load_, force_) == BoxedForces::Outcome::failed) report_unbalanced(t);
-  for (std::size_t k = 0; k < slider_.size(); ++k) force[slider_[k]] = force_[k];
 }
 
-void Bonds::report_unbalanced(double t) const {
+void Bonds::report_unbalanced(double t, const Shared& shared) const {
   std::string what;
-  if (const int n = problem_.failed_node(); n >= 0) {
-    const NodeId node = node_[at(n)];
+  if (const int n = shared.problem.failed_node(); n >= 0) {
+    const NodeId node = shared.nodes[at(n)];
     what = fmt::format("the forces at node {} cannot be balanced: the bounds of {}", network_.node_name(node),
                        listed(elements_at(network_, {node})));
   } else {
-    const Branch& b = network_.sliders[slider_[at(problem_.failed_branch())]].branch;
+    const Branch& b = network_.sliders[shared.sliders[at(shared.problem.failed_branch())]].branch;
     what = fmt::format("the force of `{}`, which sticks beside other sliders, is not the one of least norm: the bounds of {}",
                        network_.name_of(b), listed(elements_at(network_, {b.a, b.b})));
   }

@@ -14,20 +14,26 @@ namespace rheonet {
 class Bonds {
  public:
   Bonds(const Network& network, const Structure& structure);
-  bool empty() const { return slider_.empty(); }
+  bool empty() const { return lone_.empty() && shared_.empty(); }
 
   /// `left[n]` is the sum of all other forces at node n at the time t, inertia included [N]. Writes the forces of the sliders
   /// that stick. Throws SimulationError where the forces do not meet their conditions to round-off.
   void solve(double t, const std::vector<double>& left, std::vector<double>& force);
 
  private:
-  [[noreturn]] void report_unbalanced(double t) const;
+  /// A slider that alone holds a node, or none: nothing to share.
+  struct Lone { std::size_t slider; NodeId node; double side; };
+  /// Sliders that share what their nodes bear.
+  struct Shared {
+    std::vector<std::size_t> sliders;  ///< of each branch of the problem
+    std::vector<NodeId> nodes;         ///< of each node of the problem
+    BoxedForces problem;
+    std::vector<double> load, force;
+  };
+  [[noreturn]] void report_unbalanced(double t, const Shared& shared) const;
   const Network& network_;
-  std::vector<std::size_t> slider_;  ///< of each branch of the problem
-  std::vector<NodeId> node_;         ///< of each node of the problem; known nodes, and one of every other cluster, are none
-  BoxedForces problem_;
-  double side_ = 0;  ///< of a single slider with a single node: its sign there
-  std::vector<double> load_, force_;
+  std::vector<Lone> lone_;
+  std::vector<Shared> shared_;
 };
 
 }  // namespace rheonet

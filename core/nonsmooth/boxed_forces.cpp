@@ -47,7 +47,11 @@ BoxedForces::BoxedForces(int nodes, std::vector<BoxedBranch> branches) : branche
   along_ = difference_;
   phi_.assign(at(nodes), 0);
   direction_ = left_ = magnitude_ = phi_;
-  terms_.assign(at(nodes), 0);
+  terms_.assign(at(nodes), 1);  // its load
+  for (const BoxedBranch& b : branches_) {
+    if (b.a >= 0) ++terms_[at(b.a)];
+    if (b.b >= 0) ++terms_[at(b.b)];
+  }
   held_.assign(at(nodes), 0);
   open_.assign(branches_.size(), 1);
   if (nodes == 0) return;
@@ -129,13 +133,11 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
   for (std::size_t n = 0; n < load.size(); ++n) {
     left_[n] = load[n];
     magnitude_[n] = std::abs(load[n]);
-    terms_[n] = 1;
   }
   const auto add = [&](int node, double f) {
     if (node < 0) return;
     left_[at(node)] -= f;
     magnitude_[at(node)] += std::abs(f);
-    ++terms_[at(node)];
   };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     add(branches_[k].a, force[k]);
