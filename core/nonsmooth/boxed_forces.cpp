@@ -45,7 +45,8 @@ void add_branch(Entries& entries, int a, int b) {
 BoxedForces::BoxedForces(int nodes, std::vector<BoxedBranch> branches) : branches_(std::move(branches)) {
   difference_.assign(branches_.size(), 0);
   along_ = difference_;
-  phi_.assign(at(nodes), 0);
+  for (const BoxedBranch& b : branches_) ends_.push_back({at(b.a < 0 ? nodes : b.a), at(b.b < 0 ? nodes : b.b)});
+  phi_.assign(at(nodes) + 1, 0);
   direction_ = left_ = magnitude_ = phi_;
   terms_.assign(at(nodes), 1);  // its load
   for (const BoxedBranch& b : branches_) {
@@ -67,10 +68,6 @@ BoxedForces::BoxedForces(BoxedForces&&) noexcept = default;
 BoxedForces& BoxedForces::operator=(BoxedForces&&) noexcept = default;
 BoxedForces::~BoxedForces() = default;
 
-double BoxedForces::difference(const BoxedBranch& b, const std::vector<double>& of_nodes) const {
-  return (b.a < 0 ? 0 : of_nodes[at(b.a)]) - (b.b < 0 ? 0 : of_nodes[at(b.b)]);
-}
-
 double BoxedForces::force_at(std::size_t k, double step) const {
   return std::clamp(difference_[k] + step * along_[k], branches_[k].low, branches_[k].high);
 }
@@ -80,9 +77,7 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
   failed_branch_ = -1;
   if (without_bounds(load, force)) return Outcome::within;
   std::fill(open_.begin(), open_.end(), 1);
-  std::fill(difference_.begin(), difference_.end(), 0.0);
-  std::fill(phi_.begin(), phi_.end(), 0.0);
-  grain_ = 0;
+  difference_ = force;
   std::vector<double> open_load = load;  // less what the branches of overloaded cuts carry
   const std::size_t most = least_steps + steps_a_branch * branches_.size();
   for (std::size_t step = 0; step < most; ++step) {
@@ -108,17 +103,25 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
 /// The forces of least norm, which are the answer where they lie in their boxes. Differences of large potentials lose digits: the
 /// same factors bring them back.
 bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<double>& force) {
-  if (!factors_) return false;
   std::fill(held_.begin(), held_.end(), 0);
   std::fill(force.begin(), force.end(), 0.0);
-  left_ = load;
-  const auto nodes = static_cast<Eigen::Index>(phi_.size());
+  std::fill(phi_.begin(), phi_.end(), 0.0);
+  grain_ = 0;
+  if (!factors_) return false;
+  std::copy(load.begin(), load.end(), left_.begin());
+  const auto nodes = static_cast<Eigen::Index>(load.size());
   for (int solved = 0; solved <= refinements; ++solved) {
-    Eigen::Map<Eigen::VectorXd>(phi_.data(), nodes) = factors_->solve(Eigen::Map<const Eigen::VectorXd>(left_.data(), nodes));
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-      force[k] += difference(branches_[k], phi_);
-      if (!(branches_[k].low <= force[k] && force[k] <= branches_[k].high)) return false;
+    Eigen::Map<Eigen::VectorXd>(direction_.data(), nodes) = factors_->solve(Eigen::Map<const Eigen::VectorXd>(left_.data(), nodes));
+    for (std::size_t n = 0; n < load.size(); ++n) {
+      phi_[n] += direction_[n];
+      grain_ = std::max(grain_, eps * std::abs(phi_[n]));
     }
+    bool within = true;
+    for (std::size_t k = 0; k < branches_.size(); ++k) {
+      force[k] += difference(k, direction_);
+      within = within && branches_[k].low <= force[k] && force[k] <= branches_[k].high;
+    }
+    if (!within) return false;
     if (balanced(load, force)) return true;
   }
   return false;
@@ -134,14 +137,13 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
     left_[n] = load[n];
     magnitude_[n] = std::abs(load[n]);
   }
-  const auto add = [&](int node, double f) {
-    if (node < 0) return;
-    left_[at(node)] -= f;
-    magnitude_[at(node)] += std::abs(f);
-  };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
-    add(branches_[k].a, force[k]);
-    add(branches_[k].b, -force[k]);
+    const auto [a, b] = ends_[k];
+    const double f = force[k], size = std::abs(f);
+    left_[a] -= f;
+    left_[b] += f;
+    magnitude_[a] += size;
+    magnitude_[b] += size;
   }
   // Round-off at this node may exceed the imbalance of other nodes: set it to 0.
   failed_node_ = -1;
@@ -159,8 +161,8 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
 /// not reach a held node move as a whole, as if the branches between them were within their boxes, until all parts balance; then the
 /// nodes within the parts. Scaled to a length of about 1, because products of forces might overflow.
 void BoxedForces::find_direction() {
-  const int nodes = static_cast<int>(phi_.size());
-  Sets parts(phi_.size() + 1);  // the last one is held
+  const int nodes = static_cast<int>(held_.size());
+  Sets parts(held_.size() + 1);  // the last one is held
   const auto slot = [&](int node) { return node < 0 || held_[at(node)] ? nodes : node; };
   const auto within = [&](std::size_t k) { return branches_[k].low < difference_[k] && difference_[k] < branches_[k].high; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -168,14 +170,14 @@ void BoxedForces::find_direction() {
   }
   const int firm = parts.find(nodes);
   // The node with the largest terms takes the imbalance of its part.
-  std::vector<int> taking(phi_.size() + 1, -1);
+  std::vector<int> taking(held_.size() + 1, -1);
   for (int n = 0; n < nodes; ++n) {
     int& most = taking[at(parts.find(n))];
     if (parts.find(n) != firm && (most < 0 || magnitude_[at(n)] > magnitude_[at(most)])) most = n;
   }
   const auto inner = [&](int node) { return slot(node) == nodes || taking[at(parts.find(node))] == node ? -1 : node; };
   const auto part = [&](int node) { return parts.find(slot(node)) == firm ? -1 : parts.find(node); };
-  std::vector<double> sum(phi_.size() + 1, 0), rounding(sum);
+  std::vector<double> sum(held_.size() + 1, 0), rounding(sum);
   bool inside = false;
   for (int n = 0; n < nodes; ++n) {
     sum[at(parts.find(n))] += left_[at(n)];
@@ -197,13 +199,13 @@ void BoxedForces::find_direction() {
   solve_symmetric(entries, d);
   const double length = std::ldexp(1, std::ilogb(d.cwiseAbs().maxCoeff()));
   for (int n = 0; n < nodes; ++n) direction_[at(n)] = unknown(n) < 0 ? 0 : d[unknown(n)] / length;
-  for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? difference(branches_[k], direction_) : 0;
+  for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? difference(k, direction_) : 0;
 }
 
 /// Slope of the dual along the direction, which grows with the step.
 double BoxedForces::slope_at(double step) const {
   double slope = 0;
-  for (std::size_t n = 0; n < phi_.size(); ++n) slope -= left_[n] * direction_[n];
+  for (std::size_t n = 0; n < held_.size(); ++n) slope -= left_[n] * direction_[n];
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (along_[k] != 0) slope += (force_at(k, step) - force_at(k, 0)) * along_[k];
   }
@@ -235,7 +237,7 @@ double BoxedForces::minimum_along() const {
 
 void BoxedForces::move(double step) {
   double largest = 0;
-  for (std::size_t n = 0; n < phi_.size(); ++n) {
+  for (std::size_t n = 0; n < held_.size(); ++n) {
     phi_[n] += step * direction_[n];
     largest = std::max({largest, std::abs(phi_[n]), std::abs(step * direction_[n])});
   }
@@ -277,7 +279,7 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
 bool BoxedForces::of_least_norm(const std::vector<double>& force) {
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const BoxedBranch& b = branches_[k];
-    if (!open_[k] || std::abs(force[k] - std::clamp(difference(b, phi_), b.low, b.high)) <= 2 * grain_) continue;
+    if (!open_[k] || std::abs(force[k] - std::clamp(difference(k, phi_), b.low, b.high)) <= 2 * grain_) continue;
     failed_branch_ = static_cast<int>(k);
     return false;
   }

@@ -41,7 +41,7 @@ class BoxedForces {
 
  private:
   struct Factors;
-  double difference(const BoxedBranch& b, const std::vector<double>& of_nodes) const;
+  double difference(std::size_t k, const std::vector<double>& of_nodes) const { return of_nodes[ends_[k].a] - of_nodes[ends_[k].b]; }
   double force_at(std::size_t k, double step) const;
   double round_off(std::size_t node) const;
   bool balanced(const std::vector<double>& load, const std::vector<double>& force);
@@ -53,7 +53,9 @@ class BoxedForces {
   void give_way(const OverloadedCut& cut, std::vector<double>& load, std::vector<double>& force);
   bool of_least_norm(const std::vector<double>& force);
 
+  struct Ends { std::size_t a, b; };
   std::vector<BoxedBranch> branches_;
+  std::vector<Ends> ends_;            ///< of each branch; those that are held share the place behind the last node
   std::unique_ptr<Factors> factors_;  ///< of the Laplacian of all branches
   std::vector<double> difference_;    ///< of each branch: phi_a - phi_b, kept apart as phi has larger round-off
   std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the direction of its difference

@@ -14,7 +14,7 @@ namespace rheonet {
 // level (below it, for levels under 0). So where that slope is negative there is an overloaded cut between two levels, most
 // likely at the widest gap.
 std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& direction, double share) const {
-  std::vector<int> order(direction.size());
+  std::vector<int> order(load_.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int i, int j) { return direction[at(i)] < direction[at(j)]; });
   struct Gap { double width, level; };
@@ -34,7 +34,7 @@ std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& directi
   std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.width > b.width; });
   double range = 0;
   for (const Gap& gap : gaps) range += gap.width;
-  std::vector<char> inside(direction.size()), tightest;
+  std::vector<char> inside(load_.size()), tightest;
   double most = -std::numeric_limits<double>::infinity();
   int tight_side = 1;
   for (const Gap& gap : gaps) {
