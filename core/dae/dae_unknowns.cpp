@@ -78,7 +78,8 @@ void Dae::number_unknowns() {
       // bound, say. Beside ground it is the velocity itself. A power law beside it has its force among the unknowns already: from
       // rest, where its slope is 0, Newton's method would not find the shares of both.
       const bool moving = b.a != ground && b.b != ground;
-      const bool differenced = moving && at_massless && !power_laws.contains(std::minmax(b.a, b.b));
+      // Where masses move, friction begins and ends to slip by the velocities: there they are the unknowns.
+      const bool differenced = moving && at_massless && network.masses.empty() && !power_laws.contains(std::minmax(b.a, b.b));
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
       const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
       const bool stiff_between = moving && least_mass > 0 && impulse * length > stiff_for_mass * least_mass;

@@ -259,15 +259,10 @@ class Consistency::Projection {
   }
 
   void finish() {
-    // A velocity that is rounding on the way there becomes 0, unless a force follows from it. A mass keeps the smallest velocity.
-    trial_ = y_;
-    bool any = false;
+    // A velocity that is rounding on the way there becomes 0. A mass keeps the smallest velocity.
     for (std::size_t i = 0; i < n_; ++i) {
-      if (c_.kind_[i] != velocity || differential(i) || y_[i] == 0 || std::abs(y_[i]) > velocity_grain * fastest_) continue;
-      y_[i] = 0;
-      any = true;
+      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_grain * fastest_) y_[i] = 0;
     }
-    if (any && !within_rounding(y_) && within_rounding(trial_)) y_ = trial_;
     // Integrals that nothing moves stay as they were to the last digit.
     trial_ = y_;
     for (std::size_t i = 0; i < n_; ++i) {

@@ -120,7 +120,7 @@ test('a netlist that is sent includes nothing from outside', async () => {
   }
   // Messages name an included file by its path in the folder, never by its absolute path.
   writeFileSync(join(folder, 'deep/models.toml'), '[models.m]\nports = ["a"]\nelements = { m = { type = "mas", at = "a", mass = 1 } }\n');
-  const mistaken = await post({ task: 'show', text: bingham.replace('[elements]', 'include = ["models.toml"]\n[elements]\nm = { type = "m", at = "mid" }'), file: 'deep/x.toml' });
+  const mistaken = await post({ task: 'show', text: `include = ["models.toml"]\n${bingham.replace('[elements]', '[elements]\nm = { type = "m", at = "mid" }')}`, file: 'deep/x.toml' });
   assert.match(messages(mistaken.body)[0].items.map(({ text }) => text).join('\n'), /^deep\/models\.toml:3:/m);
   assert.ok(!mistaken.body.includes(outer), mistaken.body.slice(0, 300));
   rmSync(join(folder, 'deep/models.toml'));
@@ -413,20 +413,23 @@ test('answers that wait to be read have a limit together, and others are answere
     client.timer = setInterval(() => (client.text += client.socket.read(1 << 15) ?? client.socket.read() ?? ''), 200);
     return client;
   });
-  const memory = () => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${other.process.pid}/status`, 'utf8'))[1]) / 1024;
-  const refused = () => clients.filter(({ text }) => text.includes('too many answers are waiting to be read')).length;
-  let most = 0;
-  for (let k = 0; k < 900 && !refused(); ++k) {
-    await new Promise((resolve) => setTimeout(resolve, 100));
-    most = Math.max(most, memory());
+  try {
+    const memory = () => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${other.process.pid}/status`, 'utf8'))[1]) / 1024;
+    const refused = () => clients.filter(({ text }) => text.includes('too many answers are waiting to be read')).length;
+    let most = 0;
+    for (let k = 0; k < 900 && !refused(); ++k) {
+      await new Promise((resolve) => setTimeout(resolve, 100));
+      most = Math.max(most, memory());
+    }
+    assert.ok(refused() > 0, 'none is refused');
+    // 256 MB of answers, and each once more while it is being sent.
+    assert.ok(most < 700, `the server takes ${most} MB`);
+    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify({ task: 'show', text: bingham, file: 'a.toml' }) });
+    assert.match(await response.text(), /"kind":"done"/);
+  } finally {
+    clients.forEach(({ socket, timer }) => (clearInterval(timer), socket.destroy()));
+    await other.stop();
   }
-  assert.ok(refused() > 0, 'none is refused');
-  // 256 MB of answers, and each once more while it is being sent.
-  assert.ok(most < 700, `the server takes ${most} MB`);
-  const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify({ task: 'show', text: bingham, file: 'a.toml' }) });
-  assert.match(await response.text(), /"kind":"done"/);
-  clients.forEach(({ socket, timer }) => (clearInterval(timer), socket.destroy()));
-  await other.stop();
 });
 
 test('a run is charged for its CPU time, not for waiting', async () => {

@@ -22,7 +22,7 @@ async function pageIn(origin, address, act, picture) {
 try {
   await pageIn('file', pathToFileURL(join(folder, 'seal.html')).href, (page) => page.waitForSelector('.chart canvas'), 'report.png');
 
-  await pageIn(server.origin, server.origin, async (page) => {
+  await pageIn(server.origin, server.address, async (page) => {
     await page.locator('.card[data-file="seal.toml"]').click();
     await done(page);
     await page.locator('button', { hasText: 'Compare' }).click();
