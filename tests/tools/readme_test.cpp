@@ -49,9 +49,10 @@ void check_rows(const std::string& shown, const std::string& file) {
   }
 }
 
-/// A line of what a command prints, without what differs from machine to machine: numbers, units of time, padding.
+/// A printed line without what differs from machine to machine: numbers, units of time, padding, and which of two equal records is named.
 std::string masked(std::string line) {
   line = std::regex_replace(line, std::regex(R"(\+-[0-9.]+|[0-9][0-9.,]*(e[-+]?[0-9]+)?( (ns|us|ms|s)\b)?)"), "#");
+  line = std::regex_replace(line, std::regex(R"([a-z]+\.force)"), "#");
   return std::regex_replace(line, std::regex(" +"), " ");
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("sweep: without measures the rows are those of `run`") {
   const auto rows = table(folder.shell("rheonet sweep scene.toml --vary parameters.B=3,4 -q", 0).out);
   const auto alone = table(folder.shell("rheonet run scene.toml --set parameters.B=4 -q", 0).out);
   REQUIRE(rows.size() == 9);
-  CHECK(rows[0] == Row{"run", "parameters.B", "time", "c.force", "a.position", "error"});
+  CHECK(rows[0] == Row{"run", "parameters.B", "time [s]", "c.force [N]", "a.position [m]", "error"});
   for (std::size_t k = 1; k <= 4; ++k) {
     CHECK(Row(rows[4 + k].begin(), rows[4 + k].begin() + 2) == Row{"2", "4"});
     CHECK(Row(rows[4 + k].begin() + 2, rows[4 + k].end() - 1) == alone[k]);
@@ -201,7 +201,7 @@ TEST_CASE("sweep: a run that fails is a row that says why, the others are done")
   // With rows too, where the first run cannot even be read.
   const auto all = table(folder.shell("rheonet sweep scene.toml --vary s2.coulomb=-2,3 -q", 1).out);
   REQUIRE(all.size() == 7);
-  CHECK(all[0] == Row{"run", "s2.coulomb", "time", "k1.force", "error"});
+  CHECK(all[0] == Row{"run", "s2.coulomb", "time [s]", "k1.force [N]", "error"});
   CHECK(Row(all[1].begin(), all[1].begin() + 4) == Row{"1", "-2", "", ""});
 }
 

@@ -10,7 +10,7 @@ trap 'rm -rf "$folder"' EXIT
 memcheck() {
   local expected=$1 status=0
   shift
-  "$valgrind" --quiet --leak-check=full --error-exitcode=99 --suppressions="$here/valgrind.supp" "$rheonet" "$@" \
+  "$valgrind" --quiet --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite --error-exitcode=99 --suppressions="$here/valgrind.supp" "$rheonet" "$@" \
     >"$folder/out" 2>"$folder/err" || status=$?
   if [ "$status" -ne "$expected" ]; then
     cat "$folder/err"

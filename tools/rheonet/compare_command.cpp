@@ -59,7 +59,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     }
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);
-    if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
+    if (!read.scene || is_source(arguments.overlay, "--output", read.sources) || !can_be_table(arguments.overlay, "--output")) throw Ended{wrong_input};
     compared.scenes.push_back(std::move(*read.scene));
     compared.columns.push_back(record_columns(compared.scenes.back()));
     compared.sources.push_back(std::move(read.sources));
@@ -160,7 +160,6 @@ Findings compare_over(const Variation& variation, Compared compared, const Argum
 }
 
 ExitStatus compare(const Arguments& arguments) {
-  if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::optional<Variation> variation;
   if (!arguments.vary.empty()) {
     auto read = read_variation(arguments.vary);

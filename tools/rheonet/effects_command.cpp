@@ -13,14 +13,13 @@
 namespace rheonet::tool {
 
 ExitStatus weigh_effects(const Arguments& arguments) {
-  if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   ReadOptions options = options_of(arguments);
   options.claims = false;  // they are about the full model
   const ReadResult read = read_and_report(arguments.scene, options);
   if (!read.scene) return wrong_input;
   Scene scene = *read.scene;
   scene.output_events = false;  // models are compared at the same times
-  if (is_source(arguments.overlay, "--output", read.sources)) return wrong_input;
+  if (is_source(arguments.overlay, "--output", read.sources) || !can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Manner::complete))) return wrong_input;
 

@@ -43,7 +43,6 @@ ExitStatus draw(const Scene& scene, const PriceList& list, const std::string& pa
 }  // namespace
 
 ExitStatus price_scene(const Arguments& arguments) {
-  if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   ReadOptions options = options_of(arguments);
   options.claims = false;  // they are about the scene's own accuracy
   const ReadResult read = read_and_report(arguments.scene, options);
@@ -53,6 +52,7 @@ ExitStatus price_scene(const Arguments& arguments) {
   if (!asked) return wrong_input;
   if (!arguments.figure.empty() && !can_be_figure(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.overlay, "--output", read.sources) || is_source(arguments.figure, "--plot", read.sources)) return wrong_input;
+  if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::unique_ptr<Output> output;
   if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Manner::complete))) return wrong_input;
 

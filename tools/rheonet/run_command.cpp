@@ -92,7 +92,6 @@ void draw_again(const Scene& scene, const Presentation& presentation, const RunS
 }  // namespace
 
 ExitStatus run_scene(const Arguments& arguments) {
-  if (!can_be_table(arguments.output, "--output") || !can_be_table(arguments.events, "--events")) return wrong_input;
   const ReadResult read = read_and_report(arguments.scene, options_of(arguments));
   if (!read.scene) return wrong_input;
   const bool drawn = !arguments.figure.empty();
@@ -100,6 +99,7 @@ ExitStatus run_scene(const Arguments& arguments) {
   if (is_source(arguments.output, "--output", read.sources) || is_source(arguments.events, "--events", read.sources) ||
       is_source(arguments.figure, "--plot", read.sources))
     return wrong_input;
+  if (!can_be_table(arguments.output, "--output") || !can_be_table(arguments.events, "--events")) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;

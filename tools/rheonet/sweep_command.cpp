@@ -190,14 +190,13 @@ void summarize(const Sweep& sweep, const Arguments& arguments, long first, long 
 }  // namespace
 
 ExitStatus sweep_scene(const Arguments& arguments) {
-  if (!can_be_table(arguments.output, "--output")) return wrong_input;
   auto design = Design::read(arguments.sweep);
   if (const auto* wrong = std::get_if<NoVariation>(&design)) return refuse(*wrong);
   auto table = SweepTable::make(std::get<Design>(design).paths(), arguments.sweep.measures);
   if (const auto* wrong = std::get_if<NoVariation>(&table)) return refuse(*wrong);
   Sweep sweep(arguments, std::get<Design>(std::move(design)), std::get<SweepTable>(std::move(table)));
   if (!sweep.begin()) return wrong_input;
-  if (is_source(arguments.output, "--output", sweep.sources())) return wrong_input;
+  if (is_source(arguments.output, "--output", sweep.sources()) || !can_be_table(arguments.output, "--output")) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   Left left;
