@@ -357,5 +357,6 @@ TEST_CASE("sweep: of rows of many runs each run is a curve of its own, called by
   CHECK(contains(some.out, ">parameters.B = 40<"));
   // A table of measures has a row for each run: no curve of a single point.
   folder.shell("rheonet sweep scene.toml --vary parameters.B=1,2,3 --measure 'max(c.force)' -o s.csv -q", 0);
-  CHECK(matches(folder.shell("rheonet plot s.csv -x parameters.B -y 'max(c.force)' -o -", 0).out, "stroke-width=\"1.6\"").size() == 1);
+  // The curve, and its sample in the legend.
+  CHECK(matches(folder.shell("rheonet plot s.csv -x parameters.B -y 'max(c.force)' -o -", 0).out, "stroke-width=\"1.6\"").size() == 2);
 }

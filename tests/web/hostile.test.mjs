@@ -401,37 +401,6 @@ test('how the process of a run has ended is said, and those that had nothing to 
   }
 });
 
-test('answers that wait to be read have a limit together, and others are answered', async () => {
-  const other = await serve(folder, '--memory-limit', '2000', '--time-limit', '60');
-  // Each answer has some 30 MB, and the clients take it slowly: twelve answers would be 360 MB.
-  const body = JSON.stringify({ task: 'csv', text: bingham.replace('every = "1 ms"', 'points = 700001'), file: 'a.toml' });
-  const head = `POST /api/task HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: ${other.key.Authorization}\r\nContent-Type: application/json\r\nContent-Length: ${body.length}\r\n\r\n`;
-  const clients = Array.from({ length: 12 }, () => {
-    const client = { text: '', socket: net.connect(other.port, '127.0.0.1', () => client.socket.write(head + body)) };
-    client.socket.pause();
-    client.socket.on('error', () => {});
-    client.timer = setInterval(() => (client.text += client.socket.read(1 << 15) ?? client.socket.read() ?? ''), 200);
-    return client;
-  });
-  try {
-    const memory = () => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${other.process.pid}/status`, 'utf8'))[1]) / 1024;
-    const refused = () => clients.filter(({ text }) => text.includes('too many answers are waiting to be read')).length;
-    let most = 0;
-    for (let k = 0; k < 900 && !refused(); ++k) {
-      await new Promise((resolve) => setTimeout(resolve, 100));
-      most = Math.max(most, memory());
-    }
-    assert.ok(refused() > 0, 'none is refused');
-    // 256 MB of answers, and each once more while it is being sent.
-    assert.ok(most < 700, `the server takes ${most} MB`);
-    const response = await fetch(`${other.origin}/api/task`, { method: 'POST', headers: { ...json, ...other.key }, body: JSON.stringify({ task: 'show', text: bingham, file: 'a.toml' }) });
-    assert.match(await response.text(), /"kind":"done"/);
-  } finally {
-    clients.forEach(({ socket, timer }) => (clearInterval(timer), socket.destroy()));
-    await other.stop();
-  }
-});
-
 test('a run is charged for its CPU time, not for waiting', async () => {
   const stopped = (signal) => children(server.process.pid).forEach((id) => process.kill(Number(id), signal));
   const asked = post({ task: 'show', text: bingham.replace('stop   = "0.2 s"', 'stop = "20 s"'), file: 'a.toml' });

@@ -59,11 +59,12 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
     }
     for (const Pairing& pairing : compared.pairings) options.records.push_back(pairing[i]);
     ReadResult read = read_and_report(arguments.scenes[i], options);
-    if (!read.scene || is_source(arguments.overlay, "--output", read.sources) || !can_be_table(arguments.overlay, "--output")) throw Ended{wrong_input};
+    if (!read.scene || is_source(arguments.overlay, "--output", read.sources)) throw Ended{wrong_input};
     compared.scenes.push_back(std::move(*read.scene));
     compared.columns.push_back(record_columns(compared.scenes.back()));
     compared.sources.push_back(std::move(read.sources));
   }
+  if (!can_be_table(arguments.overlay, "--output")) throw Ended{wrong_input};
   if (const std::string why = obstacle(compared.scenes); !why.empty()) {
     say("error: {}\n", why);
     throw Ended{wrong_input};

@@ -97,7 +97,7 @@ Output::~Output() {
 bool Output::is_terminal() const { return ::isatty(descriptor_) != 0; }
 
 std::string Output::kept(const char* row) const {
-  if (left_alone_ && !created_) return fmt::format("  {} is as it was before\n", name_);
+  if (left_alone_) return created_ ? fmt::format("  no file {} was made\n", name_) : fmt::format("  {} is as it was before\n", name_);
   if (rows() == 0) return fmt::format("  no {} was written to {}\n", row, name_);
   if (rows() == 1) return fmt::format("  the one {} up to there is in {}\n", row, name_);
   return fmt::format("  the {} {}s up to there are in {}\n", rows(), row, name_);
