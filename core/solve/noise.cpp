@@ -61,17 +61,24 @@ void Tolerances::find_dilatant_noise(const std::vector<double>& slope) {
   if (!dae_->rough()) return;
   dilatant_noise_.assign(part_.size(), 0);
   const Structure& structure = dae_->structure();
-  std::vector<double> force(part_.size(), 0);
+  left_force_.assign(part_.size(), 0);
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
     if (unknown < 0) continue;
-    double& most = force[at(part_of(structure.deflections[j]))];
+    double& most = left_force_[at(part_of(structure.deflections[j]))];
     most = std::max(most, std::abs(slope[j]) * tolerance_[at(unknown)]);
   }
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
     double& most = dilatant_noise_[at(part)];
-    most = std::max(most, law.velocity_at(i, force[at(part)]));
+    most = std::max(most, law.velocity_at(i, left_force_[at(part)]));
   });
+}
+
+double Tolerances::unfelt_dilatant(int rate) const {
+  if (dilatant_noise_.empty()) return 0;
+  std::size_t i = 0;
+  const RateBatch& law = network_.rate_of(rate, i);
+  return law.velocity_at(i, left_force_[at(part_of(dae_->structure().rates[at(rate)]))]);
 }
 
 /// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the

@@ -92,7 +92,7 @@ void Softening::apply(const Tolerances& tolerances) {
       if (growth.exponent < 1) w = stops_[r] ? Tolerances::soft_share * velocity.pseudoplastic : 0;
       // Of so small a velocity the force may be a large one still, all of which goes in the end.
       if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));
-      if (!(growth.exponent < 1)) w = std::max(w, least_velocity_[r]);
+      if (growth.exponent > 1) w = std::max({w, least_velocity_[r], tolerances.unfelt_dilatant(static_cast<int>(r))});
       if (same(w, applied_[r])) continue;
       applied_[r] = w;
       laws.batch->soften(i, w);

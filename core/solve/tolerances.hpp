@@ -56,6 +56,8 @@ class Tolerances {
   /// Velocity at which the force of a pseudoplastic dashpot is no more than that, or at which so much of it comes of
   /// rounding [m/s]. Infinite as long as it has had no force.
   double unfelt(int rate) const;
+  /// Velocity at which the force of a dilatant dashpot is no more than what steps may leave of forces around it [m/s].
+  double unfelt_dilatant(int rate) const;
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const;
   /// Of the force of a rate branch that is solved for it.
@@ -201,6 +203,7 @@ class Tolerances {
   double largest_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
+  std::vector<double> left_force_;      ///< what steps may leave of forces in each part, where there are dilatant laws [N]
   std::vector<double> dilatant_noise_;  ///< of each part [m/s]; empty where there is nothing of the sort
   std::vector<double> slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
