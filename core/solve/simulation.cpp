@@ -79,7 +79,12 @@ class Run {
       try {
         t = advance(t);
       } catch (const UndeterminedError&) {
-        // Where more is applied than all elements can take, that is the reason.
+        // Where more is applied than all elements can take, that is the reason, which the last step tells.
+        if (const double end = system_->integrator.time(); end > left_) {
+          y_ = system_->integrator.y();
+          yp_ = system_->integrator.yp();
+          take_state(end);
+        }
         tell_overload();
         throw;
       }
@@ -182,6 +187,10 @@ class Run {
   /// The state at the end of a stretch, every balance met to rounding.
   void leave(double t) {
     system_->consistency.project(t, y_);
+    take_state(t);
+  }
+
+  void take_state(double t) {
     const Dae::View& view = system_->dae.view(t, y_.data(), yp_.data());
     slider_force_ = view.slider_force;
     system_->dae.leave(state_);
