@@ -84,11 +84,7 @@ void NetworkEvents::find_pseudoplastic() {
 // Beside a pseudoplastic dashpot what is left of a velocity at the end of its margin still goes with a force that is felt.
 // There it is the force that tells of a velocity below what is resolved, and a margin of force that is left.
 NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& view) const {
-  Flow plain{view.flow[at(law.branch)], tolerances_.noise(law.branch)};
-  if (!stepped_flow_.empty() && doubts(law, view)) {
-    const double most = tolerances_.dilatant_noise(law.branch);
-    plain.velocity = std::clamp(stepped_flow_[at(law.branch)], -most, most);
-  }
+  const Flow plain{view.flow[at(law.branch)], tolerances_.noise(law.branch)};
   if (law.beside < 0) return plain;
   std::size_t i = 0;
   const RateBatch& dashpot = dae_.network().rate_of(law.beside, i);
@@ -346,15 +342,10 @@ const Dae::View& NetworkEvents::resolved(double t, const double* y, const double
   // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
   // The same of a velocity that goes like a power of time: no polynomial follows it. And friction at rest may be as near to
   // moving as a rate changes in a step: of its first steps the polynomial knows no more than one rate.
-  stepped_flow_.clear();
   const bool between_steps = dae_.rough() || dae_.follows_time();
   if (!rates_needed_ && held_.empty() && !(between_steps && !events_.empty())) return dae_.view(t, y, yp);
   try {
-    const Dae::View& view = resolved(t, y, between_steps);
-    if (!between_steps || std::none_of(watched_.begin(), watched_.end(), [&](const Watched& law) { return doubts(law, view); })) return view;
-    // Balances tell less of a slow velocity beside a dilatant dashpot than the steps do, which it was the end of.
-    stepped_flow_ = resolved(t, y, false).flow;
-    return resolved(t, y, true);
+    return resolved(t, y, between_steps);
   } catch (const SimulationError&) {  // the step itself will tell
     return dae_.view(t, y, yp);
   }
@@ -365,10 +356,6 @@ const Dae::View& NetworkEvents::resolved(double t, const double* y, bool project
   if (projected) consistency_.project(t, y_);
   consistency_.derivative(t, y_, yp_);
   return dae_.view(t, y_.data(), yp_.data());
-}
-
-bool NetworkEvents::doubts(const Watched& law, const Dae::View& view) const {
-  return std::abs(view.flow[at(law.branch)]) < tolerances_.dilatant_noise(law.branch);
 }
 
 void NetworkEvents::evaluate(double t, const double* y, const double* yp, double* g) {

@@ -64,7 +64,6 @@ class NetworkEvents final : public EventFunctions {
   void find_pseudoplastic();
   const Dae::View& resolved(double t, const double* y, const double* yp);
   const Dae::View& resolved(double t, const double* y, bool projected);
-  bool doubts(const Watched& law, const Dae::View& view) const;
   void all_at(const Dae::View& view, std::vector<double>& g) const;
   /// Fills left_, middle_ and right_.
   void look_at_step(const Integrator& integrator, double a, double b);
@@ -97,7 +96,6 @@ class NetworkEvents final : public EventFunctions {
   const Modes& modes_;
   bool rates_needed_ = false, slips_along_ = false;
   std::vector<double> y_, yp_;
-  std::vector<double> stepped_flow_;  ///< of each deflection branch, as the steps have it; empty unless some law's is in doubt [m/s]
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
   std::vector<Held> held_;

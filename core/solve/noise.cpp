@@ -18,11 +18,6 @@ constexpr double given_noise = 1e-13;
 
 }  // namespace
 
-double Tolerances::dilatant_noise(int branch) const {
-  const Branch& b = dae_->structure().deflections[at(branch)];
-  return dilatant_noise_.empty() || given_[at(branch)] ? 0 : dilatant_noise_[at(part_of(b))];
-}
-
 double Tolerances::force_noise(int rate) const {
   const double noise = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
   return std::max(noise, std::numeric_limits<double>::min());
@@ -48,34 +43,30 @@ double Tolerances::noise(int branch) const {
 
 void Tolerances::find_noise(const std::vector<double>& slope) {
   const Structure& structure = dae_->structure();
-  find_dilatant_noise(slope);
+  find_left_forces(slope);
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
     slider_noise_[k] = noise_of(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
   }
   find_slip_noise(slope);
 }
 
-/// What steps may leave of a force is a large velocity where it goes with a power of that above 1, and is near 0.
-void Tolerances::find_dilatant_noise(const std::vector<double>& slope) {
-  dilatant_noise_.clear();
+/// What steps and rounding may leave of forces. A dilatant law would make a large velocity of it near rest.
+void Tolerances::find_left_forces(const std::vector<double>& slope) {
+  left_force_.clear();
   if (!dae_->rough()) return;
-  dilatant_noise_.assign(part_.size(), 0);
-  const Structure& structure = dae_->structure();
   left_force_.assign(part_.size(), 0);
+  for (std::size_t n = 0; n < left_force_.size(); ++n) left_force_[n] = to_and_fro * force_rounding_[n];
+  const Structure& structure = dae_->structure();
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
     if (unknown < 0) continue;
     double& most = left_force_[at(part_of(structure.deflections[j]))];
     most = std::max(most, std::abs(slope[j]) * tolerance_[at(unknown)]);
   }
-  for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
-    double& most = dilatant_noise_[at(part)];
-    most = std::max(most, law.velocity_at(i, left_force_[at(part)]));
-  });
 }
 
 double Tolerances::unfelt_dilatant(int rate) const {
-  if (dilatant_noise_.empty()) return 0;
+  if (left_force_.empty()) return 0;
   std::size_t i = 0;
   const RateBatch& law = network_.rate_of(rate, i);
   return law.velocity_at(i, left_force_[at(part_of(dae_->structure().rates[at(rate)]))]);

@@ -15,10 +15,6 @@ namespace {
 constexpr double force_grains = 16;
 // A difference of two velocities that is larger than this share of the smaller one is told from none, with something to spare.
 constexpr double different = 2.2 * velocity_grain;
-// Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
-// slopes are of the velocities that it comes from.
-constexpr double to_and_fro = 4;
-
 double speed_at(const Dae::View& view, const Branch& b) {
   return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
 }
@@ -215,11 +211,8 @@ void Tolerances::find_force_rounding(const Dae::View& view) {
   });
 }
 
-Tolerances::Unresolved Tolerances::unresolved() const {
-  const auto beside = [&](const std::vector<double>& rounding) {
-    return std::max(relative_ * largest_velocity_, *std::max_element(rounding.begin(), rounding.end()));
-  };
-  return {.pseudoplastic = beside(plain_rounding_), .dilatant = beside(rounding_at_rest_)};
+double Tolerances::unresolved() const {
+  return std::max(relative_ * largest_velocity_, *std::max_element(plain_rounding_.begin(), plain_rounding_.end()));
 }
 
 /// What the rounding of the velocities at the ends of dashpots leaves of their forces, near rest a lot where they go with a

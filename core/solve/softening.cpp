@@ -83,16 +83,16 @@ void Softening::apply(const Tolerances& tolerances) {
   // What follows such a law at once would jump with every change of it.
   constexpr double other = 2;
   const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
-  const Tolerances::Unresolved velocity = tolerances.unresolved();
+  const double unresolved = tolerances.unresolved();
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
       const Growth growth = laws.batch->growth(i);
-      double w = velocity.dilatant;
-      if (growth.exponent < 1) w = stops_[r] ? Tolerances::soft_share * velocity.pseudoplastic : 0;
+      double w = 0;
+      if (growth.exponent > 1) w = std::max(least_velocity_[r], tolerances.unfelt_dilatant(static_cast<int>(r)));
+      if (growth.exponent < 1 && stops_[r]) w = Tolerances::soft_share * unresolved;
       // Of so small a velocity the force may be a large one still, all of which goes in the end.
       if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));
-      if (growth.exponent > 1) w = std::max({w, least_velocity_[r], tolerances.unfelt_dilatant(static_cast<int>(r))});
       if (same(w, applied_[r])) continue;
       applied_[r] = w;
       laws.batch->soften(i, w);

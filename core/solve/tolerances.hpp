@@ -48,22 +48,19 @@ class Tolerances {
   const std::vector<double>& grains() const { return grain_; }
   /// Of what is unknown or given, so far or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
-  /// Velocities below which nothing is resolved [m/s]; at rest a dilatant law makes a large one of the rounding of a force.
-  struct Unresolved { double pseudoplastic = 0, dilatant = 0; };
-  Unresolved unresolved() const;
+  /// Velocity below which nothing is resolved, but of dilatant laws [m/s].
+  double unresolved() const;
   /// So many times what a step may be wrong by is 0.013 of the accuracy promised: what is no more may be taken as linear.
   static constexpr double soft_share = 20;
   /// Velocity at which the force of a pseudoplastic dashpot is no more than that, or at which so much of it comes of
   /// rounding [m/s]. Infinite as long as it has had no force.
   double unfelt(int rate) const;
-  /// Velocity at which the force of a dilatant dashpot is no more than what steps may leave of forces around it [m/s].
+  /// Velocity at which the force of a dilatant dashpot is no more than what steps and rounding may leave of forces around it [m/s].
   double unfelt_dilatant(int rate) const;
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const;
   /// Of the force of a rate branch that is solved for it.
   double force_noise(int rate) const;
-  /// Velocity of a branch that a dilatant dashpot in its part of the network makes of what steps may leave of forces [m/s].
-  double dilatant_noise(int branch) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
   /// Force by which a slider that sticks may seem to be above its bound for the errors that steps are allowed [N].
   double slip_noise(int slider) const { return slip_noise_[static_cast<std::size_t>(slider)]; }
@@ -115,7 +112,7 @@ class Tolerances {
   void loosen_balanced_forces(const std::vector<double>& slope);
   double noise_of(bool given, double flow, const Branch& b, double of_difference) const;
   void find_noise(const std::vector<double>& slope);
-  void find_dilatant_noise(const std::vector<double>& slope);
+  void find_left_forces(const std::vector<double>& slope);
   void find_slip_noise(const std::vector<double>& slope);
   void find_force_rounding(const Dae::View& view);
   void find_difference_rounding(const Dae::View& view);
@@ -184,6 +181,9 @@ class Tolerances {
   std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
   // Of each part: what rounding leaves of its forces [N], and of its velocities [m/s].
   std::vector<double> force_rounding_;
+  /// Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its slopes
+  /// are of the velocities that it comes from.
+  static constexpr double to_and_fro = 4;
   std::vector<double> plain_rounding_;    ///< but for dilatant laws
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
@@ -203,8 +203,7 @@ class Tolerances {
   double largest_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
-  std::vector<double> left_force_;      ///< what steps may leave of forces in each part, where there are dilatant laws [N]
-  std::vector<double> dilatant_noise_;  ///< of each part [m/s]; empty where there is nothing of the sort
+  std::vector<double> left_force_;  ///< what steps may leave of forces in each part [N]; empty where there are no dilatant laws
   std::vector<double> slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
   std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]
