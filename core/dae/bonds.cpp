@@ -79,16 +79,19 @@ void Bonds::solve(double t, const std::vector<double>& left, std::vector<double>
 
 void Bonds::report_unbalanced(double t, const Shared& shared) const {
   std::string what;
+  Spot where;
   if (const int n = shared.problem.failed_node(); n >= 0) {
     const NodeId node = shared.nodes[at(n)];
+    where = network_.spot_of_node(node);
     what = fmt::format("the forces at node {} cannot be balanced: the bounds of {}", network_.node_name(node),
                        listed(elements_at(network_, {node})));
   } else {
     const Branch& b = network_.sliders[shared.sliders[at(shared.problem.failed_branch())]].branch;
+    where = network_.spot_of(b.element);
     what = fmt::format("the force of `{}`, which sticks beside other sliders, is not the one of least norm: the bounds of {}",
                        network_.name_of(b), listed(elements_at(network_, {b.a, b.b})));
   }
-  throw SimulationError(fmt::format("{} {} may lie too far apart for double precision; check them", at_time(*network_.scene, t), what));
+  throw SimulationError(where, fmt::format("{} {} may lie too far apart for double precision; check them", at_time(*network_.scene, t), what));
 }
 
 }  // namespace rheonet

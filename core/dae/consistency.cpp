@@ -104,7 +104,7 @@ void Consistency::report_singular(double t) {
     names.push_back(network.node_name(nodes.back()));
   }
   if (nodes.empty()) report_unsolved(t);
-  throw UndeterminedError(fmt::format(
+  throw UndeterminedError(network.spot_of_node(nodes.front()), fmt::format(
       "{} nothing determines the motion of {} {}: every element there has come to a constant force, or the values of {} lie "
       "too far apart for double precision; give the node a mass, a dashpot or a spring",
       at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", listed(names),
@@ -122,7 +122,7 @@ void Consistency::report_unsolved(double t) {
     worst = static_cast<int>(i);
     most = std::isnan(share) ? std::numeric_limits<double>::infinity() : share;
   }
-  throw UndeterminedError(fmt::format(
+  throw UndeterminedError(dae_.spot_of(worst), fmt::format(
       "{} no state was found in which the forces balance, least of all for {}: the values of {} may lie too far "
       "apart for double precision; check them",
       at_time(*dae_.network().scene, t), dae_.describe(worst), dae_.around(worst)));
@@ -138,7 +138,7 @@ void Consistency::report_rate(double t, int unknown) {
     unknown = equation;
     break;
   }
-  throw UndeterminedError(fmt::format(
+  throw UndeterminedError(dae_.spot_of(unknown), fmt::format(
       "{} {} changes at a rate beyond the range of double precision: a force or velocity there is too large, or a mass, "
       "damping or stiffness too small against it; check the values of {}",
       at_time(*dae_.network().scene, t), dae_.describe(unknown), dae_.around(unknown)));

@@ -137,6 +137,8 @@ class Dae {
     auto operator<=>(const Subject&) const = default;
   };
   Subject subject(int unknown) const;
+  /// Where the netlist names it.
+  const Spot& spot_of(int unknown) const;
   /// For messages: "the velocity of node `m`", "the force of `k1`".
   std::string describe(int unknown) const;
   /// For messages: "`m`, `k1`", the elements there, which have a part in it.

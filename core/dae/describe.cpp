@@ -34,6 +34,11 @@ std::string Dae::describe(int unknown) const {
   return fmt::format("the {} of `{}`", is(iz_) ? "output" : "force", scene.elements[at(index)].name);
 }
 
+const Spot& Dae::spot_of(int unknown) const {
+  const auto [kind, index] = subject(unknown);
+  return kind == Subject::Kind::node ? network_->scene->nodes[at(index)].spot : network_->scene->elements[at(index)].spot;
+}
+
 std::string Dae::around(int unknown) const {
   const Scene& scene = *network_->scene;
   const auto [kind, index] = subject(unknown);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/dae/dashpot_steps.hpp"
@@ -130,7 +131,7 @@ void Instant::report_unbalanced(double t) const {
     nodes.push_back(n);
     names.push_back(network_.node_name(n));
   }
-  throw SimulationError(fmt::format(
+  throw SimulationError(network_.spot_of_node(nodes.front()), fmt::format(
       "{} the forces at massless node{} {} cannot be balanced: the values of {} may lie too far apart for double precision; check "
       "them, or give the node{} a mass or a dashpot",
       at_time(*network_.scene, t), names.size() > 1 ? "s" : "", listed(names), listed(elements_at(network_, nodes)),
@@ -139,13 +140,16 @@ void Instant::report_unbalanced(double t) const {
 
 void Instant::report_hidden_shares(double t) const {
   std::vector<std::string> motions, dashpots;
+  std::optional<Spot> where;
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
-    if (drive_.steps()[m] != 0) motions.push_back(network_.scene->elements[at(network_.motions[m].element)].name);
+    if (drive_.steps()[m] == 0) continue;
+    if (!where) where = network_.spot_of(network_.motions[m].element);
+    motions.push_back(network_.scene->elements[at(network_.motions[m].element)].name);
   }
   for (const Branch& b : network_.rates) {
     if (massless(b.a) || massless(b.b)) dashpots.push_back(network_.name_of(b));
   }
-  throw SimulationError(fmt::format(
+  throw SimulationError(where.value(), fmt::format(
       "{} rounding hides how dashpots {} share the step in position of {}: their values lie too far apart; give the step a time to "
       "rise in",
       at_time(*network_.scene, t), listed(dashpots), listed(motions)));

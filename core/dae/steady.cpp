@@ -110,7 +110,7 @@ void Settling::report_stretching(NodeId first, NodeId last, const std::vector<co
     node = b.a == node ? b.b : b.a;
   }
   std::reverse(path.begin(), path.end());
-  throw SimulationError(fmt::format(
+  throw SimulationError(network_.spot_of(from[at(last)]->element), fmt::format(
       "{}: {} between `{}`, which moves at {}, and `{}`, at {}, would stretch for ever; make the velocities equal or "
       "put something between them that gives way",
       kind(), listed(path), network_.node_name(first), with_unit(velocity_[at(first)], Quantity::velocity),
@@ -158,7 +158,7 @@ void Settling::report_acceleration(const std::vector<NodeId>& nodes) const {
   for (const Network::Force& force : network_.forces) {
     if (there(force.a) || there(force.b)) loads.push_back(network_.scene->elements[at(force.element)].name);
   }
-  throw SimulationError(fmt::format(
+  throw SimulationError(network_.spot_of_node(nodes.front()), fmt::format(
       "{}: what is at node{} {} cannot take the force{} {} for ever, and would go ever faster; give it a dashpot or more "
       "friction, or apply less force",
       kind(), names.size() > 1 ? "s" : "", listed(names), loads.size() > 1 ? "s" : "", listed(loads)));

@@ -188,7 +188,7 @@ void Settling::refine_velocities(double scale) {
 void Settling::refuse_motion() const {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     if (velocity_[n] == 0) continue;
-    throw SimulationError(fmt::format(
+    throw SimulationError(network_.spot_of_node(static_cast<NodeId>(n)), fmt::format(
         "{}: the forces are more than holds node `{}`, which goes on at {} under them; start from \"steady\", or apply "
         "less force",
         kind(), network_.node_name(static_cast<NodeId>(n)), with_unit(velocity_[n], Quantity::velocity)));

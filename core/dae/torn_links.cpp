@@ -87,7 +87,7 @@ Structure Instant::take_along(double t, std::vector<double>& dx) const {
 
 void Instant::refuse_tearing_step(double t, NodeId first, NodeId node, double by) const {
   const LinksBetween links = links_between(network_, first, node);
-  throw SimulationError(fmt::format("{} a step in position tears {} from {} by {}, and {} join{} them; leave out {} or {}",
+  throw SimulationError(network_.spot_of(links.first), fmt::format("{} a step in position tears {} from {} by {}, and {} join{} them; leave out {} or {}",
                                     at_time(*network_.scene, t), moved_node(node, ""), moved_node(first, ""),
                                     with_unit(*network_.scene, std::abs(by), Quantity::position), links.words,
                                     links.several ? "" : "s", links.several ? "a link" : "the link",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <utility>
 
@@ -56,20 +57,27 @@ std::string excerpt(std::string_view line, int line_number, int column) {
   return column > 0 ? shown + '\n' + below + '^' : shown;
 }
 
-/// Damerau-Levenshtein distance (optimal string alignment: insert, delete, replace, swap neighbours).
+// Longer words are no mistyped names; comparing them would take time in proportion to the square of their length.
+constexpr std::size_t longest_guessed = 100;
+
+/// Damerau-Levenshtein distance (optimal string alignment: insert, delete, replace, swap neighbours) of words that are not
+/// longer than can be guessed.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before_last, last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  using Row = std::array<std::size_t, longest_guessed + 1>;
+  Row rows[3];
+  Row *before_last = &rows[0], *last = &rows[1], *row = &rows[2];
+  for (std::size_t j = 0; j <= b.size(); ++j) (*last)[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
+    (*row)[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      (*row)[j] = std::min({(*last)[j] + 1, (*row)[j - 1] + 1, (*last)[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        row[j] = std::min(row[j], before_last[j - 2] + 1);
+        (*row)[j] = std::min((*row)[j], (*before_last)[j - 2] + 1);
     }
-    before_last = std::exchange(last, row);
+    std::swap(before_last, last);
+    std::swap(last, row);
   }
-  return last[b.size()];
+  return (*last)[b.size()];
 }
 
 std::string lower_case(std::string_view text) {
@@ -97,13 +105,14 @@ std::string format(const Diagnostic& diagnostic, const Sources& sources) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+  if (word.size() > longest_guessed) return "";
   const std::size_t limit = std::max<std::size_t>(2, word.size() / 3);
   const std::string lower = lower_case(word);
   std::pair best{limit + 1, std::size_t{0}};
   std::string name;
   for (const std::string& candidate : known) {
     const std::size_t longer = std::max(word.size(), candidate.size());
-    if (longer - std::min(word.size(), candidate.size()) > limit) continue;
+    if (longer > longest_guessed || longer - std::min(word.size(), candidate.size()) > limit) continue;
     // A wrong case is the smallest of mistakes.
     const std::pair distance{edit_distance(lower, lower_case(candidate)), edit_distance(word, candidate)};
     // Nothing in common: no hint is better than any two letters for any other two.

@@ -1,6 +1,7 @@
 #include "core/netlist/effects_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "core/netlist/keys.hpp"
@@ -13,7 +14,9 @@ namespace {
 /// The effects of a list: words of the netlist, or of the command line.
 class EffectList {
  public:
-  EffectList(Context& context, const Scene& scene) : mistakes_(context.mistakes), scene_(scene) {}
+  enum class Purpose { leave_out, keep };
+  EffectList(Context& context, const Scene& scene, Purpose purpose)
+      : declarations_(context.declarations), mistakes_(context.mistakes), scene_(scene), purpose_(purpose) {}
 
   void add(const TomlValue& word) {
     if (!expect_string(word, "an effect", mistakes_, "one of " + list_names(names()))) return;
@@ -29,6 +32,10 @@ class EffectList {
     if (colon != std::string::npos && !names_something(out)) {
       mistakes_.error(mistakes_.inside(word, colon + 1), "nothing is called `" + out.of + "`", did_you_mean(out.of, paths()));
       return;
+    }
+    if (purpose_ == Purpose::leave_out && !brought(out)) {
+      mistakes_.warning(mistakes_.inside(word, 0), "nothing" + (out.of.empty() ? " in the scene" : " in `" + out.of + "`") + " has " +
+                                                       in_words(*effect) + ": to leave it out changes nothing", what_is_brought(out.of));
     }
     found_.push_back(std::move(out));
   }
@@ -70,6 +77,20 @@ class EffectList {
     return !out.of.empty() && std::any_of(scene_.elements.begin(), scene_.elements.end(),
                                           [&](const SceneElement& e) { return out.concerns(e.name); });
   }
+  bool brought(const EffectLeftOut& out) const {
+    if (out.effect == Effect::feedback) return !scene_.sensed.empty();
+    return std::any_of(scene_.elements.begin(), scene_.elements.end(), [&](const SceneElement& e) {
+      const std::vector<Effect> here = declared_effects(*declarations_[static_cast<std::size_t>(e.declaration)], e.values);
+      return out.concerns(e.name) && std::find(here.begin(), here.end(), out.effect) != here.end();
+    });
+  }
+  std::string what_is_brought(const std::string& of) const {
+    std::vector<std::string> names;
+    for (const Effect effect : effects()) {
+      if (brought({effect, of})) names.push_back(name_of(effect));
+    }
+    return names.empty() ? "" : "its effects are " + list_names(names, "and");
+  }
   /// Of elements, and of what they are in.
   std::vector<std::string> paths() const {
     std::set<std::string> result;
@@ -82,8 +103,10 @@ class EffectList {
     return {result.begin(), result.end()};
   }
 
+  Declarations declarations_;
   Mistakes& mistakes_;
   const Scene& scene_;
+  Purpose purpose_;
   std::vector<EffectLeftOut> found_;
 };
 
@@ -101,9 +124,20 @@ void add_words(const std::vector<std::string>& words, const std::string& option,
 
 }  // namespace
 
+std::vector<Effect> declared_effects(const Declaration& declaration, std::span<const double> values) {
+  std::vector<Effect> result;
+  for (const Brought& brought : declaration.effects) {
+    const auto parameter = std::find_if(declaration.parameters.begin(), declaration.parameters.end(),
+                                        [&](const Parameter& p) { return p.name == brought.parameter; });
+    const double value = values[static_cast<std::size_t>(parameter - declaration.parameters.begin())];
+    if (value > 0 && std::isfinite(value)) result.push_back(brought.effect);
+  }
+  return result;
+}
+
 void read_effects(const TomlEntry* table, const std::vector<std::string>& without, const std::optional<std::vector<std::string>>& only,
                   Context& context, Sources& sources, Scene& scene) {
-  EffectList out(context, scene), stay(context, scene);
+  EffectList out(context, scene, EffectList::Purpose::leave_out), stay(context, scene, EffectList::Purpose::keep);
   bool some_stay = only.has_value();
   if (table && expect_table(table->value, "`effects`", context.mistakes, "[effects] with without = [...] or only = [...]")) {
     Keys keys(table->value, "[effects]");

@@ -8,8 +8,9 @@ namespace rheonet {
 
 namespace {
 
-// More than anyone reads; each excerpt takes time in proportion to the file.
-constexpr std::size_t most_shown = 1000;
+// More errors, or warnings, than anyone reads. Each costs time in proportion to the scene: its place and excerpt are looked for
+// in the file, and its name is compared with all others.
+constexpr std::size_t most_shown = 200;
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
@@ -50,8 +51,13 @@ void Mistakes::warning(Spot spot, std::string message, std::string hint) {
 }
 
 void Mistakes::add(Severity severity, Spot spot, std::string message, std::string hint) {
-  if (severity == Severity::error) ++errors_;
+  const bool is_error = severity == Severity::error;
+  if (is_error) ++errors_;
   if (!seen_.insert({spot.file, spot.line, spot.column, message}).second) return;
+  if (++(is_error ? different_errors_ : different_warnings_) > most_shown) {
+    if (is_error) throw TooManyMistakes{};
+    return;
+  }
   if (path_ && !spot.on_command_line()) message += " (in `" + shortened(*path_) + "`)";
   all_.push_back({severity, spot, std::move(message), std::move(hint)});
 }
@@ -95,12 +101,10 @@ std::vector<Diagnostic> Mistakes::sorted() const {
   std::vector<Diagnostic> result = all_;
   std::stable_sort(result.begin(), result.end(),
                    [](const Diagnostic& a, const Diagnostic& b) { return comes_before(a.spot, b.spot); });
-  if (result.size() > most_shown) {
-    const std::size_t others = result.size() - most_shown;
-    result.resize(most_shown + 1);
-    result.back() = {Severity::error, result.back().spot,
-                     "and " + std::to_string(others) + " more mistakes, from here on", ""};
-  }
+  if (different_warnings_ > most_shown)
+    result.push_back({Severity::warning, result.back().spot, "and " + std::to_string(different_warnings_ - most_shown) + " more warnings", ""});
+  if (different_errors_ > most_shown)
+    result.push_back({Severity::error, result.back().spot, "there are more than " + std::to_string(most_shown) + " mistakes: the others are not looked for", ""});
   return result;
 }
 

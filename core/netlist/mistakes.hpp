@@ -13,12 +13,16 @@ namespace rheonet {
 
 struct TomlValue;
 
+/// Ends the reading of a scene: the errors so far are more than anyone reads.
+struct TooManyMistakes {};
+
 /// Collects the mistakes of a scene while it is read. One that is met again (in each member of a `repeat`, in each
 /// instance of a model) counts once.
 class Mistakes {
  public:
   explicit Mistakes(const Sources& sources) : sources_(sources) {}
 
+  /// Throws TooManyMistakes where it is one too many.
   void error(Spot spot, std::string message, std::string hint = {});
   void warning(Spot spot, std::string message, std::string hint = {});
   /// Number of errors so far: a reader that wants to know whether a part was sound compares before and after.
@@ -44,8 +48,8 @@ class Mistakes {
     const std::string* before_;
   };
 
-  /// The mistakes in the order of files and lines, those of the command line last; beyond a thousand only
-  /// their number.
+  /// The mistakes in the order of files and lines, those of the command line last; then, if there are more of them, that it
+  /// is so.
   std::vector<Diagnostic> sorted() const;
 
  private:
@@ -54,7 +58,8 @@ class Mistakes {
   const Sources& sources_;
   std::vector<Diagnostic> all_;
   std::set<std::tuple<int, int, int, std::string>> seen_;
-  std::size_t errors_ = 0;
+  std::size_t errors_ = 0;  ///< those that are met again too
+  std::size_t different_errors_ = 0, different_warnings_ = 0;
   const std::string* path_ = nullptr;
 };
 

@@ -29,6 +29,18 @@ std::string wanted(const Parameter& parameter, Domain domain) {
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
 
+/// Which parameters are signals.
+std::string what_may_vary(Declarations declarations) {
+  std::string text;
+  for (const Declaration* declaration : declarations) {
+    std::vector<std::string> signals;
+    for (const Parameter& p : declaration->parameters)
+      if (p.kind == Parameter::Kind::signal) signals.push_back(p.name);
+    if (!signals.empty()) text += (text.empty() ? "" : ", ") + list_names(signals, "and") + " of " + article(declaration->type);
+  }
+  return "signals, which vary in time, are " + text;
+}
+
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -253,6 +265,8 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
       const bool any_unit = parameter.unit != Parameter::Unit::quantity;
       plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(parameter.quantity), context_);
       plan.signal_parameters.push_back(static_cast<int>(i));
+    } else if (entry->value.is_table()) {
+      mistakes.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(context_.declarations));
     } else {
       plan.values[i] = Formula(entry->value, "`" + name + "`", mistakes);
     }

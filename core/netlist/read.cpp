@@ -17,6 +17,7 @@
 #include "core/netlist/read_presentation.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/simulate_table.hpp"
+#include "core/netlist/unused_parameters.hpp"
 
 namespace rheonet {
 
@@ -52,11 +53,14 @@ class Reader {
   }
 
   void read(fs::path name, std::string text, fs::path folder, const fs::path& canonical) {
-    overrides_ = read_overrides(options_.overrides, options_.origins, result_.sources, mistakes_);
     const int file = files_.add(std::move(name), std::move(text), std::move(folder));
-    if (auto document = parse_toml(file, result_.sources, mistakes_)) {
-      document_ = std::move(*document);
-      read_document(file, canonical);
+    try {
+      overrides_ = read_overrides(options_.overrides, options_.origins, result_.sources, mistakes_);
+      if (auto document = parse_toml(file, result_.sources, mistakes_)) {
+        document_ = std::move(*document);
+        read_document(file, canonical);
+      }
+    } catch (const TooManyMistakes&) {  // finish() lists them
     }
     finish();
   }
@@ -92,6 +96,8 @@ class Reader {
     const std::set<std::string> doubtful = read_network(elements, environment, canonical);
     read_start_and_effects(environment, doubtful);
     read_questions(simulate, environment, doubtful);
+    if (mistakes_.errors() > 0) return;
+    warn_of_unused_parameters(document_, mistakes_);
   }
 
   /// Elements and the models of which they are made. Returns what something is wrong with: it is not reported again where it is
@@ -209,16 +215,7 @@ class Reader {
   /// A parameter that the file uses and leaves to the command line may be added; any other is mistyped.
   void refuse_unless_used(const Override& override) {
     const Override::Part& part = override.path[1];
-    const auto uses = [&](const auto& self, const TomlValue& value) -> bool {
-      if (value.is_string()) {
-        const auto names = identifiers_of(value.text);
-        return std::binary_search(names.begin(), names.end(), part.name);
-      }
-      return std::any_of(value.items.begin(), value.items.end(), [&](const TomlValue& v) { return self(self, v); }) ||
-             std::any_of(value.entries.begin(), value.entries.end(),
-                         [&](const TomlEntry& e) { return self(self, e.value); });
-    };
-    if (uses(uses, document_)) return;
+    if (identifiers_below(document_).contains(part.name)) return;
     std::vector<std::string> names;
     for (const TomlEntry& entry : document_.find("parameters")->value.entries)
       if (entry.key != part.name) names.push_back(entry.key);

@@ -103,14 +103,32 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
   };
   for (const Key key : required) take(key, keys.require(key_names()[key], main->spot));
   for (const Key key : optional) take(key, keys.find(key_names()[key]));
+  const TomlEntry* columns = shape_ == Shape::table ? keys.find("columns") : nullptr;
   keys.finish(context.mistakes);
 
   if (shape_ == Shape::table) {
     read_points(main->value, context);
+    if (columns) read_columns(*columns, context.mistakes);
   } else {
     main_ = Formula(main->value, "`" + main->key + "`", context.mistakes);
     constant_ = constant_ && main_.identifiers().empty();
   }
+}
+
+void SignalPlan::read_columns(const TomlEntry& columns, Mistakes& mistakes) {
+  const std::string example = "columns = [\"time\", \"force\"]";
+  if (!file_name_) {
+    mistakes.error(columns.spot, "`columns` names columns of a CSV file, but `table` names none", "table = \"measured.csv\", " + example);
+    return;
+  }
+  if (!expect_array(columns.value, "`columns`", mistakes, example)) return;
+  if (columns.value.items.size() != 2) {
+    mistakes.error(columns.value.spot, "`columns` names two columns, of the times and of the values", example);
+    return;
+  }
+  for (const TomlValue& name : columns.value.items)
+    if (!expect_string(name, "a column", mistakes, example)) return;
+  columns_ = columns.value.items;
 }
 
 void SignalPlan::read_points(const TomlValue& source, Context& context) {
@@ -217,7 +235,7 @@ bool SignalPlan::is_unknown_name(const Environment& environment, Context& contex
 
 const TableFile* SignalPlan::table_file(Context& context) const {
   if (!file_) {
-    auto table = read_table_file(*file_name_, context);
+    auto table = read_table_file(*file_name_, columns_, context);
     file_ = table ? std::make_shared<const TableFile>(std::move(*table)) : nullptr;
   }
   return file_->get();

@@ -43,6 +43,7 @@ class SignalPlan {
   const TomlEntry* find_shape(const TomlValue& source, Mistakes& mistakes) const;
   void read_table_signal(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
+  void read_columns(const TomlEntry& columns, Mistakes& mistakes);
   /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
   std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
   /// `hint`, or what mends a unit that `formula` and the amplitude have both.
@@ -70,6 +71,7 @@ class SignalPlan {
   std::array<Formula, key_count> keys_;
   std::vector<Point> points_;
   std::optional<TomlValue> file_name_;  ///< of a CSV file with the points
+  std::vector<TomlValue> columns_;      ///< names of those of the times and the values; empty: the file has two
   /// What is in it, nullptr if it is mistaken. Read when it is needed: an override may take its place.
   mutable std::optional<std::shared_ptr<const TableFile>> file_;
   mutable std::optional<Signal> made_;

@@ -1,5 +1,8 @@
 #include "core/netlist/table_file.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -13,7 +16,7 @@ namespace {
 /// Reads the rows of a file, telling of the first mistakes in them.
 class TableReader {
  public:
-  TableReader(int file, Context& context) : file_(file), context_(context) {}
+  TableReader(int file, const std::vector<TomlValue>& columns, Context& context) : file_(file), named_(columns), context_(context) {}
 
   /// Absent if there are mistakes.
   std::optional<TableFile> read() {
@@ -24,7 +27,9 @@ class TableReader {
       const std::string_view line = rest.substr(0, end);
       rest.remove_prefix(std::min(end + 1, rest.size()));
       if (is_csv_remark(line)) continue;
-      row(csv_fields(line), first);
+      const std::vector<CsvField> fields = csv_fields(line);
+      if (first && !named_.empty() && !find_columns(fields)) return {};
+      if (!first || named_.empty()) row(fields, first);
       first = false;
     }
     if (mistakes_ > most_told)
@@ -45,18 +50,21 @@ class TableReader {
   }
 
   void row(const std::vector<CsvField>& fields, bool may_be_header) {
-    if (fields.size() != 2) {
-      refuse(1, "a table of a signal has two columns, time and value; this row has " + std::to_string(fields.size()));
+    if (fields.size() != width_) {
+      refuse(1, named_.empty() ? fmt::format("a table of a signal has two columns, time and value; this row has {}", fields.size())
+                               : fmt::format("the header has {} columns, this row has {}", width_, fields.size()),
+             may_be_header ? how_to_choose(fields) : "");
       return;
     }
-    const auto time = csv_number(fields[0]);
-    const auto value = csv_number(fields[1]);
+    const CsvField &time_field = fields[time_column_], &value_field = fields[value_column_];
+    const auto time = csv_number(time_field);
+    const auto value = csv_number(value_field);
     if (may_be_header && !time && !value) {
-      header(fields);
+      header(time_field, value_field);
       return;
     }
     bool good = true;
-    for (const auto& [parsed, field] : {std::pair(time, fields[0]), std::pair(value, fields[1])}) {
+    for (const auto& [parsed, field] : {std::pair(time, time_field), std::pair(value, value_field)}) {
       if (parsed && std::isfinite(*parsed)) continue;
       refuse(field.column, "expected a finite number, found `" + std::string(field.text) + "`");
       good = false;
@@ -64,18 +72,44 @@ class TableReader {
     if (!good) return;
     auto& points = table_.points;
     if (!points.empty() && multiplied(*time, second_) < points.back().first)
-      refuse(fields[0].column, "the times of a table must not decrease");
+      refuse(time_field.column, "the times of a table must not decrease");
     else
       points.emplace_back(multiplied(*time, second_), *value);
   }
 
-  void header(const std::vector<CsvField>& fields) {
-    const auto time_unit = unit_of_column(fields[0]);
-    const auto value_unit = unit_of_column(fields[1]);
+  /// The hint for a first row with more than two fields.
+  static std::string how_to_choose(const std::vector<CsvField>& fields) {
+    if (fields.size() < 3) return "";
+    if (csv_number(fields[0]) || csv_number(fields[1]))
+      return "give the file a first row with names of its columns, and say which two are meant: columns = [\"time\", \"force\"]";
+    return fmt::format("say which two are meant: columns = [\"{}\", \"{}\"]", csv_heading(fields[0].text).name, csv_heading(fields[1].text).name);
+  }
+
+  /// Takes the columns that the signal names from the header. False, with a message, if it has not both.
+  bool find_columns(const std::vector<CsvField>& fields) {
+    std::vector<std::string> names;
+    for (const CsvField& field : fields) names.emplace_back(csv_heading(field.text).name);
+    for (const auto& [wanted, column] : {std::pair(&named_[0], &time_column_), std::pair(&named_[1], &value_column_)}) {
+      const auto found = std::find(names.begin(), names.end(), wanted->text);
+      if (found == names.end()) {
+        context_.mistakes.error(wanted->spot, "the table has no column `" + wanted->text + "`",
+                                did_you_mean(wanted->text, names, "its columns are " + list_names(names, "and")));
+        return false;
+      }
+      *column = static_cast<std::size_t>(found - names.begin());
+    }
+    width_ = fields.size();
+    header(fields[time_column_], fields[value_column_]);
+    return true;
+  }
+
+  void header(const CsvField& time, const CsvField& value) {
+    const auto time_unit = unit_of_column(time);
+    const auto value_unit = unit_of_column(value);
     if (!time_unit || !value_unit) return;
     const auto seconds = as_quantity(*time_unit, Quantity::time, context_.domain);
     if (const auto* wrong = std::get_if<TextError>(&seconds))
-      refuse(fields[0].column, "the unit of the times: " + wrong->message);
+      refuse(time.column, "the unit of the times: " + wrong->message);
     else
       second_ = std::get<double>(seconds);
     table_.unit = *value_unit;
@@ -101,7 +135,9 @@ class TableReader {
   }
 
   int file_;
+  const std::vector<TomlValue>& named_;  ///< the columns that the signal names; empty if it names none
   Context& context_;
+  std::size_t width_ = 2, time_column_ = 0, value_column_ = 1;
   TableFile table_{{}, {.value = 1, .dimension = {}}};
   double second_ = 1;  ///< the unit of the times, in s
   int line_ = 0;
@@ -111,12 +147,12 @@ class TableReader {
 
 }  // namespace
 
-std::optional<TableFile> read_table_file(const TomlValue& name, Context& context) {
+std::optional<TableFile> read_table_file(const TomlValue& name, const std::vector<TomlValue>& columns, Context& context) {
   const auto found = context.files.find(name, name.spot.file, context.mistakes);
   if (!found) return {};
   const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.mistakes);
   if (!file) return {};
-  auto table = TableReader(*file, context).read();
+  auto table = TableReader(*file, columns, context).read();
   if (table && table->points.empty()) {
     context.mistakes.error(name.spot, "the table `" + name.text + "` has no rows");
     return {};

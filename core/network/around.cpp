@@ -18,7 +18,7 @@ std::vector<std::string> elements_at(const Network& network, const std::vector<N
   return names;
 }
 
-std::vector<std::string> elements_with_friction(const Network& network) {
+std::vector<int> elements_with_friction(const Network& network) {
   std::vector<char> meant(network.scene->elements.size(), 0);
   for (const Network::Slider& s : network.sliders) meant[at(s.branch.element)] = 1;
   for (const Pair& pair : network.pairs) meant[at(pair.slider)] = 1;
@@ -27,11 +27,11 @@ std::vector<std::string> elements_with_friction(const Network& network) {
       if (laws.batch->events(i) > 0) meant[at(network.deflections[at(laws.first) + i].element)] = 1;
     }
   }
-  std::vector<std::string> names;
+  std::vector<int> elements;
   for (std::size_t e = 0; e < meant.size(); ++e) {
-    if (meant[e]) names.push_back(network.scene->elements[e].name);
+    if (meant[e]) elements.push_back(static_cast<int>(e));
   }
-  return names;
+  return elements;
 }
 
 }  // namespace rheonet

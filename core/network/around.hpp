@@ -11,7 +11,7 @@ namespace rheonet {
 /// among them.
 std::vector<std::string> elements_at(const Network& network, const std::vector<NodeId>& nodes);
 
-/// The names of the elements that may stick or slip, turn or stand: sliders and friction.
-std::vector<std::string> elements_with_friction(const Network& network);
+/// The elements that may stick or slip, turn or stand: sliders and friction. Indices into Scene::elements.
+std::vector<int> elements_with_friction(const Network& network);
 
 }  // namespace rheonet

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/netlist/effects_table.hpp"
 #include "core/network/error.hpp"
 #include "core/network/index.hpp"
 #include "core/network/limits.hpp"
@@ -40,15 +40,8 @@ bool contains(const std::vector<Effect>& effects, Effect effect) {
 
 std::vector<Effect> brought_by(const SceneElement& element) {
   const Declaration& declaration = declaration_of(element);
-  std::vector<Effect> result;
-  if (declaration.effects.empty()) return result;
-  if (!take_limits(components()[at(element.declaration)], element.values).component) return result;
-  std::vector<double> values = element.values;
-  for (const Brought& brought : declaration.effects) {
-    const double value = value_of(declaration, brought.parameter, values);
-    if (value > 0 && std::isfinite(value)) result.push_back(brought.effect);
-  }
-  return result;
+  if (declaration.effects.empty() || !take_limits(components()[at(element.declaration)], element.values).component) return {};
+  return declared_effects(declaration, element.values);
 }
 
 std::vector<Effect> left_out_of(const Scene& scene, const SceneElement& element) {

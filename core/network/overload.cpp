@@ -13,27 +13,31 @@ void report_overload(const Network& network, double t, const std::vector<NodeId>
   for (NodeId n : nodes) node_names.push_back(network.node_name(n));
   for (int e : elements) element_names.push_back(network.scene->elements[static_cast<std::size_t>(e)].name);
   const bool several = elements.size() > 1;
-  throw SimulationError(fmt::format(
+  const std::string reason = fmt::format(
       "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass or a "
       "dashpot, or apply less force",
       at_time(*network.scene, t), nodes.size() > 1 ? "s" : "", listed(node_names),
-      elements.empty() ? "what is there" : listed(element_names), several ? "are" : "is", several ? "they" : "it"));
+      elements.empty() ? "what is there" : listed(element_names), several ? "are" : "is", several ? "they" : "it");
+  if (!nodes.empty() && nodes.front() != ground) throw SimulationError(network.spot_of_node(nodes.front()), reason);
+  if (!elements.empty()) throw SimulationError(network.spot_of(elements.front()), reason);
+  throw SimulationError(reason);
 }
 
 void report_undecided(const Network& network, const std::string& what) {
-  const std::vector<std::string> friction = elements_with_friction(network);
+  const std::vector<int> friction = elements_with_friction(network);
+  std::vector<std::string> names;
   if (friction.empty()) {
-    std::vector<std::string> all;
-    for (const SceneElement& e : network.scene->elements) all.push_back(e.name);
-    throw SimulationError(fmt::format(
+    for (const SceneElement& e : network.scene->elements) names.push_back(e.name);
+    throw SimulationError(network.spot_of(0), fmt::format(
         "{} it cannot be decided what moves which way: forces differ by rounding only, or lie beyond the range of double precision; "
         "check the values of {}, or ask for another accuracy",
-        what, listed(all)));
+        what, listed(names)));
   }
-  throw SimulationError(fmt::format(
+  for (const int e : friction) names.push_back(network.scene->elements[static_cast<std::size_t>(e)].name);
+  throw SimulationError(network.spot_of(friction.front()), fmt::format(
       "{} it cannot be decided what of {} slips: the forces there differ by rounding only; make their forces of sliding differ, "
       "or one of them part of the other",
-      what, listed(friction)));
+      what, listed(names)));
 }
 
 }  // namespace rheonet

@@ -11,7 +11,7 @@ namespace {
 /// Sets of nodes, and behind them elements.
 class Joiner {
  public:
-  Joiner(const Scene& scene, const std::vector<char>& without)
+  Joiner(const Scene& scene, const std::vector<char>& without, Between between)
       : scene_(scene), 
         sets_(scene.nodes.size() + scene.elements.size()),
         shared_(scene.nodes.size(), 0),
@@ -21,7 +21,7 @@ class Joiner {
     for (const SceneFeed& feed : scene.feeds) fed[at(feed.element)] = 1;
     shared_[ground] = 1;
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-      if (role(e) == Role::motion && !fed[e]) shared_[at(scene.elements[e].a)] = 1;
+      if (between == Between::ground_and_given_motions && role(e) == Role::motion && !fed[e]) shared_[at(scene.elements[e].a)] = 1;
     }
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
       if (role(e) != Role::block) join_ends(static_cast<int>(e));
@@ -88,8 +88,8 @@ class Joiner {
 
 }  // namespace
 
-Parts find_parts(const Scene& scene, const std::vector<char>& without) {
-  Joiner joiner(scene, without);
+Parts find_parts(const Scene& scene, const std::vector<char>& without, Between between) {
+  Joiner joiner(scene, without, between);
   Parts parts{.of_element = std::vector<int>(scene.elements.size(), -1), .of_node = std::vector<int>(scene.nodes.size(), -1)};
   std::vector<int> number(scene.nodes.size() + scene.elements.size(), -1);
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {

@@ -140,7 +140,7 @@ double NetworkEvents::band(int k) const {
 void NetworkEvents::report_against_force(double t, int slider) const {
   const Network& network = dae_.network();
   const Branch& branch = network.sliders[at(slider)].branch;
-  throw SimulationError(fmt::format(
+  throw SimulationError(network.spot_of(branch.element), fmt::format(
       "{} no motion was found in which `{}` slips the way it is pushed: the values of {} may lie too far apart for double "
       "precision; check them",
       rheonet::at_time(*network.scene, t), network.name_of(branch), listed(elements_at(network, {branch.a, branch.b}))));

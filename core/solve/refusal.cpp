@@ -38,7 +38,8 @@ std::string all_of(const Network& network) {
 void refuse_to_go_on(const System& system, const std::vector<double>& tolerance, Integrator::Outcome outcome) {
   const Network& network = system.dae.network();
   const int unknown = at_fault(system, tolerance);
-  throw SimulationError(fmt::format(
+  const Spot where = unknown < 0 ? network.spot_of(0) : system.dae.spot_of(unknown);
+  throw SimulationError(where, fmt::format(
       "{} {} {}; check the values of {}, or ask for a looser accuracy", at_time(*network.scene, system.integrator.time()),
       unknown < 0 ? "what the motions make of " + all_of(network) : system.dae.describe(unknown),
       outcome == Integrator::Outcome::singular ? "is not determined by the forces around it"

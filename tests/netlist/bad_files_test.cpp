@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <ctime>
+
 #include "tests/netlist/fake_declarations.hpp"
 #include "tests/netlist/reading.hpp"
 
@@ -214,6 +216,7 @@ DIR/scenes/back.csv:4:1: error: the times of a table must not decrease
 DIR/scenes/three.csv:1:1: error: a table of a signal has two columns, time and value; this row has 3
     1 | 1,0,3
       | ^
+  give the file a first row with names of its columns, and say which two are meant: columns = ["time", "force"]
 )~");
   CHECK(messages_in(folder, with_table("empty.csv")) == R"~(
 scene.toml:2:55: error: the table `empty.csv` has no rows
@@ -296,12 +299,36 @@ TEST_CASE("an accuracy of the command line out of bounds") {
   CHECK(scene_of(netlist, options).accuracy == 1e-3);
 }
 
-TEST_CASE("more mistakes than anyone reads") {
-  std::string netlist = "[elements]\n";
-  for (int i = 0; i < 1500; ++i) netlist += "k" + std::to_string(i) + " = { type = \"sprong\" }\n";
-  const ReadResult result = read(netlist);
-  REQUIRE(result.diagnostics.size() == 1001);
-  CHECK(result.diagnostics.back().message == "and 500 more mistakes, from here on");
+TEST_CASE("beyond 200 mistakes the others are not looked for") {
+  const auto read_wrong = [](int mistakes) {
+    std::string netlist = "[elements]\n";
+    for (int i = 0; i < mistakes; ++i) netlist += "k" + std::to_string(i) + " = { type = \"sprong\" }\n";
+    return read(netlist).diagnostics;
+  };
+  CHECK(read_wrong(200).size() == 200);
+  CHECK(read_wrong(200).back().message == "unknown element type `sprong`");
+  CHECK(read_wrong(201).size() == 201);
+  CHECK(read_wrong(201).back().message == "there are more than 200 mistakes: the others are not looked for");
+}
+
+TEST_CASE("a megabyte of mistyped names is refused in a time in proportion to it") {
+  std::string elements = "[elements]\n", records = "[simulate]\nstop = 1\nrecord = [";
+  for (int i = 0; i < 10'000; ++i) {
+    const std::string number = std::to_string(100'000 + i);
+    elements += "spring" + number + " = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n";
+    records += "\"sprung" + number + ".force\",\n";
+  }
+  const std::clock_t begin = std::clock();
+  const ReadResult result = read(elements + records + "]\n");
+  CHECK(result.diagnostics.size() == 201);
+  CHECK(result.diagnostics.front().hint == "did you mean `spring100000.force`?");
+  // Each name compared with all others: 100 s.
+  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 10);
+  const std::string endless(500'000, 'x');
+  const std::vector<Diagnostic> one = read("[elements]\n" + endless + "1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 1 }\n"
+                                           "[simulate]\nstop = 1\nrecord = [\"" + endless + "2.force\"]\n").diagnostics;
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].hint.empty());
 }
 
 }  // namespace rheonet::test

@@ -9,7 +9,7 @@ namespace {
 
 const std::string head = R"~(
 [elements]
-k1 = { type = "spring", between = ["a", "ground"], stiffness = "k" }
+k1 = { type = "spring", between = ["a", "ground"], stiffness = "k*(1 + 0*n*a/a*k_max/k_max)" }
 [parameters]
 k = "3 N/m"
 k_max = "5 N/m"

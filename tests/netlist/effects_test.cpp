@@ -34,7 +34,7 @@ ReadOptions only(std::vector<std::string> effects) {
 /// "inertia; elasticity of `oil`"
 std::string left_out(const std::string& table, ReadOptions options = {}) {
   const ReadResult result = read_with(table, options);
-  REQUIRE_EQ(test::messages(result), "");
+  REQUIRE(result.scene);
   std::string text;
   for (const EffectLeftOut& out : result.scene->without) text += (text.empty() ? "" : "; ") + out.in_words();
   return text;
@@ -86,4 +86,18 @@ TEST_CASE("what names no effect, or no element, is a mistake at its place") {
   CHECK(test::contains(test::messages(read_with("[effects]\nwithout = 3")), "`without` must be an array"));
   CHECK(test::contains(test::messages(read_with("[effects]\nwihout = []")), "did you mean `without`?"));
   CHECK(test::contains(test::messages(read_with("[effects]\nwithout = []\nonly = []")), "[effects] has both `without` and `only`"));
+}
+
+TEST_CASE("to leave out an effect that nothing has is told; to keep one is not") {
+  const auto told = [](const std::string& table, ReadOptions options = {}) { return test::messages(read_with(table, options)); };
+  CHECK_EQ(told("[effects]\nwithout = [\"dry friction\"]"),
+           "scene.toml:8:13: warning: nothing in the scene has dry friction: to leave it out changes nothing\n    8 | without = [\"dry friction\"]\n"
+           "      |             ^\n  its effects are `inertia`, `elasticity` and `viscosity`\n");
+  CHECK_EQ(told("", without({"delay"})),
+           "command line: warning: nothing in the scene has delay: to leave it out changes nothing\n      | --without delay\n      |           ^\n"
+           "  its effects are `inertia`, `elasticity` and `viscosity`\n");
+  CHECK(test::contains(told("", without({"inertia:oil"})), "warning: nothing in `oil` has inertia"));
+  CHECK(test::contains(told("", without({"feedback"})), "warning: nothing in the scene has feedback"));
+  CHECK_EQ(told("", without({"inertia", "elasticity:oil", "viscosity"})), "");
+  CHECK_EQ(told("", only({"inertia", "delay"})), "");
 }

@@ -10,8 +10,8 @@ namespace rheonet::test {
 namespace {
 
 const std::string head = R"~(
-[parameters]
-F = "2 N"
+parameters.F = "2 N"
+check.positive = "F > 0"
 [elements]
 drive = { type = "motion", at = "a", velocity = 1 }
 k1 = { type = "spring", between = ["a", "mid"], stiffness = 1 }

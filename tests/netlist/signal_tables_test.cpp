@@ -125,6 +125,40 @@ TEST_CASE("signals: a file with units, and in quotes") {
   CHECK(read("t,speed [mm/s]\n0,60\n", ", amplitude = 2").values == std::vector<double>{0.12});
 }
 
+TEST_CASE("signals: two columns of a file with more, by their names") {
+  const Folder folder;
+  folder.write("rows.csv", "time [ms],k1.force [N],\"a.velocity [mm/s]\"\n0,7,1\n500,8,3\n");
+  const auto table = shape_of<Signal::Table>("{ table = \"rows.csv\", columns = [\"time\", \"a.velocity\"] }", "translation", folder.path());
+  CHECK(table.times == std::vector{0.0, 0.5});
+  CHECK(table.values == std::vector{0.001, 0.003});
+  const auto told = [&](const std::string& signal) {
+    const ReadResult result = read("[elements]\nm = { type = \"motion\", at = \"a\", velocity = { " + signal + " } }\n", {}, folder.path());
+    REQUIRE_FALSE(result.diagnostics.empty());
+    const Diagnostic& first = result.diagnostics.front();
+    return std::to_string(first.spot.line) + ":" + std::to_string(first.spot.column) + ": " + first.message + "; " + first.hint;
+  };
+  CHECK(told("table = \"rows.csv\"") == "1:1: a table of a signal has two columns, time and value; this row has 3; say which two are meant: "
+                                        "columns = [\"time\", \"k1.force\"]");
+  CHECK(told("table = \"rows.csv\", columns = [\"time\", \"a.velocitie\"]") == "2:86: the table has no column `a.velocitie`; did you mean `a.velocity`?");
+  CHECK(told("table = \"rows.csv\", columns = [\"t\", \"force\"]") ==
+        "2:78: the table has no column `t`; its columns are `time`, `k1.force` and `a.velocity`");
+  CHECK(told("table = \"rows.csv\", columns = [\"time\"]") ==
+        "2:77: `columns` names two columns, of the times and of the values; columns = [\"time\", \"force\"]");
+  CHECK(told("table = [[0, 0], [1, 1]], columns = [\"time\", \"force\"]") ==
+        "2:73: `columns` names columns of a CSV file, but `table` names none; table = \"measured.csv\", columns = [\"time\", \"force\"]");
+  folder.write("rows.csv", "t,x,y\n0,1,2\n1,2\n");
+  CHECK(told("table = \"rows.csv\", columns = [\"t\", \"y\"]") == "3:1: the header has 3 columns, this row has 2; ");
+}
+
+TEST_CASE("signals: a parameter that is constant is told from those that vary") {
+  const ReadResult result = read("[elements]\ns = { type = \"slider\", between = [\"a\", \"ground\"], coulomb = { ramp = \"1 N/s\" } }\n");
+  REQUIRE(result.diagnostics.size() == 1);
+  CHECK(messages(result) == "scene.toml:2:61: error: `coulomb` is constant in time, but is a table\n"
+                            "    2 | s = { type = \"slider\", between = [\"a\", \"ground\"], coulomb = { ramp = \"1 N/s\" } }\n"
+                            "      |                                                             ^\n"
+                            "  signals, which vary in time, are `position` and `velocity` of a `motion`, `force` of a `force`\n");
+}
+
 TEST_CASE("signals: within a repeat and a model") {
   const Scene scene = scene_of(R"~(
 [models.pusher]

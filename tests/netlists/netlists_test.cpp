@@ -13,6 +13,7 @@
 #include "core/netlist/document.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/netlist/read.hpp"
+#include "core/network/advice.hpp"
 #include "core/network/component.hpp"
 #include "core/result/course.hpp"
 
@@ -77,6 +78,15 @@ std::vector<std::filesystem::path> demos() {
 }
 
 }  // namespace
+
+TEST_CASE("no netlist that comes with the project, a hard one neither, gives reason for advice") {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".toml" || entry.path().string().find("/library/") != std::string::npos) continue;
+    CAPTURE(entry.path().string());
+    const ReadResult read = read_sound(entry.path());
+    for (const Diagnostic& diagnostic : advice_on(*read.scene)) FAIL_CHECK(format(diagnostic, read.sources));
+  }
+}
 
 TEST_CASE("Every netlist of the project runs, and its claims hold") {
   REQUIRE_GE(scenes().size(), 9);

@@ -94,7 +94,7 @@ TEST_CASE("what is wrong with a network has its place in the netlist, and what w
     folder.write("scene.toml", "[elements]\n" + elements + "[simulate]\nstop = 1\n");
     const Finished result = folder.shell("rheonet check scene.toml");
     CHECK(result.status == 1);
-    CHECK_MESSAGE(result.err.starts_with(start), result.err);
+    CHECK_MESSAGE(contains('\n' + result.err, '\n' + std::string(start)), result.err);  // warnings may come before it
     CHECK(contains(result.err, "| "));  // the line itself
     CHECK(contains(folder.shell("rheonet run scene.toml").err, start));
   }
@@ -106,6 +106,7 @@ TEST_CASE("a node at which a single element ends is told, with the name that may
     folder.write("scene.toml", "[elements]\nm = { type = \"mass\", at = \"seat\", mass = 1 }\n"
                                "k = { type = \"spring\", between = [\"" + from + "\", \"" + to + "\"], stiffness = 3 }\n"
                                "c = { type = \"dashpot\", between = [\"seat\", \"ground\"], damping = 2 }\n"
+                               "f = { type = \"force\", at = \"seat\", force = 1 }\n"
                                "[simulate]\nstop = 1\n");
     const Finished result = folder.shell("rheonet run scene.toml -q -o rows.csv");
     CHECK(result.status == 0);
@@ -243,4 +244,40 @@ only = { type = "dashpot", between = ["a", "b"], damping = 7 }
 )");
   const Finished own = folder.shell("RHEONET_LIBRARY=\"$PWD/mine\" rheonet check -v scene.toml", 0);
   CHECK(contains(own.out, "m1.only"));
+}
+
+TEST_CASE("check, run and explain give advice, each with its place, and do what they are asked for") {
+  const Folder folder(R"([parameters]
+slack = "3 mm"
+[elements]
+drive = { type = "motion", at = "hand", velocity = { table = [[0, 0], [1, 2]] } }
+k1 = { type = "spring", between = ["hand", "body"], stiffness = 3 }
+c1 = { type = "dashpot", between = ["body", "ground"], damping = 2 }
+m1 = { type = "mass", at = "Body", mass = 1 }
+k2 = { type = "spring", between = ["Body", "ground"], stiffness = 3 }
+[simulate]
+stop = 2
+output = { points = 3 }
+)");
+  const std::string advice = R"(scene.toml:2:1: warning: no expression uses parameter `slack`: its value changes nothing
+    2 | slack = "3 mm"
+      | ^
+  use it, as in stiffness = "slack", or leave it out
+command line: warning: nothing in the scene has delay: to leave it out changes nothing
+      | --without delay
+      |           ^
+  its effects are `inertia`, `elasticity` and `viscosity`
+scene.toml:4:1: warning: the table of `drive` ends at 1 s, before the run does at 2 s: its last value is held from there on
+    4 | drive = { type = "motion", at = "hand", velocity = { table = [[0, 0], [1, 2]] } }
+      | ^
+  end the run there, or give its last value once more at a later time
+scene.toml:7:28: warning: nodes `body` and `Body` differ in capital letters only: they are two nodes, and nothing joins them
+    7 | m1 = { type = "mass", at = "Body", mass = 1 }
+      |                            ^
+  write `body` everywhere if one node is meant
+)";
+  for (const char* const command : {"check", "run -q -o rows.csv", "explain"}) {
+    CAPTURE(command);
+    CHECK(folder.shell(std::string("rheonet ") + command + " scene.toml --without delay", 0).err == advice);
+  }
 }

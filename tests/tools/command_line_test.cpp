@@ -35,6 +35,8 @@ TEST_CASE("a wrong command line has status 2, an empty standard output, and says
   const Case cases[] = {
       {"", "no command given", "rheonet run SCENE"},
       {"rnu scene.toml", "unknown command `rnu`", "did you mean `run`?"},
+      {"simulate scene.toml", "unknown command `simulate`", "did you mean `run`?"},
+      {"validate", "unknown command `validate`", "did you mean `check`?"},
       {"schemata", "unknown command `schemata`", "did you mean `schema`?"},
       {"scene.toml", "unknown command `scene.toml`", "`rheonet run scene.toml`"},
       {"--verison", "unknown option `--verison`", "did you mean `--version`?"},

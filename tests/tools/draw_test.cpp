@@ -50,6 +50,8 @@ chain = { type = "spring", between = ["a", "ground"], stiffness = 1, repeat = { 
 m = { type = "mass", at = "a", mass = 1 }
 [simulate]
 stop = 1
+[nodes]
+a = { velocity = 1 }
 )");
   CHECK(folder.shell("rheonet draw long.toml -o net.svg", 0).err ==
         "note: 4997 elements that repeat those beside them are not drawn; --all draws them\n");

@@ -75,6 +75,15 @@ function raw(bytes, patience = 15_000) {
   });
 }
 
+test('a request for many ranges gets one short refusal', async () => {
+  const Range = `bytes=${Array(2000).fill('0-').join(',')}`;
+  for (const headers of [{ Range }, { Range, Authorization: 'Bearer wrong' }]) {
+    const { status, body } = await ask('/api/folder', { headers });
+    assert.ok(status >= 400 && status < 500, `${status}`);
+    assert.ok(body.length < 1000, `${body.length} bytes`);
+  }
+});
+
 test('nothing outside the folder is read', async () => {
   assert.equal((await ask('/api/scene?file=bingham.toml')).body, bingham);
   assert.equal((await ask('/api/scene?file=deep/other.toml')).status, 200);

@@ -8,6 +8,9 @@
 #include <charconv>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "core/netlist/characters.hpp"
 #include "core/netlist/diagnostic.hpp"
@@ -33,6 +36,11 @@ std::vector<std::string> long_options(const CLI::App& app) {
   return names;
 }
 
+// Names that other programs give to the same commands.
+constexpr std::pair<std::string_view, std::string_view> foreign_commands[] = {
+    {"simulate", "run"}, {"sim", "run"},       {"solve", "run"},  {"validate", "check"}, {"verify", "check"}, {"lint", "check"},
+    {"graph", "plot"},   {"schematic", "draw"}, {"diff", "compare"}, {"playground", "serve"}, {"elements", "components"}};
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
   const std::string name = nearest(word, known);
   return name.empty() ? "" : fmt::format("did you mean `{}`?", name);
@@ -53,7 +61,9 @@ void refuse_extra_words(const CLI::App& app) {
       if (level == &app && command == nullptr) {
         std::vector<std::string> commands;
         for (const CLI::App* known : app.get_subcommands({})) commands.push_back(known->get_name());
-        std::string hint = did_you_mean(word, commands);
+        const auto* const foreign = std::find_if(std::begin(foreign_commands), std::end(foreign_commands),
+                                                 [&](const auto& names) { return names.first == word; });
+        std::string hint = foreign != std::end(foreign_commands) ? fmt::format("did you mean `{}`?", foreign->second) : did_you_mean(word, commands);
         if (hint.empty() && word.ends_with(".toml")) hint = fmt::format("to simulate a scene: `rheonet run {}`", word);
         throw WrongCommandLine{fmt::format("unknown command `{}`", word), hint};
       }

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "core/netlist/characters.hpp"
-#include "core/netlist/loose_nodes.hpp"
+#include "core/network/advice.hpp"
 #include "core/network/component.hpp"
 #include "tools/rheonet/interrupt.hpp"
 #include "tools/rheonet/library.hpp"
@@ -24,10 +24,10 @@ ReadOptions options_of(const Arguments& arguments) {
 
 namespace {
 
-void add_loose_nodes(ReadResult& result) {
+void add_advice(ReadResult& result) {
   if (!result.scene) return;
-  const std::vector<Diagnostic> loose = loose_nodes(*result.scene);
-  result.diagnostics.insert(result.diagnostics.end(), loose.begin(), loose.end());
+  const std::vector<Diagnostic> advice = advice_on(*result.scene);
+  result.diagnostics.insert(result.diagnostics.end(), advice.begin(), advice.end());
 }
 
 }  // namespace
@@ -35,12 +35,12 @@ void add_loose_nodes(ReadResult& result) {
 ReadResult read_text(const std::string& text, const std::string& name, const std::string& folder, const ReadOptions& options,
                      const std::vector<const FileOffer*>& offers) {
   ReadResult result = read_offered_text(text, name, folder, declarations(), options, offers);
-  add_loose_nodes(result);
+  add_advice(result);
   return result;
 }
 
 void report_all(ReadResult& result) {
-  add_loose_nodes(result);
+  add_advice(result);
   int errors = 0;
   for (const Diagnostic& diagnostic : result.diagnostics) {
     std::string text = format(diagnostic, result.sources);

@@ -13,7 +13,7 @@ ReadOptions options_of(const Arguments& arguments);
 /// mistake.
 ReadResult read_and_report(const std::string& scene, const ReadOptions& options);
 
-/// Prints every mistake and warning of what has been read, and of nodes that something may be wrong with.
+/// Prints every mistake and warning of a scene that has been read, and the advice on it (core/network/advice.hpp).
 void report_all(ReadResult& result);
 
 /// The same from text, with nothing printed: see read_offered_text.

@@ -1,0 +1,74 @@
+#include "core/netlist/unused_parameters.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Keys whose strings are texts, or name elements, nodes, records, files or effects.
+constexpr std::string_view keys_without_expressions[] = {"title", "warn", "error", "question", "change",  "see",  "why",    "domain",  "include",
+                                                         "type",  "name", "in",    "between",  "record", "plot", "keep",   "without", "only"};
+
+bool holds_expressions(const TomlEntry& entry, bool in_element) {
+  if (in_element && entry.key == "at") return false;  // in a claim it is a time
+  return std::find(std::begin(keys_without_expressions), std::end(keys_without_expressions), entry.key) ==
+         std::end(keys_without_expressions);
+}
+
+void collect(const TomlValue& value, std::set<std::string>& names) {
+  if (value.is_string()) {
+    const std::vector<std::string> found = identifiers_of(value.text);
+    names.insert(found.begin(), found.end());
+  }
+  for (const TomlValue& item : value.items) collect(item, names);
+  const bool in_element = value.find("type") != nullptr;
+  for (const TomlEntry& entry : value.entries) {
+    if (holds_expressions(entry, in_element)) collect(entry.value, names);
+  }
+}
+
+void warn(const std::string& name, Spot spot, const std::set<std::string>& used, const std::string& of, Mistakes& mistakes) {
+  if (used.contains(name)) return;
+  mistakes.warning(spot, "no expression" + of + " uses parameter `" + name + "`: its value changes nothing",
+                   "use it, as in stiffness = \"" + name + "\", or leave it out");
+}
+
+/// `parameters` is a table, or in a model a list of names. Mistakes in it have been reported.
+void warn_of_unused(const TomlValue& parameters, const std::set<std::string>& used, const std::string& of, Mistakes& mistakes) {
+  for (const TomlEntry& entry : parameters.entries) warn(entry.key, entry.spot, used, of, mistakes);
+  for (const TomlValue& item : parameters.items) {
+    if (item.is_string()) warn(item.text, item.spot, used, of, mistakes);
+  }
+}
+
+}  // namespace
+
+std::set<std::string> identifiers_below(const TomlValue& table) {
+  std::set<std::string> names;
+  collect(table, names);
+  return names;
+}
+
+void warn_of_unused_parameters(const TomlValue& document, Mistakes& mistakes) {
+  if (const TomlEntry* parameters = document.find("parameters"))
+    warn_of_unused(parameters->value, identifiers_below(document), "", mistakes);
+  const TomlEntry* models = document.find("models");
+  if (!models) return;
+  for (const TomlEntry& model : models->value.entries) {
+    const TomlEntry* parameters = model.value.find("parameters");
+    if (!parameters) continue;
+    std::set<std::string> used;
+    for (const TomlEntry& entry : model.value.entries) {
+      if (entry.key == "elements" || parameters->value.is_table()) used.merge(identifiers_below(entry.value));
+    }
+    warn_of_unused(parameters->value, used, " of model `" + model.key + "`", mistakes);
+  }
+}
+
+}  // namespace rheonet

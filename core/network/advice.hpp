@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "core/netlist/diagnostic.hpp"
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+/// Warnings of what can be simulated and is mostly not meant, in the order of the file: loose nodes (loose_nodes.hpp), nodes whose
+/// names differ in capital letters only, parts that touch the others at ground only, a scene or a part that nothing drives, tables
+/// that end before the run does. Linear in the size of the scene.
+std::vector<Diagnostic> advice_on(const Scene& scene);
+
+}  // namespace rheonet

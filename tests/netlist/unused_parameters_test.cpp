@@ -1,0 +1,48 @@
+// A parameter that no expression uses is told.
+
+#include <doctest/doctest.h>
+
+#include "tests/netlist/reading.hpp"
+
+using namespace rheonet;
+
+namespace {
+
+/// What is said of a scene that has a spring of stiffness `k` on a mass, with more tables before it.
+std::string told(const std::string& parameters, const std::string& stiffness = "k", const std::string& more = "") {
+  const ReadResult result = test::read("title = \"q and more\"\n[parameters]\n" + parameters + "\n[elements]\ns = { type = \"spring\", between = [\"q\", \"ground\"], stiffness = \"" +
+                                       stiffness + "\" }\nm = { type = \"mass\", at = \"q\", mass = 1 }\n" + more);
+  CHECK(result.scene);
+  std::string text;
+  for (const Diagnostic& d : result.diagnostics) {
+    CHECK(d.severity == Severity::warning);
+    text += std::to_string(d.spot.line) + ": " + d.message + "\n";
+  }
+  return text;
+}
+
+const char* const unused = "4: no expression uses parameter `q`: its value changes nothing\n";
+
+}  // namespace
+
+TEST_CASE("a parameter that no expression uses is told with its place; names, titles and units are no use of it") {
+  CHECK_EQ(told("k = 5\nq = 3"), unused);
+  CHECK_EQ(told("k = \"5 N/m\"\nq = 3", "k", "[nodes]\nq = { velocity = \"3 m/s\" }\n[simulate]\nstop = 1\nrecord = [\"q.velocity\"]\n"), unused);
+  CHECK_EQ(told("k = 5\nN = 3"), "4: no expression uses parameter `N`: its value changes nothing\n");
+  CHECK_EQ(told("q = 5\nk = \"2*q\""), "");
+  CHECK_EQ(told("k = 5\nq = 3", "k + q"), "");
+  CHECK_EQ(told("k = 5\nq = 3", "k", "[check]\nsmall = { that = \"q < k\", warn = \"large\" }\n"), "");
+  CHECK_EQ(told("k = 5\nq = 3", "k", "[check]\nsmall = { that = \"k > 0\", warn = \"q is large\" }\n"), unused);
+  CHECK_EQ(told("k = 5\nq = 3", "k", "[simulate]\nstop = \"q\"\n"), "");
+  CHECK_EQ(told("k = 5\nq = 3", "k", "[expect]\n\"m.force\" = { at = \"q/10\", value = 0, within = 1 }\n"), "");
+}
+
+TEST_CASE("so is a parameter of a model that its elements do not use") {
+  const auto model = [](const std::string& parameters, const std::string& rest) {
+    return "[models.post]\nports = [\"a\"]\nparameters = " + parameters + "\n[models.post.elements]\nk = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = \"" + rest + "\" }\n";
+  };
+  CHECK_EQ(told("k = 5", "k", model("{ s = 1, r = 2 }", "s")), "9: no expression of model `post` uses parameter `r`: its value changes nothing\n");
+  CHECK_EQ(told("k = 5", "k", model("[\"s\", \"r\"]", "s")), "9: no expression of model `post` uses parameter `r`: its value changes nothing\n");
+  CHECK_EQ(told("k = 5", "k", model("{ s = 1, r = 2 }", "s*r")), "");
+  CHECK_EQ(told("k = 5", "k", model("{ s = \"2*r\", r = 2 }", "s")), "");
+}
