@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <udunits2.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -371,6 +372,13 @@ class Parser {
 }  // namespace
 
 std::variant<Unit, TextError> parse_unit(std::string_view text) { return Parser(text).run(); }
+
+std::vector<std::string> listed_units() {
+  std::vector<std::string> names = usual_units();
+  for (const Definition& definition : definitions)
+    if (std::find(names.begin(), names.end(), definition.name) == names.end()) names.emplace_back(definition.name);
+  return names;
+}
 
 double multiplied(double value, double factor) {
   const double inverse = std::round(1 / factor);

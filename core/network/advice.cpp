@@ -93,7 +93,7 @@ class Adviser {
   void look_at_parts() {
     const Parts parts = find_parts(scene_, {}, Between::ground);
     const auto count = static_cast<std::size_t>(parts.count);
-    // Blocks without a node are no part of the network. Of a loose node, or one with a doubtful name, enough has been said.
+    // Blocks without a node are no part of the network. A loose node, or one with a doubtful name, has a warning already.
     std::vector<char> counts(count, 0), is_loose(count, 0);
     for (std::size_t n = 1; n < scene_.nodes.size(); ++n) {
       if (parts.of_node[n] < 0) continue;

@@ -13,14 +13,13 @@ void report_overload(const Network& network, double t, const std::vector<NodeId>
   for (NodeId n : nodes) node_names.push_back(network.node_name(n));
   for (int e : elements) element_names.push_back(network.scene->elements[static_cast<std::size_t>(e)].name);
   const bool several = elements.size() > 1;
-  const std::string reason = fmt::format(
+  const bool at_node = !nodes.empty() && nodes.front() != ground;
+  const Spot& where = at_node ? network.spot_of_node(nodes.front()) : network.spot_of(elements.empty() ? 0 : elements.front());
+  throw SimulationError(where, fmt::format(
       "{} nothing resists the force at node{} {}: {} {} at the largest force that {} can take; give the node a mass or a "
       "dashpot, or apply less force",
       at_time(*network.scene, t), nodes.size() > 1 ? "s" : "", listed(node_names),
-      elements.empty() ? "what is there" : listed(element_names), several ? "are" : "is", several ? "they" : "it");
-  if (!nodes.empty() && nodes.front() != ground) throw SimulationError(network.spot_of_node(nodes.front()), reason);
-  if (!elements.empty()) throw SimulationError(network.spot_of(elements.front()), reason);
-  throw SimulationError(reason);
+      elements.empty() ? "what is there" : listed(element_names), several ? "are" : "is", several ? "they" : "it"));
 }
 
 void report_undecided(const Network& network, const std::string& what) {

@@ -306,9 +306,7 @@ class Run {
     const std::vector<int> busy = headway_.busiest();
     const auto is_element = [&](int cause) { return cause != solver(); };
     const auto first = std::find_if(busy.begin(), busy.end(), is_element);
-    const std::string reason = at_time(*network_.scene, t) + " " + headway_.describe(network_, t);
-    if (first == busy.end()) throw SimulationError(reason);
-    throw SimulationError(network_.spot_of(*first), reason);
+    throw SimulationError(network_.spot_of(first == busy.end() ? 0 : *first), at_time(*network_.scene, t) + " " + headway_.describe(network_, t));
   }
 
   void switch_memories(double t) {

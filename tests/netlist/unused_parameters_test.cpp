@@ -1,4 +1,4 @@
-// A parameter that no expression uses is told.
+// Warnings of parameters that no expression uses.
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@ using namespace rheonet;
 
 namespace {
 
-/// What is said of a scene that has a spring of stiffness `k` on a mass, with more tables before it.
+/// The warnings for a scene with a spring of stiffness `k` on a mass, with more tables after it.
 std::string told(const std::string& parameters, const std::string& stiffness = "k", const std::string& more = "") {
   const ReadResult result = test::read("title = \"q and more\"\n[parameters]\n" + parameters + "\n[elements]\ns = { type = \"spring\", between = [\"q\", \"ground\"], stiffness = \"" +
                                        stiffness + "\" }\nm = { type = \"mass\", at = \"q\", mass = 1 }\n" + more);
@@ -25,7 +25,7 @@ const char* const unused = "4: no expression uses parameter `q`: its value chang
 
 }  // namespace
 
-TEST_CASE("a parameter that no expression uses is told with its place; names, titles and units are no use of it") {
+TEST_CASE("a warning names each parameter that no expression uses; names, titles and units are not expressions") {
   CHECK_EQ(told("k = 5\nq = 3"), unused);
   CHECK_EQ(told("k = \"5 N/m\"\nq = 3", "k", "[nodes]\nq = { velocity = \"3 m/s\" }\n[simulate]\nstop = 1\nrecord = [\"q.velocity\"]\n"), unused);
   CHECK_EQ(told("k = 5\nN = 3"), "4: no expression uses parameter `N`: its value changes nothing\n");
@@ -37,7 +37,7 @@ TEST_CASE("a parameter that no expression uses is told with its place; names, ti
   CHECK_EQ(told("k = 5\nq = 3", "k", "[expect]\n\"m.force\" = { at = \"q/10\", value = 0, within = 1 }\n"), "");
 }
 
-TEST_CASE("so is a parameter of a model that its elements do not use") {
+TEST_CASE("a warning names each parameter of a model that its elements do not use") {
   const auto model = [](const std::string& parameters, const std::string& rest) {
     return "[models.post]\nports = [\"a\"]\nparameters = " + parameters + "\n[models.post.elements]\nk = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = \"" + rest + "\" }\n";
   };

@@ -1,4 +1,4 @@
-// Scenes that can be simulated and are mostly not meant: each kind is told, and its near neighbour is not.
+// Warnings about scenes with a likely mistake: each kind has one, and its near neighbour has none.
 
 #include "core/network/advice.hpp"
 
@@ -43,7 +43,7 @@ TEST_CASE("two nodes that differ in capital letters only are told once") {
   };
   CHECK_EQ(advice(scene("Left")), "5: nodes `left` and `Left` differ in capital letters only: they are two nodes, and nothing joins them\n");
   CHECK_EQ(advice(scene("left2")), "");
-  // Of all instances of a model together; instances may be called as they like.
+  // All instances of a model have one warning together; the names of instances do not matter.
   const auto model = [](const std::string& inner) {
     return "[models.pair]\nports = [\"a\", \"b\"]\n[models.pair.elements]\nk = { type = \"spring\", between = [\"a\", \"mid\"], stiffness = 5 }\n"
            "c = { type = \"dashpot\", between = [\"mid\", \"" + inner + "\"], damping = 5 }\nk2 = { type = \"spring\", between = [\"" + inner +

@@ -194,10 +194,10 @@ struct CommandLine {
     const char* footer;
     void (CommandLine::*add_options)(CLI::App*);
   };
-  static const std::array<Command, 13>& commands() {
+  static const std::array<Command, 14>& commands() {
     using Name = Arguments::Command;
     using Line = CommandLine;
-    static const std::array<Command, 13> all{{
+    static const std::array<Command, 14> all{{
         {"run", Name::run, "simulate a scene and write its records as CSV", footer_of_run, &Line::add_run},
         {"check", Name::check, "read and check a scene without simulating it", footer_of_check, &Line::add_check},
         {"explain", Name::explain, "explain what will be simulated, and why", footer_of_explain, &Line::add_explain},
@@ -210,6 +210,7 @@ struct CommandLine {
         {"report", Name::report, "write an HTML page of scenes and their results", footer_of_report, &Line::add_report},
         {"serve", Name::serve, "open a playground for netlists in the browser", footer_of_serve, &Line::add_serve},
         {"components", Name::components, "describe the element types", "", &Line::add_components},
+        {"expressions", Name::expressions, "list the functions and units of values", "", &Line::add_expressions},
         {"schema", Name::schema, "print the JSON Schema of a scene, for editors", "", &Line::add_schema},
     }};
     return all;
@@ -350,6 +351,9 @@ struct CommandLine {
   void add_components(CLI::App* components) {
     components->add_option("TYPE", arguments.type, "one element type (default: all)")->type_name("");
     components->add_flag("--markdown", arguments.markdown, "print the reference for components/README.md");
+  }
+  void add_expressions(CLI::App* expressions) {
+    expressions->add_flag("--markdown", arguments.markdown, "print the reference for core/netlist/expressions.md");
   }
   void add_schema(CLI::App*) {}
 };

@@ -18,7 +18,7 @@ inline constexpr double default_within = 0.01;
 
 /// A command line, read.
 struct Arguments {
-  enum class Command { run, check, explain, effects, compare, precision, sweep, plot, draw, report, serve, components, schema };
+  enum class Command { run, check, explain, effects, compare, precision, sweep, plot, draw, report, serve, components, expressions, schema };
 
   Command command = Command::run;
   std::vector<std::string> words;      ///< as they were given

@@ -3,6 +3,7 @@
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
 #include "tools/rheonet/commands.hpp"
+#include "tools/rheonet/expression_reference.hpp"
 #include "tools/rheonet/program.hpp"
 
 namespace {
@@ -36,6 +37,9 @@ ExitStatus carry_out(const Arguments& arguments) {
       return serve_playground(arguments);
     case Command::components:
       return print_components(arguments);
+    case Command::expressions:
+      fmt::print("{}", arguments.markdown ? expressions_as_markdown() : expressions_as_text());
+      return done;
     case Command::schema:
       fmt::print("{}\n", rheonet::json_schema(rheonet::declarations()));
       return done;
