@@ -72,6 +72,10 @@ Structure Instant::take_along(double t, std::vector<double>& dx) const {
   for (std::size_t n = 0; n < dx.size(); ++n) {
     if (structure_.kind[n] != Kind::known) continue;
     const NodeId node = static_cast<NodeId>(n);
+    if (!std::isfinite(dx[n])) {
+      throw SimulationError(network_.spot_of_node(node), fmt::format("{} a step moves {} beyond the range of double precision; check its signal",
+                                                                     at_time(*network_.scene, t), moved_node(node, "")));
+    }
     NodeId& first = leader[at(linked.find(node))];
     if (first < 0) first = node;
     if (!step_together(dx[at(first)], dx[n])) refuse_tearing_step(t, first, node, dx[n] - dx[at(first)]);

@@ -11,18 +11,24 @@ using namespace rheonet::test;
 
 namespace {
 
-/// Runs a scene, and checks all that holds of any.
+/// Runs a scene at loose, usual and tight accuracy, and checks all that holds of any. The last of these runs.
 Finished run_any(const std::string& scene) {
   const Folder folder(scene);
-  Finished result = folder.shell("timeout 20 rheonet run scene.toml");
   CAPTURE(scene);
-  CAPTURE(result.err);
-  CHECK(result.status <= 2);
-  CHECK((result.status == 0 || contains(result.err, "error: ")));
-  CHECK_FALSE(contains(result.err, "nan"));
-  const std::string rows = result.out.substr(std::min(result.out.find('\n'), result.out.size()));
-  CHECK_FALSE(contains(rows, "nan"));
-  CHECK_FALSE(contains(rows, "inf"));
+  Finished result;
+  for (const std::string accuracy : {"1e-3", "1e-6", "1e-9"}) {
+    result = folder.shell("timeout 20 rheonet run scene.toml --accuracy " + accuracy);
+    CAPTURE(accuracy);
+    CAPTURE(result.err);
+    CHECK(result.status <= 2);
+    CHECK((result.status == 0 || contains(result.err, "error: ")));
+    CHECK((result.status == 0 || contains(result.err, "scene.toml:")));
+    CHECK_FALSE(contains(result.err, "nan"));
+    CHECK_FALSE(contains(result.err, "``"));
+    const std::string rows = result.out.substr(std::min(result.out.find('\n'), result.out.size()));
+    CHECK_FALSE(contains(rows, "nan"));
+    CHECK_FALSE(contains(rows, "inf"));
+  }
   return result;
 }
 
@@ -61,6 +67,26 @@ TEST_CASE("phases, times and slopes beyond all sense, where all motion is given"
   run_any(driven("{ sine = 1, frequency = 1e300 }", "1"));
 }
 
+// A rate of a signal overflowed, so that its steps were not numbers: "link  joins them", "by nan m".
+TEST_CASE("signals whose values, rates or periods overflow are refused where they stand") {
+  const auto told = [](const std::string& position) {
+    const Finished result = run_any("[elements]\nd = { type = \"motion\", at = \"a\", position = " + position + " }\n" + dashpot + "[simulate]\nstop = 1\n");
+    CHECK(result.status == 2);
+    CHECK(contains(result.err, "scene.toml:2:"));
+    return contains(result.err, "signal `position` has values, rates or periods beyond the range of numbers");
+  };
+  CHECK(told("{ sine = 2, frequency = 1e308 }"));
+  CHECK(told("{ sine = 1e308, frequency = 1 }"));
+  CHECK(told("{ sine = 1, frequency = 5e-324 }"));
+  CHECK(told("{ triangle = 1e308, frequency = 0.3 }"));
+  CHECK(told("{ chirp = 1, frequency = 1, end_frequency = 1e308, duration = 1 }"));
+  CHECK(told("{ step = 1e308, offset = 1e308 }"));
+  CHECK(told("{ table = [[0, 0], [5e-324, 1]] }"));
+  CHECK(told("{ table = [[0, -1e308], [1, 1e308]] }"));
+  run_any(driven("{ sine = 1e300, frequency = 1e6 }", "1"));
+  run_any("[elements]\nd = { type = \"motion\", at = \"a\", position = { sine = 1e307, frequency = 1 } }\n" + dashpot + "[simulate]\nstop = 1e-160\n");
+}
+
 // The search for the next reversal went on by the rounding of time.
 TEST_CASE("a slider that is driven by 1e297 m") {
   run_any(R"([elements]
@@ -85,6 +111,32 @@ s2 = { type = "slider", between = ["second", "ground"], coulomb = 0.9, breakaway
 [simulate]
 stop = "5e159 s"
 )");
+}
+
+TEST_CASE("a row of 200 such blocks, coupled, that would all break away at one instant") {
+  run_any(R"~([parameters]
+k  = "3 N/m"
+Fs = "1.4 N"
+V  = "1e-160 m/s"
+[models.cell]
+ports = ["left", "right"]
+[models.cell.elements]
+m1 = { type = "mass", at = "right", mass = "0.2 kg" }
+s1 = { type = "slider", between = ["right", "ground"], coulomb = "0.9 N", breakaway = "Fs" }
+kc = { type = "spring", between = ["left", "right"], stiffness = "170 N/m" }
+k1 = { type = "spring", between = ["shaft", "right"], stiffness = "k" }
+drive = { type = "motion", at = "shaft", velocity = "V" }
+[elements]
+drive = { type = "motion", at = "plate", velocity = "V" }
+k1    = { type = "spring", between = ["plate", "first"], stiffness = "k" }
+m1    = { type = "mass", at = "first", mass = "0.2 kg" }
+s1    = { type = "slider", between = ["first", "ground"], coulomb = "0.9 N", breakaway = "Fs" }
+row   = { type = "cell", between = ["first", "last"], repeat = { count = 200 } }
+[simulate]
+stop   = "2*Fs/(k*V)"
+output = { points = 201 }
+record = ["first.position", "last.position", "s1.force"]
+)~");
 }
 
 // A scene in several parts was cut into scenes of their own, and a block lost the node or the element that it takes in where that

@@ -99,8 +99,11 @@ Passage cost_of(const Scene& scene, const Explanation& e) {
   if (c.unknowns > 0)
     add(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries, c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
   std::vector<std::string> times;
-  if (c.fastest_rate > 0) times.push_back(fmt::format("the network by itself: {}", duration(1 / c.fastest_rate)));
-  if (c.fastest_drive > 0) times.push_back(fmt::format("the drives: {}", duration(1 / c.fastest_drive)));
+  const auto add_time = [&times](const char* of, double rate) {
+    if (rate > 0 && std::isfinite(1 / rate)) times.push_back(fmt::format("{}: {}", of, duration(1 / rate)));
+  };
+  add_time("the network by itself", c.fastest_rate);
+  add_time("the drives", c.fastest_drive);
   if (!times.empty()) add(fmt::format("the fastest that changes takes a time of 1/omega: {}", fmt::join(times, "; ")));
   if (c.known_instants > 0) add(plural(static_cast<std::size_t>(c.known_instants), "start") + " of the integrator at jumps and corners of signals");
   if (c.tried >= 1) {
