@@ -23,7 +23,8 @@ Summary summary_of(const std::string& toml, double accuracy) {
   ReadOptions options;
   options.accuracy = accuracy;
   const ReadResult read = read_scene_text(toml, "scene.toml", RHEONET_SOURCE_DIR "/netlists", declarations(), options);
-  for (const Diagnostic& diagnostic : read.diagnostics) MESSAGE(format(diagnostic, read.sources));
+  if (!read.scene)
+    for (const Diagnostic& diagnostic : read.diagnostics) MESSAGE(format(diagnostic, read.sources));
   REQUIRE(read.scene);
   return run(*read.scene);
 }
