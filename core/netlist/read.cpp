@@ -97,7 +97,17 @@ class Reader {
     read_start_and_effects(environment, doubtful);
     read_questions(simulate, environment, doubtful);
     if (mistakes_.errors() > 0) return;
-    warn_of_unused_parameters(document_, mistakes_);
+    warn_of_unused_parameters(document_, identifiers_on_command_line(), mistakes_);
+  }
+
+  std::set<std::string> identifiers_on_command_line() const {
+    std::set<std::string> names;
+    for (const Override& override : overrides_) names.merge(identifiers_below(override.value));
+    for (const std::string& measure : options_.measures) {
+      const std::vector<std::string> found = identifiers_of(measure);
+      names.insert(found.begin(), found.end());
+    }
+    return names;
   }
 
   /// Elements and the models of which they are made. Returns what something is wrong with: it is not reported again where it is

@@ -55,19 +55,21 @@ std::set<std::string> identifiers_below(const TomlValue& table) {
   return names;
 }
 
-void warn_of_unused_parameters(const TomlValue& document, Mistakes& mistakes) {
-  if (const TomlEntry* parameters = document.find("parameters"))
-    warn_of_unused(parameters->value, identifiers_below(document), "", mistakes);
+void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, Mistakes& mistakes) {
+  if (const TomlEntry* parameters = document.find("parameters")) {
+    used.merge(identifiers_below(document));
+    warn_of_unused(parameters->value, used, "", mistakes);
+  }
   const TomlEntry* models = document.find("models");
   if (!models) return;
   for (const TomlEntry& model : models->value.entries) {
     const TomlEntry* parameters = model.value.find("parameters");
     if (!parameters) continue;
-    std::set<std::string> used;
+    std::set<std::string> inside;
     for (const TomlEntry& entry : model.value.entries) {
-      if (entry.key == "elements" || parameters->value.is_table()) used.merge(identifiers_below(entry.value));
+      if (entry.key == "elements" || parameters->value.is_table()) inside.merge(identifiers_below(entry.value));
     }
-    warn_of_unused(parameters->value, used, " of model `" + model.key + "`", mistakes);
+    warn_of_unused(parameters->value, inside, " of model `" + model.key + "`", mistakes);
   }
 }
 

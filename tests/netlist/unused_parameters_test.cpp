@@ -37,6 +37,18 @@ TEST_CASE("a warning names each parameter that no expression uses; names, titles
   CHECK_EQ(told("k = 5\nq = 3", "k", "[expect]\n\"m.force\" = { at = \"q/10\", value = 0, within = 1 }\n"), "");
 }
 
+TEST_CASE("an expression on the command line uses a parameter") {
+  const std::string scene = "[parameters]\nk = 3\n[elements]\ns = { type = \"spring\", between = [\"q\", \"ground\"], stiffness = 2 }\n"
+                            "m = { type = \"mass\", at = \"q\", mass = 1 }\n";
+  ReadOptions options;
+  CHECK(test::read(scene, options).diagnostics.size() == 1);
+  options.overrides = {"s.stiffness=2*k"};
+  CHECK(test::messages(test::read(scene, options)) == "");
+  options.overrides = {};
+  options.measures = {"time of crossing(s.force, k)"};
+  CHECK(test::messages(test::read(scene, options)) == "");
+}
+
 TEST_CASE("a warning names each parameter of a model that its elements do not use") {
   const auto model = [](const std::string& parameters, const std::string& rest) {
     return "[models.post]\nports = [\"a\"]\nparameters = " + parameters + "\n[models.post.elements]\nk = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = \"" + rest + "\" }\n";

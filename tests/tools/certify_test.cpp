@@ -41,7 +41,7 @@ TEST_CASE("a certified run ends as any other where the scene does") {
   const Folder folder(overcome);
   const Finished plain = folder.shell("rheonet run scene.toml -o plain.csv --events plain-events.csv", 1);
   const Finished certified = folder.shell("rheonet run scene.toml --certify -o out.csv --events events.csv", 1);
-  CHECK(contains(certified.err, "error: at t = 0.3 s nothing resists the force at node `end`"));
+  CHECK(contains(certified.err, "scene.toml:5:36: error: at t = 0.3 s nothing resists the force at node `end`"));
   CHECK(contains(certified.err, "the 3 rows up to there are in `out.csv`"));
   CHECK(folder.read("out.csv") == folder.read("plain.csv"));
   CHECK(folder.read("events.csv") == folder.read("plain-events.csv"));

@@ -94,7 +94,7 @@ TEST_CASE("--profile says what the steps are spent on, beside the same rows") {
 TEST_CASE("a run that fails leaves its events, and says so") {
   const Folder folder(overcome);
   const Finished result = folder.shell("rheonet run scene.toml -o out.csv --events events.csv", 1);
-  CHECK(contains(result.err, "error: at t = 0.3 s nothing resists the force at node `end`"));
+  CHECK(contains(result.err, "scene.toml:5:36: error: at t = 0.3 s nothing resists the force at node `end`"));
   CHECK(contains(result.err, "the 3 rows up to there are in `out.csv`"));
   CHECK(contains(result.err, "the 4 events up to there are in `events.csv`"));
   CHECK(lines(folder.read("events.csv")) == 5);
