@@ -80,6 +80,7 @@ Claims::Claims(const Scene& scene)
       length_(scene.stop - scene.start),
       accuracy_(scene.accuracy) {
   for (Claim claim : scene.claims) {
+    any_over_time_ = any_over_time_ || is_over_time(claim.figure);
     for (double* time : {&claim.time, &claim.from, &claim.to}) {
       *time -= scene.start;
       if (!std::isnan(*time)) cuts_.push_back(*time);
@@ -92,7 +93,7 @@ Claims::Claims(const Scene& scene)
 
 void Claims::begin(double t, const std::vector<double>& values, double fastest) {
   fastest_ = fastest;
-  for (std::size_t k = 0; k < values.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(values[k]));
+  see(values);
   for (State& state : claims_) {
     const Claim& claim = state.claim;
     const auto note = [&](Course& course, double value) {
@@ -124,14 +125,33 @@ void Claims::step(double from, double to, const Read& read) {
   }
 }
 
+void Claims::see(const std::vector<double>& row) {
+  for (std::size_t k = 0; k < row.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(row[k]));
+}
+
+void Claims::end_piece(const State& state, Course& course, double to, double value) const {
+  const double time = state.claim.time;
+  course.last = value;
+  if (to == time || (to < time && time - to <= slack_)) course.at = value;
+}
+
 void Claims::piece(double from, double to, const Read& read, int halvings, double parent) {
+  if (!any_over_time_) {
+    // Of values at an instant alone what lies between is not asked for.
+    values_ = read(to);
+    see(values_);
+    for (State& state : claims_) {
+      end_piece(state, state.of, to, values_[at(state.claim.record)]);
+      if (state.claim.per >= 0) end_piece(state, state.per, to, values_[at(state.claim.per)]);
+    }
+    return;
+  }
   const double middle = (from + to) / 2, half = (to - from) / 2;
   const std::array<double, 4> times{from, middle + nodes[1] * half, middle + nodes[2] * half, to};
   std::array<std::vector<double>, 4> rows;
   rows[0] = values_;
   for (std::size_t i = 1; i < nodes.size(); ++i) rows[i] = read(times[i]);
-  for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(row[k]));
+  for (const auto& row : rows) see(row);
   const bool turns = (to - from) * fastest_ > longest_turn;
   const bool matters = turns || may_matter(middle, rows);
   double off = 0;
@@ -149,8 +169,7 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
     const Claim& claim = state.claim;
     const auto follow = [&](Course& course, int record) {
       const Samples f = of_record(rows, record);
-      course.last = f.back();
-      if (to == claim.time || (to < claim.time && claim.time - to <= slack_)) course.at = f.back();
+      end_piece(state, course, to, f.back());
       if (middle < claim.from || middle > claim.to) return;
       for (std::size_t i = 0; i < f.size(); ++i) {
         course.integral += lobatto_weights[i] * f[i] * (to - from);

@@ -60,6 +60,8 @@ class Claims {
   /// How far the cubic through a piece is at x, of [-1, 1], from what the records are there, in parts of what the accuracy
   /// allows: the most of those that are looked at in this piece.
   double off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const;
+  void see(const std::vector<double>& row);
+  void end_piece(const State& state, Course& course, double to, double value) const;
   void look(State& state, Course& course, const Point& point, const Read& read);
   double figure(const State& state, const Course& course) const;
 
@@ -71,6 +73,7 @@ class Claims {
   double slack_;  ///< an event this close to a time is at it, as of rows
   double start_, length_, accuracy_;
   double fastest_ = 0;
+  bool any_over_time_ = false;  ///< some figure is of more than one instant
 };
 
 }  // namespace rheonet
