@@ -52,7 +52,7 @@ TEST_CASE("a pseudoplastic gel with friction beside it, on oil, starts from rest
                                     "gel = { type = \"dashpot\", between = [\"top\", \"mid\"], damping = 3.5, flow_index = 0.3 }\n"
                                     "dry = { between = [\"top\", \"mid\"], " + beside + " }\n"
                                     "oil = { type = \"dashpot\", between = [\"mid\", \"ground\"], damping = 1.4, flow_index = " +
-                                    std::to_string(flow_index) + " }\n[simulate]\nstop = 3\noutput = { points = 151 }\n";
+                                    std::to_string(flow_index) + " }\n[simulate]\nstop = 3\noutput = { points = 61 }\n";
         CAPTURE(netlist);
         const test::Trajectory fine = test::simulate(netlist, 1e-9);
         check_against_reference(netlist, fine);
