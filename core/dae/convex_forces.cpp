@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/dae/convex.hpp"
-#include "core/nonsmooth/symmetric.hpp"
+#include "core/nonsmooth/conductances.hpp"
 #include "core/network/sets.hpp"
 
 namespace rheonet {
@@ -37,29 +37,24 @@ void ConvexNetwork::find_bond_forces() {
     const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
     if (!fixed_[k] && !reference) row[k] = rows++;
   }
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Conductance> bonds;
   Eigen::VectorXd phi = Eigen::VectorXd::Zero(rows);
   std::vector<char> touched(at(rows), 0);
   for (const Branch& b : branches_) {
     if (!b.stuck) continue;
     const int i = row[at(b.a)], j = row[at(b.b)];
+    bonds.push_back({i, j, 1});
     for (int r : {i, j}) {
-      if (r < 0) continue;
-      entries.emplace_back(r, r, 1);
-      touched[at(r)] = 1;
-    }
-    if (i >= 0 && j >= 0) {
-      entries.emplace_back(i, j, -1);
-      entries.emplace_back(j, i, -1);
+      if (r >= 0) touched[at(r)] = 1;
     }
   }
   for (int r = 0; r < rows; ++r) {
-    if (!touched[at(r)]) entries.emplace_back(r, r, 1);
+    if (!touched[at(r)]) bonds.push_back({r, -1, 1});
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
-  solve_symmetric(entries, phi);  // every cluster has its reference: nothing is left open
+  solve_conductances(bonds, phi);  // every cluster has its reference: nothing is left open
   const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (branches_[k].stuck) bond_force_[k] = potential(branches_[k].a) - potential(branches_[k].b);

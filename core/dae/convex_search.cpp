@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/dae/convex.hpp"
-#include "core/nonsmooth/symmetric.hpp"
+#include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
 
@@ -27,7 +27,7 @@ constexpr int most_sections = 100;  // of a stretch; every third halves it: ten 
 
 /// With `secants`, laws that have got flat count by their slopes from where they began, or to the other side.
 bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants) {
-  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<Conductance> slopes;
   for (const Branch& b : branches_) {
     const int a = column_[at(cluster_[at(b.a)])], c = column_[at(cluster_[at(b.b)])];
     if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
@@ -38,19 +38,14 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
       const double steeper = std::max(b.law.forward, b.law.backward);
       if (s <= flat_step_share * steeper) s = steeper;
     }
-    if (a >= 0) entries.emplace_back(a, a, s);
-    if (c >= 0) entries.emplace_back(c, c, s);
-    if (a >= 0 && c >= 0) {
-      entries.emplace_back(a, c, -s);
-      entries.emplace_back(c, a, -s);
-    }
+    slopes.push_back({a, c, s});
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];
-    if (column >= 0 && inertia_[k] > 0) entries.emplace_back(column, column, inertia_[k]);
+    if (column >= 0 && inertia_[k] > 0) slopes.push_back({column, -1, inertia_[k]});
   }
   Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(gradient.data(), columns_);
-  if (!solve_symmetric(entries, step)) return false;
+  if (!solve_conductances(slopes, step)) return false;
   d.assign(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];

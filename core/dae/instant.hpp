@@ -86,6 +86,9 @@ class Instant {
                          std::vector<double>& force, Change& change);
   /// The convex problem that decides, and what it is made from.
   struct Onset;
+  Onset look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
+                   const Nodal& now);
+  bool breaks_loose(const Onset& onset) const;
   void stop_at_turns(const Fired& fired, const Modes& modes, State& state);
   void add_nodes(Onset& onset, const State& state) const;
   void add_drive(Onset& onset);

@@ -9,6 +9,7 @@
 #include "core/network/index.hpp"
 #include "core/network/overload.hpp"
 #include "core/network/sets.hpp"
+#include "core/network/time_grain.hpp"
 #include "core/network/velocity_grain.hpp"
 
 namespace rheonet {
@@ -25,6 +26,10 @@ constexpr double difference_limit = 1e-6;
 // this share of the others.
 constexpr double rigid_ratio = 1e12;
 constexpr double rigid_share = 1e-6;
+// A slider may slip within the look-ahead time although it still sticks at the instant itself: its force reaches the bound only
+// later. A second look, at this share of the time, tells both cases apart. If the slider sticks there, the look-ahead time
+// shrinks by `nearer` until it sticks within all of it.
+constexpr double at_once = 1e-15, nearer = 1e-3;
 
 }  // namespace
 
@@ -37,10 +42,10 @@ constexpr double rigid_share = 1e-6;
 // each slider lives.
 struct Instant::Onset {
   double t, h;
-  const Fired& fired;
-  const Modes& modes;
-  const std::vector<double>& force;  // of the sliders
-  Nodal now;                         // forces and their rounding
+  const Fired* fired;
+  const Modes* modes;
+  const std::vector<double>* force;  // of the sliders
+  const Nodal* now;                  // forces and their rounding
   ConvexNetwork problem;
   std::vector<double> slope_around;  // of each node that can move, of what is neither a slider nor a power law
   std::vector<int> law;              // of each deflection branch, in the problem; -1: a load, which has no direction to choose
@@ -59,23 +64,14 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   const std::size_t nodes = structure_.kind.size();
   drive_.sense(t, state);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = drive_.velocity[m];
-  Onset onset{.t = t, .h = h, .fired = fired, .modes = modes, .force = force, .now = nodal(state, force, true),
-              .problem = ConvexNetwork(static_cast<int>(nodes)), .slope_around = std::vector<double>(nodes, 0),
-              .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
-              .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
-              .bound_side = std::vector<int>(network_.sliders.size())};
+  const Nodal now = nodal(state, force, true);
   stop_at_turns(fired, modes, state);
-  add_nodes(onset, state);
-  add_drive(onset);
-  add_deflection_laws(onset, state);
-  add_rate_laws(onset, state);
-  add_sliders(onset);
-
-  ConvexNetwork& problem = onset.problem;
-  if (const ConvexNetwork::Outcome outcome = problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
-    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways(), state);
-    report_undecided(network_, at_time(*network_.scene, t));
+  Onset onset = look_ahead(t, h, fired, state, modes, force, now);
+  const double least = std::max(time_grain(t), at_once * h);
+  if (breaks_loose(onset) && h > least && !breaks_loose(look_ahead(t, least, fired, state, modes, force, now))) {
+    while (breaks_loose(onset)) onset = look_ahead(t, h = std::max(least, nearer * h), fired, state, modes, force, now);
   }
+  const ConvexNetwork& problem = onset.problem;
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
@@ -101,6 +97,36 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   return broken;
 }
 
+Instant::Onset Instant::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
+                                   const std::vector<double>& force, const Nodal& now) {
+  const std::size_t nodes = structure_.kind.size();
+  Onset onset{.t = t, .h = h, .fired = &fired, .modes = &modes, .force = &force, .now = &now,
+              .problem = ConvexNetwork(static_cast<int>(nodes)), .slope_around = std::vector<double>(nodes, 0),
+              .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
+              .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
+              .bound_side = std::vector<int>(network_.sliders.size())};
+  add_nodes(onset, state);
+  add_drive(onset);
+  add_deflection_laws(onset, state);
+  add_rate_laws(onset, state);
+  add_sliders(onset);
+  if (const ConvexNetwork::Outcome outcome = onset.problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
+    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, onset.problem.runaways(), state);
+    report_undecided(network_, at_time(*network_.scene, t));
+  }
+  return onset;
+}
+
+/// Some slider begins to slip although its force was within its bounds.
+bool Instant::breaks_loose(const Onset& onset) const {
+  for (std::size_t k = 0; k < onset.slider.size(); ++k) {
+    const ConvexNetwork::Bounds bounds = onset.problem.bounds(onset.slider[k]);
+    if (onset.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0 && onset.problem.direction(onset.slider[k]) != 0)
+      return true;
+  }
+  return false;
+}
+
 void Instant::add_nodes(Onset& onset, const State& state) const {
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     const int node = slot(static_cast<NodeId>(n));
@@ -109,8 +135,8 @@ void Instant::add_nodes(Onset& onset, const State& state) const {
       onset.problem.set_inertia(node, structure_.mass[n] / onset.h);
       onset.slope_around[n] = structure_.mass[n] / onset.h;
     }
-    const double out = std::abs(onset.now.sum[n]) - slack_[n];
-    if (out > onset_rounding * onset.now.magnitude[n] + onset.now.rounding[n]) onset.problem.load(node, -std::copysign(out, onset.now.sum[n]));
+    const double out = std::abs(onset.now->sum[n]) - slack_[n];
+    if (out > onset_rounding * onset.now->magnitude[n] + onset.now->rounding[n]) onset.problem.load(node, -std::copysign(out, onset.now->sum[n]));
   }
   onset.problem.fix(slot(ground), 0);
 }
@@ -150,14 +176,14 @@ void Instant::add_deflection_laws(Onset& onset, const State& state) const {
       double backward = h * laws.batch->slope(i, p, -1);
       // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
       // look at both sides.
-      if (contains(onset.fired.starts, branch) || reversed(onset.fired, branch)) {
+      if (contains(onset.fired->starts, branch) || reversed(*onset.fired, branch)) {
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
       onset.at_rest[k + i] = -h * laws.batch->slope(i, p, 0) * creep;
       onset.meet(structure_, b, std::max(forward, backward));
       double high = -forward * creep, low = std::min(high, -backward * creep);
       // What has stopped does not go on as before: again the event knows better.
-      if (contains(onset.fired.turns, branch) && may_stand(branch)) {
+      if (contains(onset.fired->turns, branch) && may_stand(branch)) {
         (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
       }
       ConvexNetwork::Law law{.low = low, .high = high, .backward = backward, .forward = forward};
@@ -175,7 +201,7 @@ void Instant::add_deflection_laws(Onset& onset, const State& state) const {
 }
 
 void Instant::add_rate_laws(Onset& onset, const State& state) const {
-  const double largest = *std::max_element(onset.now.magnitude.begin(), onset.now.magnitude.end());
+  const double largest = *std::max_element(onset.now->magnitude.begin(), onset.now->magnitude.end());
   const Drive::Reach reach = coming_reach(drive_, state.velocity);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -199,20 +225,20 @@ void Instant::add_rate_laws(Onset& onset, const State& state) const {
 void Instant::add_sliders(Onset& onset) const {
   for (std::size_t k = 0; k < onset.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    const double force = onset.force[k];
+    const double force = (*onset.force)[k];
     ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
     // At its bound the rate alone decides, not the rounding of the event.
     const double limit = bound(k, force > 0 ? 1 : -1);
     const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
-    const bool fired = contains(onset.fired.sliders, static_cast<int>(k));
-    if (onset.modes.slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
+    const bool fired = contains(onset.fired->sliders, static_cast<int>(k));
+    if (onset.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
       (force > 0 ? law.high : law.low) = 0;
     } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
       // How the velocity of a massless node goes on this first-order look does not see: the event knows better.
       (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
     }
     onset.slider[k] = onset.problem.add(slot(b.a), slot(b.b), law);
-    if (!fired) onset.problem.was_apart(onset.slider[k], onset.modes.slider[k]);
+    if (!fired) onset.problem.was_apart(onset.slider[k], onset.modes->slider[k]);
     onset.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
   }
 }
@@ -259,7 +285,7 @@ ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double
 void Instant::take_directions(const Onset& onset, const State& state, Change& change) {
   const ConvexNetwork& problem = onset.problem;
   const std::vector<int>& index = onset.law;
-  const Fired& fired = onset.fired;
+  const Fired& fired = *onset.fired;
   Sets stuck(structure_.kind.size());
   for (std::size_t k = 0; k < onset.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;

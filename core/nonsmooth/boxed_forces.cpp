@@ -7,7 +7,7 @@
 
 #include "core/network/index.hpp"
 #include "core/network/sets.hpp"
-#include "core/nonsmooth/symmetric.hpp"
+#include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
 
@@ -29,15 +29,19 @@ struct BoxedForces::Factors : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>
 
 namespace {
 
-using Entries = std::vector<Eigen::Triplet<double>>;
-
-/// Adds a branch between two unknowns of a Laplacian; -1 is none.
-void add_branch(Entries& entries, int a, int b) {
-  if (a >= 0) entries.emplace_back(a, a, 1);
-  if (b >= 0) entries.emplace_back(b, b, 1);
-  if (a < 0 || b < 0) return;
-  entries.emplace_back(a, b, -1);
-  entries.emplace_back(b, a, -1);
+/// The Laplacian matrix of unit conductances along the branches.
+Eigen::SparseMatrix<double> laplacian(const std::vector<BoxedBranch>& branches, int nodes) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const BoxedBranch& b : branches) {
+    if (b.a >= 0) entries.emplace_back(b.a, b.a, 1);
+    if (b.b >= 0) entries.emplace_back(b.b, b.b, 1);
+    if (b.a < 0 || b.b < 0) continue;
+    entries.emplace_back(b.a, b.b, -1);
+    entries.emplace_back(b.b, b.a, -1);
+  }
+  Eigen::SparseMatrix<double> matrix(nodes, nodes);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
 }  // namespace
@@ -57,11 +61,7 @@ BoxedForces::BoxedForces(int nodes, std::vector<BoxedBranch> branches) : branche
   open_.assign(branches_.size(), 1);
   if (nodes == 0) return;
   factors_ = std::make_unique<Factors>();
-  Entries entries;
-  for (const BoxedBranch& b : branches_) add_branch(entries, b.a, b.b);
-  Eigen::SparseMatrix<double> matrix(nodes, nodes);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  factors_->compute(matrix);
+  factors_->compute(laplacian(branches_, nodes));
 }
 
 BoxedForces::BoxedForces(BoxedForces&&) noexcept = default;
@@ -185,18 +185,18 @@ void BoxedForces::find_direction() {
     inside = inside || (inner(n) >= 0 && left_[at(n)] != 0);
   }
   for (int n = 0; n < nodes; ++n) inside = inside && (part(n) != n || std::abs(sum[at(n)]) <= rounding[at(n)]);
-  Entries entries;
+  std::vector<Conductance> open;
   Eigen::VectorXd d = Eigen::VectorXd::Zero(nodes);
   const auto unknown = [&](int node) { return inside ? inner(node) : part(node); };
   for (int n = 0; n < nodes; ++n) {
     if (unknown(n) >= 0) d[unknown(n)] += left_[at(n)];
-    if (unknown(n) != n) entries.emplace_back(n, n, 1);
+    if (unknown(n) != n) open.push_back({n, -1, 1});
   }
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const int a = unknown(branches_[k].a), b = unknown(branches_[k].b);
-    if (open_[k] && within(k) == inside && a != b) add_branch(entries, a, b);
+    if (open_[k] && within(k) == inside) open.push_back({a, b, 1});
   }
-  solve_symmetric(entries, d);
+  solve_conductances(open, d);
   const double length = std::ldexp(1, std::ilogb(d.cwiseAbs().maxCoeff()));
   for (int n = 0; n < nodes; ++n) direction_[at(n)] = unknown(n) < 0 ? 0 : d[unknown(n)] / length;
   for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? difference(k, direction_) : 0;

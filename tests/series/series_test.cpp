@@ -134,6 +134,14 @@ TEST_CASE("two elements in series have one force, certified or not") {
 
 TEST_CASE("random chains in series have one force, that of the closed form where there is one") { judge_all(3, 12); }
 
+// In the first four chains a slider sticks for 1e-12 s to 1e-8 s from the start. In the others the slopes that decide which element
+// begins to move differ by more than 16 decades.
+TEST_CASE("chains of which friction is about to slip have an answer") {
+  Tally tally;
+  for (const int number : {209, 374, 382, 556, 683, 690}) judge(random_chain(number), tally);
+  CHECK(tally.refused + tally.not_certified + tally.slow == 0);
+}
+
 TEST_CASE("a thousand random chains in series" * doctest::skip()) { judge_all(0, 1000); }
 
 }  // namespace rheonet::test
