@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "core/network/dual.hpp"
 
@@ -92,6 +93,8 @@ struct SolidFriction {
     u_ref = std::max(0.0, 1 - s * f / Fc);
     held = i < 1 && u_ref <= 0;
   }
+
+  double recentre(double p) { return p == p_ref ? std::exchange(p_ref, 0) : 0; }
 
   /// The deflection jumps from p to p + jump along the law. Returns the heat.
   double jump(double p, double jump) {

@@ -71,7 +71,8 @@ double Consistency::collocate(double t, double rate, std::vector<double>& y, std
   double last = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     dae_.jacobian(t, rate, y.data(), yp.data(), values_.data());
-    eliminate(t);
+    // Too close to singular for a better state: the polynomials stand.
+    if (!elimination_.factorise(values_)) break;
     dae_.residual(t, y.data(), yp.data(), r0_.data());
     for (std::size_t i = 0; i < n; ++i) change[i] = -r0_[i];
     elimination_.solve(change);

@@ -66,13 +66,12 @@ int ConvexNetwork::add(int a, int b, Law law) {
 int ConvexNetwork::direction(int branch) const {
   const Branch& b = branches_[at(branch)];
   if (b.stuck) return 0;
-  const double w = difference(b);
-  return w > 0 ? 1 : w < 0 ? -1 : b.jumps ? b.side : 0;
+  return b.w > 0 ? 1 : b.w < 0 ? -1 : b.jumps ? b.side : 0;
 }
 
 double ConvexNetwork::force(int branch) const {
   const Branch& b = branches_[at(branch)];
-  return b.stuck ? bond_force_[at(branch)] : force(b, difference(b), b.side);
+  return b.stuck ? bond_force_[at(branch)] : force(b, b.w, b.side);
 }
 
 double ConvexNetwork::force(const Branch& b, double w, int side) const {
@@ -186,6 +185,9 @@ void ConvexNetwork::merge() {
     int& column = column_[at(cluster_[k])];
     if (std::isfinite(weight[at(cluster_[k])]) && column < 0) column = columns_++;
   }
+  for (Branch& b : branches_) {
+    if (cluster_[at(b.a)] == cluster_[at(b.b)]) b.w = nodal_difference(b);
+  }
 }
 
 /// The sums of forces of all free clusters; true if they are rounding.
@@ -205,14 +207,12 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
   };
   for (const Branch& b : branches_) {
     if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
-    const double f = force(b, difference(b), b.side);
+    const double f = force(b, b.w, b.side);
     add(b.a, f);
     add(b.b, -f);
     blur(b.a, b.law.rounding, 1);
     blur(b.b, b.law.rounding, 1);
-    const double apart = b.law.of_change ? 0 : std::abs(base_[at(b.a)] - base_[at(b.b)]);
-    const double size = apart + std::abs(u_[at(b.a)]) + std::abs(u_[at(b.b)]);
-    for (int node : {b.a, b.b}) blur(node, slope(b, difference(b)), size);
+    for (int node : {b.a, b.b}) blur(node, slope(b, b.w), b.w);
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const int node = static_cast<int>(k);
@@ -230,7 +230,7 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
 bool ConvexNetwork::stick_where_met() {
   bool met = false;
   for (Branch& b : branches_) {
-    if (!b.apart || b.stuck || difference(b) != 0) continue;
+    if (!b.apart || b.stuck || b.w != 0) continue;
     b.apart = false;
     met = b.stuck = true;
   }
@@ -243,7 +243,7 @@ bool ConvexNetwork::stick_where_idle() {
   merge();
   bool idle = false;
   for (Branch& b : branches_) {
-    if (!b.jumps || b.stuck || difference(b) != 0) continue;
+    if (!b.jumps || b.stuck || b.w != 0) continue;
     idle = b.stuck = true;
   }
   return idle;
@@ -252,6 +252,7 @@ bool ConvexNetwork::stick_where_idle() {
 ConvexNetwork::Outcome ConvexNetwork::solve() {
   choose_weak();
   stick_at_first();
+  for (Branch& b : branches_) b.w = nodal_difference(b);
   released_.clear();
   std::vector<double> gradient, d;
   int idle = 0;  // rounds in a row that brought nothing
@@ -299,7 +300,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
     }
     released_.clear();
     looked_again = false;
-    for (Branch& b : branches_) b.apart = b.jumps && !b.stuck && difference(b) != 0;
+    for (Branch& b : branches_) b.apart = b.jumps && !b.stuck && b.w != 0;
     if (search(d) == Outcome::unbounded) {
       for (std::size_t k = 0; k < u_.size(); ++k) {
         if (d[k] != 0) runaways_.push_back(static_cast<int>(k));

@@ -15,7 +15,7 @@ namespace rheonet {
 /// where u is the change of x from what it starts from. That is the minimum of a convex function, found by Newton's method
 /// on an active set with exact line search. A branch whose law jumps at 0 joins its ends while its force stays within the
 /// jump. The change of a heavy node may be far below the rounding of x, and its force not below that of others: so they are
-/// kept apart. x stands for velocities, or for displacements: see instant.cpp and jump.cpp.
+/// kept apart. The same holds for w = x_a - x_b of a branch: steps add to it, so that a small w keeps all its digits. x stands for velocities, or for displacements: see instant.cpp and jump.cpp.
 class ConvexNetwork {
  public:
   struct Law {
@@ -68,12 +68,14 @@ class ConvexNetwork {
     Law law;
     bool jumps;           ///< low < high; never a law of the change
     double weak = 0;      ///< slope that decides among equals, where there is no other
+    double w = 0;         ///< argument of the law
     bool stuck = false;
     bool apart = false;  ///< before the last step
     int side = 1;  ///< where it is free and w is 0
     int before = 0;  ///< see was_apart; 0: no guess
   };
-  double difference(const Branch& b) const {
+  /// As the nodes have it.
+  double nodal_difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }
   double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }

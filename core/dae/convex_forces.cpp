@@ -25,7 +25,7 @@ void ConvexNetwork::find_bond_forces() {
   std::vector<double> left(u_.size(), 0);
   for (const Branch& b : branches_) {
     if (b.stuck) continue;
-    const double f = force(b, difference(b), b.side);
+    const double f = force(b, b.w, b.side);
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
@@ -99,7 +99,7 @@ void ConvexNetwork::release_as_before() {
 double ConvexNetwork::power() const {
   double sum = 0;
   for (const Branch& b : branches_) {
-    if (const double w = difference(b); w != 0) sum += std::abs(force(b, w, b.side) * w);
+    if (b.w != 0) sum += std::abs(force(b, b.w, b.side) * b.w);
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     sum += (std::abs(applied_[k]) + std::abs(inertia_[k] * u_[k])) * std::abs(base_[k] + u_[k]);
@@ -114,7 +114,7 @@ bool ConvexNetwork::run_away() {
     scale = std::max({scale, std::abs(applied_[k]), std::abs(inertia_[k] * u_[k])});
   }
   for (const Branch& b : branches_) {
-    for (double f : {b.law.low, b.law.high, force(b, difference(b), b.side)}) {
+    for (double f : {b.law.low, b.law.high, force(b, b.w, b.side)}) {
       if (std::isfinite(f)) scale = std::max(scale, std::abs(f));
     }
   }
@@ -124,7 +124,7 @@ bool ConvexNetwork::run_away() {
     if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
   }
   for (const Branch& b : branches_) {
-    if (b.stuck || std::abs(b.weak * difference(b)) <= weak_limit * scale) continue;
+    if (b.stuck || std::abs(b.weak * b.w) <= weak_limit * scale) continue;
     for (int node : {b.a, b.b}) {
       if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);
     }
@@ -137,7 +137,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   // What is left when the flat ones are cut: parts of the network that only bounds hold.
   Sets parts(u_.size());
   for (const Branch& b : branches_) {
-    const double w = difference(b);
+    const double w = b.w;
     if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > flat_share * std::abs(force(b, w, b.side)) || w == 0) {
       parts.join(b.a, b.b);
     }
@@ -146,7 +146,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   for (const Branch& b : branches_) {
     const std::size_t from = at(parts.find(b.a)), to = at(parts.find(b.b));
     if (from == to) continue;
-    const double f = force(b, difference(b), b.side);
+    const double f = force(b, b.w, b.side);
     flat[from] += f;
     flat[to] -= f;
   }

@@ -1,6 +1,8 @@
 // Steps of Newton's method, and the way along them.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/dae/convex.hpp"
 #include "core/nonsmooth/conductances.hpp"
@@ -13,6 +15,7 @@ namespace {
 constexpr double flat_step_share = 1e-6;
 // A search along a line. Where the step to the end of a jump is rounded, and its product: twice the half unit each.
 constexpr double break_rounding = 4e-16;
+constexpr double meeting_rounding = 4 * std::numeric_limits<double>::epsilon();
 // To this side of a jump: so much less than the step that leads to it, more than its rounding.
 constexpr double short_of_break = 1e-14;
 // Of the slope where the stretch begins: less of it at its end may be what cancelling terms leave.
@@ -31,7 +34,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
   for (const Branch& b : branches_) {
     const int a = column_[at(cluster_[at(b.a)])], c = column_[at(cluster_[at(b.b)])];
     if (cluster_[at(b.a)] == cluster_[at(b.b)]) continue;
-    const double w = difference(b);
+    const double w = b.w;
     double s = slope(b, w);
     if (secants) {
       if (w != 0) s = std::max(s, std::abs(force(b, w, b.side) / w));
@@ -61,7 +64,7 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
   for (const Branch& b : branches_) {
     const double dw = d[at(b.a)] - d[at(b.b)];
     if (dw == 0) continue;
-    double w = difference(b) + step * dw;
+    double w = b.w + step * dw;
     // The breakpoint of this branch itself, but for rounding.
     if (std::abs(w) <= break_rounding * std::abs(step * dw)) w = 0;
     sum += force(b, w, dw > 0 ? 1 : -1) * dw;
@@ -79,7 +82,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   bool linear = true;  // and no kink on the way
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const Branch& b = branches_[k];
-    const double w = difference(b), dw = d[at(b.a)] - d[at(b.b)];
+    const double w = b.w, dw = d[at(b.a)] - d[at(b.b)];
     linear = linear && !b.law.beyond && (b.law.forward == b.law.backward || w * (w + dw) > 0);
     if (b.jumps && w * dw < 0) breaks.push_back({-w / dw, static_cast<int>(k)});
   }
@@ -89,6 +92,10 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   double low = first == breaks.begin() ? 0 : (first - 1)->step, high;
   const auto move = [&](double step) {
     for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += step * d[k];
+    for (Branch& b : branches_) {
+      const double dw = step * (d[at(b.a)] - d[at(b.b)]), before = std::exchange(b.w, b.w + dw);
+      if (std::abs(b.w) <= meeting_rounding * (std::abs(before) + std::abs(dw))) b.w = 0;
+    }
   };
   if (linear && breaks.empty()) {
     move(1);
@@ -130,7 +137,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   }
   move(step);
   for (Branch& b : branches_) {
-    if (const double w = difference(b); w != 0 && d[at(b.a)] != d[at(b.b)]) b.side = w > 0 ? 1 : -1;
+    if (b.w != 0 && d[at(b.a)] != d[at(b.b)]) b.side = b.w > 0 ? 1 : -1;
   }
   return Outcome::solved;
 }

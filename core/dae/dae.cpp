@@ -46,6 +46,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
+  find_loose_dashpots();
   follows_time_ = (drive.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time();
 }
 

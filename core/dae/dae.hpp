@@ -253,6 +253,9 @@ class Dae {
   void gather(double t, const double* y);
   void sum_forces();
   void evaluate_forces(double t, const double* y);
+  // loose_dashpots.cpp
+  void find_loose_dashpots();
+  void balance_loose_dashpots();
   // view.cpp
   void share_among_joined(double t);
   void view_velocities(const double* yp);
@@ -306,6 +309,11 @@ class Dae {
   /// Of what it is; null where something else has been evaluated since.
   struct Viewed { double t = 0; const double *y = nullptr, *yp = nullptr; };
   Viewed viewed_;
+  /// A linear dashpot whose force is a difference of two velocities, with a massless node at one end at least. `a` and `b` are the
+  /// indices of its ends in `loose_nodes_`; -1 for a mass or a prescribed motion.
+  struct Loose { std::size_t rate; int a, b; double damping; };
+  std::vector<Loose> loose_;
+  std::vector<NodeId> loose_nodes_;
 };
 
 /// visit(entry, coefficient in dF/dy').

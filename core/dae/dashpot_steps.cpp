@@ -65,6 +65,10 @@ class Steps {
     const std::vector<char> led = led_by(dashpots);
     double stiffest = 0;
     for (const BranchDashpot& d : dashpots) stiffest = std::max(stiffest, d.coefficient);
+    // One that is beyond the range of doubles beside the stiffest would share nothing.
+    for (const BranchDashpot& d : dashpots) {
+      if (d.coefficient / stiffest == 0) return false;
+    }
     ConvexNetwork balance(static_cast<int>(dx_.size()));
     const auto slot = [&](NodeId node) { return structure_.rank[at(node)]; };
     for (std::size_t n = 0; n < dx_.size(); ++n) {

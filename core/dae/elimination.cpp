@@ -17,12 +17,12 @@ constexpr int dense_limit = 40;  // above this many unknowns sparse elimination 
 }  // namespace
 
 struct Elimination::Factor {
-  explicit Factor(const Pattern& pattern) : dense(pattern.size <= dense_limit), sparse(pattern), row_scale(pattern.size) {}
+  explicit Factor(const Pattern& pattern) : dense(pattern.size <= dense_limit), sparse(pattern), row_scale(pattern.size), column_scale(pattern.size) {}
   bool dense;
   Eigen::MatrixXd matrix;
   Eigen::FullPivLU<Eigen::MatrixXd> lu;
   SparseFactors sparse;
-  Eigen::VectorXd row_scale;
+  Eigen::VectorXd row_scale, column_scale;
 };
 
 Elimination::Elimination(const Pattern& pattern) : pattern_(pattern), factor_(std::make_unique<Factor>(pattern)) {}
@@ -30,23 +30,29 @@ Elimination::Elimination(const Pattern& pattern) : pattern_(pattern), factor_(st
 Elimination::~Elimination() = default;
 
 bool Elimination::factorise(const std::vector<double>& values) {
-  if (!scale_rows(values)) return false;
+  if (!scale(values)) return false;
   return factor_->dense ? factorise_dense(values) : factorise_sparse(values);
 }
 
-/// Rows hold newtons or metres a second: each is divided by its largest entry, so that pivots can be compared.
-bool Elimination::scale_rows(const std::vector<double>& values) {
-  Eigen::VectorXd& scale = factor_->row_scale;
-  scale.setZero();
-  for (std::size_t e = 0; e < values.size(); ++e) {
-    double& s = scale[pattern_.row[e]];
-    s = std::max(s, std::abs(values[e]));
-  }
-  for (int r = 0; r < pattern_.size; ++r) {
-    if (!(scale[r] > 0) || !std::isfinite(scale[r])) return false;
-    scale[r] = 1 / scale[r];
-  }
-  return true;
+/// Rows hold newtons or metres a second, and so do unknowns: each row is divided by its largest entry, and then each column, so that
+/// pivots can be compared.
+bool Elimination::scale(const std::vector<double>& values) {
+  Factor& f = *factor_;
+  f.row_scale.setZero();
+  f.column_scale.setZero();
+  const auto find = [&](Eigen::VectorXd& largest, auto place, auto size) {
+    for (int c = 0; c < pattern_.size; ++c) {
+      for (int e = pattern_.column_start[at(c)]; e < pattern_.column_start[at(c) + 1]; ++e) {
+        const int r = pattern_.row[at(e)];
+        largest[place(r, c)] = std::max(largest[place(r, c)], size(r, values[at(e)]));
+      }
+    }
+    if (!(largest.minCoeff() > 0) || !std::isfinite(largest.maxCoeff())) return false;
+    largest = largest.cwiseInverse();
+    return true;
+  };
+  return find(f.row_scale, [](int row, int) { return row; }, [](int, double value) { return std::abs(value); }) &&
+         find(f.column_scale, [](int, int column) { return column; }, [&](int row, double value) { return std::abs(value) * f.row_scale[row]; });
 }
 
 bool Elimination::factorise_dense(const std::vector<double>& values) {
@@ -55,7 +61,7 @@ bool Elimination::factorise_dense(const std::vector<double>& values) {
   for (int c = 0; c < pattern_.size; ++c) {
     for (int e = pattern_.column_start[at(c)]; e < pattern_.column_start[at(c) + 1]; ++e) {
       const int r = pattern_.row[at(e)];
-      f.matrix(r, c) = values[at(e)] * f.row_scale[r];
+      f.matrix(r, c) = values[at(e)] * f.row_scale[r] * f.column_scale[c];
     }
   }
   f.lu.setThreshold(1e-290);  // only an exact zero is singular: stiffness ratios of 1e12 are not
@@ -65,7 +71,11 @@ bool Elimination::factorise_dense(const std::vector<double>& values) {
 
 bool Elimination::factorise_sparse(const std::vector<double>& values) {
   std::vector<double> scaled(values);
-  for (std::size_t e = 0; e < values.size(); ++e) scaled[e] *= factor_->row_scale[pattern_.row[e]];
+  for (int c = 0; c < pattern_.size; ++c) {
+    for (int e = pattern_.column_start[at(c)]; e < pattern_.column_start[at(c) + 1]; ++e) {
+      scaled[at(e)] *= factor_->row_scale[pattern_.row[at(e)]] * factor_->column_scale[c];
+    }
+  }
   return factor_->sparse.factorise(scaled.data());
 }
 
@@ -81,6 +91,7 @@ void Elimination::solve(std::vector<double>& b) const {
   } else {
     factor_->sparse.solve(b.data());
   }
+  x.array() *= factor_->column_scale.array();
 }
 
 }  // namespace rheonet

@@ -25,7 +25,7 @@ class Elimination {
 
  private:
   struct Factor;
-  bool scale_rows(const std::vector<double>& values);
+  bool scale(const std::vector<double>& values);
   bool factorise_dense(const std::vector<double>& values);
   bool factorise_sparse(const std::vector<double>& values);
 

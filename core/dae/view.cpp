@@ -35,6 +35,7 @@ void Dae::share_among_joined(double t) {
 
 const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   evaluate_forces(t, y);
+  if (!loose_.empty()) balance_loose_dashpots();
   view_velocities(yp);
   for (std::size_t n = 0; n < v_.size(); ++n) {
     view_.acceleration[n] = a_[n];

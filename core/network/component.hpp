@@ -108,6 +108,10 @@ class DeflectionBatch {
   /// No quadrature of a power that jumps is then needed.
   virtual bool knows_heat() const { return false; }
   virtual double heat(std::size_t, double) const { return 0; }
+  /// Counts the deflection of element i, p at present, from here on if its law begins a new branch here (a reversal): it becomes 0.
+  /// Returns by how much it has become less; 0 if it stays. Friction that has slid far and turns would have the rounding of
+  /// the whole way in its force.
+  virtual double recentre(std::size_t, double) { return 0; }
 };
 
 /// f = coefficient abs(w)^exponent sgn(w) for large velocities w.

@@ -25,7 +25,7 @@ namespace rheonet {
 /// One whose force goes on beyond a bound until the event there also has `force_reached(p)`, the force within its bounds.
 /// One whose memory changes within a motion, not at its reversals alone, also has `follow(p, step)`, which changes it as the
 /// deflection goes from p to p + step. One that creeps also has `steady` and `settle`, one that feels velocities later
-/// `delay()` [s]: see DeflectionBatch.
+/// `delay()` [s]. One whose deflection may count from a reversal has `recentre(p)`: see DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
@@ -99,6 +99,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
   }
   void switch_memory(std::size_t i, int which, double p, double w) override {
     laws_[i].switch_memory(which, p, w);
+  }
+  double recentre(std::size_t i, double p) override {
+    if constexpr (requires { laws_[i].recentre(p); }) return laws_[i].recentre(p);
+    return 0;
   }
   double jump(std::size_t i, double p, double jump) override { return laws_[i].jump(p, jump); }
   bool set_direction(std::size_t i, double p, double w, int direction) override {

@@ -33,7 +33,7 @@ constexpr double balance_grains = 4;
 
 }  // namespace
 
-Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), kinks_(network) {
+Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), kinks_(network), block_gains_(network) {
   const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
   seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0), std::vector<double>(network.rates.size(), 0),
            std::vector<double>{}, std::vector<double>(network.blocks.blocks.size(), 0)};
@@ -42,9 +42,9 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
     if (sensor.what == Blocks::Sensor::What::position) sensed_[at(sensor.index)] = 1;
   }
   if (!network.blocks.sensors.empty()) {
-    block_scale_.assign(nodes, std::numeric_limits<double>::infinity());
     block_rounding_.assign(nodes, 0);
   }
+  block_output_seen_.assign(network.blocks.blocks.size(), 0);
   block_force_seen_.assign(network.forces.size(), 0);
   rested_.assign(network.sliders.size(), 0);
   slid_.assign(network.sliders.size(), 0);
@@ -204,6 +204,7 @@ bool Tolerances::blind() const {
 void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                          const std::vector<double>& coming_size) {
   if (std::isnan(begin_)) begin_ = reached_ = t;
+  restarted_ = t;
   // What was foreseen a moment ago, before an event perhaps, still holds.
   if (t > forget_) forget();
   if (ahead > 0) {
@@ -218,6 +219,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   see(y, view);
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(std::abs(y[i]), ahead > 0 ? coming_size[i] : 0.0);
   find_slider_shares();
+  if (!network_.blocks.blocks.empty()) block_gains_.follow(dae_->drive().blocks());
   find_rounding(view);
   find_difference_rounding(view);
   find_stopping(view);
@@ -305,7 +307,7 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   }
   if (q.sort == Sort::velocity) resolve(std::min(relative_seen_[q.index], least_slide_[q.index]), least.velocity);
   scale = std::max(scale, foreseen_of(q));
-  if (q.sort == Sort::position && sensed_[q.index]) scale = std::min(scale, block_scale_[q.index]);
+  if (!network_.blocks.blocks.empty()) scale = std::min(scale, block_scale_[static_cast<std::size_t>(q.sort)][q.index]);
   if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
   if (q.sort != Sort::deflection) return scale;
   // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
@@ -322,7 +324,7 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   tolerance = std::max({tolerance, jitters_[i] ? jitter : 0.0, rounding_[i]});
   if (q.sort == Sort::deflection) {
     grain_[i] = balance_rounding_.of(static_cast<int>(q.index));
-    tolerance = std::max({tolerance, value_grains * std::numeric_limits<double>::epsilon() * seen(q),
+    tolerance = std::max({tolerance, value_grains * std::numeric_limits<double>::epsilon() * size_[i],
                           step_ * difference_rounding_[q.index], balance_grains * grain_[i]});
   }
   if (q.sort == Sort::velocity && !block_rounding_.empty()) {
@@ -338,7 +340,9 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
     tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
   const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
-  tolerance = std::max(tolerance, drift.velocity * std::min(t - begin_, drift.lasting));
+  // An error test compares a step with the steps since the restart. Round-off from before the restart does not enter the comparison.
+  const double adds_up = t - (q.sort == Sort::position ? begin_ : restarted_);
+  tolerance = std::max(tolerance, drift.velocity * std::min(adds_up, drift.lasting));
   // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
   if (q.sort == Sort::deflection || q.sort == Sort::position) tolerance = std::max(tolerance, relative_ * largest_velocity * ahead_);
 }
@@ -372,30 +376,6 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   if (positions) loosen_positions();
   loosen_balanced_forces(slope);
   find_noise(slope);
-}
-
-/// What the forces allow that blocks make of a position: a stop in the way of what comes from far takes little of that way. A
-/// mass that has just come to it brings along a force v sqrt(k m).
-void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
-  if (network_.blocks.sensors.empty()) return;
-  BlockSignals& blocks = dae_->drive().blocks();
-  blocks.update_slopes(dae_->drive().past());
-  std::fill(block_scale_.begin(), block_scale_.end(), std::numeric_limits<double>::infinity());
-  for (std::size_t f = 0; f < network_.forces.size(); ++f) {
-    const int block = network_.forces[f].block;
-    if (block < 0) continue;
-    block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->drive().force[f]));
-    const double seen = std::max(block_force_seen_[f], floor_of_kind * largest_force);
-    for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
-      const Blocks::Sensor& sensor = network_.blocks.sensors[s];
-      if (sensor.what != Blocks::Sensor::What::position) continue;
-      const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
-      const NodeId node = dae_->structure().rigid[at(sensor.index)];
-      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae_->structure().mass[at(node)]));
-      double& scale = block_scale_[at(sensor.index)];
-      if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);
-    }
-  }
 }
 
 /// A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.

@@ -7,6 +7,7 @@
 #include "core/dae/dae.hpp"
 #include "core/solve/balance_rounding.hpp"
 #include "core/solve/balanced_forces.hpp"
+#include "core/solve/block_gains.hpp"
 #include "core/solve/kinks.hpp"
 #include "core/solve/stop_chains.hpp"
 
@@ -137,6 +138,7 @@ class Tolerances {
   Kinks kinks_;
   BalanceRounding balance_rounding_;
   double begin_ = not_given;  ///< of the run [s]
+  double restarted_ = 0;      ///< the last time [s]
   double reached_ = 0;        ///< the end of the last step [s]
   double step_ = 0;           ///< its length [s]
   double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
@@ -148,7 +150,9 @@ class Tolerances {
   std::vector<signed char> slid_;                     ///< of each slider: the direction of its last motion
   bool any_rested_ = false;
   std::vector<double> slider_share_;                  ///< of each part: to what share tolerances are tighter for its sliders
-  std::vector<double> block_scale_;                   ///< of each node: for the forces that blocks make of its position [m]
+  BlockGains block_gains_;
+  std::array<std::vector<double>, sorts> block_scale_;  ///< of everything that can be an unknown: what blocks make of it allows no more
+  std::vector<double> block_output_seen_;             ///< of each block: its largest magnitude
   /// Of each node, where there are sensors: what the rounding of what blocks take in makes of its velocity [m/s], and what
   /// holds it beside blocks at the last restart [N/m, N s/m].
   std::vector<double> block_rounding_, stiffness_around_, damping_around_;

@@ -136,6 +136,34 @@ push = { type = "force", at = "b", force = { square = 2.1, frequency = 0.7 } }
       CHECK(std::abs(active[record][row] - passive[record][row]) <= 1e-7 * passive.scale(record));
 }
 
+// The controller multiplies a position error by 40, and a limiter keeps its output small. The record of the output needs a more
+// accurate position than the record of the position.
+TEST_CASE("a recorded output of a block is as accurate as asked, however large the gain before it") {
+  const char* const text = R"(
+[elements]
+cmd  = { type = "generator", signal = { square = 1, frequency = 0.5 } }
+late = { type = "delay", in = "x.position", delay = 0.02 }
+e    = { type = "sum", in = ["cmd", "-late"] }
+P    = { type = "gain", in = "e", gain = 40 }
+D    = { type = "gain", in = "-x.velocity", gain = 6 }
+I    = { type = "integrator", in = "e", gain = 20 }
+u    = { type = "sum", in = ["P", "I", "D"] }
+lim  = { type = "limiter", in = "u", upper = 15 }
+f    = { type = "force", at = "x", force = { block = "lim" } }
+m    = { type = "mass", at = "x", mass = 1 }
+s    = { type = "slider", between = ["x", "ground"], coulomb = 2, breakaway = 3 }
+[simulate]
+stop   = 10
+output = { points = 1001 }
+record = ["x.position", "x.velocity", "lim.out"]
+)";
+  const Trajectory exact = simulate(text, 1e-11);
+  for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+    CAPTURE(accuracy);
+    CHECK(largest_error(simulate(text, accuracy), exact) <= accuracy);
+  }
+}
+
 TEST_CASE("loops without an answer at an instant are refused") {
   const auto why = [](const std::string& elements) {
     return refusal("[elements]\nm = { type = \"mass\", at = \"x\", mass = 1 }\n" + elements + "\n[simulate]\nstop = 1\n");

@@ -1,0 +1,83 @@
+#include "core/solve/block_gains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/network/index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::vector<int> recorded_blocks(const Network& network) {
+  std::vector<int> result;
+  const auto add = [&](int block) {
+    if (block >= 0 && !contains(result, block)) result.push_back(block);
+  };
+  for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
+    for (const Record& record : *records) {
+      if (record.subject == Record::Subject::block) add(record.index);
+      if (record.subject != Record::Subject::element || record.channel != Record::Channel::force) continue;
+      const Network::Place& place = network.places[at(record.index)];
+      if (place.role == Role::force) add(network.forces[at(place.index)].block);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+BlockGains::BlockGains(const Network& network) : blocks_(network.blocks) {
+  for (const int block : recorded_blocks(network)) gains_[block] = {};
+}
+
+/// From the output back to what it follows from. A loop through delays is gone through once.
+BlockGains::Derivatives BlockGains::derivatives_of(int output) const {
+  const std::size_t count = blocks_.blocks.size();
+  Derivatives result{std::vector<double>(count, 0), std::vector<double>(blocks_.sensors.size(), 0)};
+  std::vector<double> pending(count, 0);
+  std::vector<char> passed(count, 0);
+  pending[at(output)] = 1;
+  for (bool more = true; std::exchange(more, false);) {
+    for (auto k = blocks_.order.rbegin(); k != blocks_.order.rend(); ++k) {
+      const Blocks::Block& block = blocks_.blocks[at(*k)];
+      const double factor = std::exchange(pending[at(*k)], 0);
+      if (factor == 0 || sides_[at(*k)] != 0) continue;
+      if (block.law.state) {
+        result.of_state[at(*k)] += factor;
+        continue;
+      }
+      // The input of a delay may come later in the order of evaluation.
+      if (block.law.delay > 0 && std::exchange(passed[at(*k)], 1)) continue;
+      more = more || block.law.delay > 0;
+      for (const Blocks::Input& input : block.inputs) {
+        (input.from_block ? pending : result.of_sensor)[at(input.index)] += factor * block.law.gain * input.sign;
+      }
+    }
+  }
+  return result;
+}
+
+void BlockGains::follow(const BlockSignals& signals) {
+  std::vector<int> sides(blocks_.blocks.size());
+  for (std::size_t b = 0; b < sides.size(); ++b) sides[b] = signals.side(static_cast<int>(b));
+  if (sides == sides_) return;
+  sides_ = std::move(sides);
+  for (auto& [output, gains] : gains_) {
+    const Derivatives derivatives = derivatives_of(output);
+    const auto raise = [&gains = gains](Of of, int index, double derivative) {
+      if (derivative == 0) return;
+      double& gain = gains[{of, index}];
+      gain = std::max(gain, std::abs(derivative));
+    };
+    for (std::size_t b = 0; b < derivatives.of_state.size(); ++b) raise(Of::state, static_cast<int>(b), derivatives.of_state[b]);
+    for (std::size_t s = 0; s < derivatives.of_sensor.size(); ++s) {
+      const Blocks::Sensor& sensor = blocks_.sensors[s];
+      if (sensor.motion >= 0 || sensor.what == Blocks::Sensor::What::force) continue;
+      raise(sensor.what == Blocks::Sensor::What::position ? Of::position : Of::velocity, sensor.index, derivatives.of_sensor[s]);
+    }
+  }
+}
+
+}  // namespace rheonet

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/network/index.hpp"
+#include "core/solve/tolerances.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Smallest share of its own size to which a quantity is resolved for the output of a block: an output that has just begun may still
+// grow. (A servo with a gain of 40 needs 0.05.)
+constexpr double least_for_output = 1e-2;
+// And no smaller than so many of its roundings.
+constexpr double output_grains = 64;
+
+}  // namespace
+
+/// Scales from blocks. A gain makes a large error of the output from a small error of its input: a recorded output allows each
+/// quantity that it follows from an equal part of its own error. A force that follows from a position allows its error over the
+/// slope: a stop in the way of a far-travelling mass deflects little. At contact, a mass brings along a force v sqrt(k m).
+void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
+  if (network_.blocks.blocks.empty()) return;
+  for (std::size_t k = 0; k < sorts; ++k) block_scale_[k].assign(seen_[k].size(), std::numeric_limits<double>::infinity());
+  BlockSignals& blocks = dae_->drive().blocks();
+  for (std::size_t b = 0; b < block_output_seen_.size(); ++b) {
+    block_output_seen_[b] = std::max(block_output_seen_[b], std::abs(dae_->output(static_cast<int>(b))));
+  }
+  block_gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
+    // Each quantity in turn takes up the errors of all of them.
+    const double allowed = block_output_seen_[at(block)] / (together * together * gain);
+    const bool state = of == BlockGains::Of::state;
+    const auto sort = static_cast<std::size_t>(state ? Sort::block : of == BlockGains::Of::position ? Sort::position : Sort::velocity);
+    const std::size_t k = at(state ? blocks.state_of(index) : dae_->structure().rigid[at(index)]);
+    if (k >= block_scale_[sort].size()) return;
+    const double least = std::max(least_for_output, output_grains * std::numeric_limits<double>::epsilon() / local()) * seen_[sort][k];
+    if (allowed > 0) block_scale_[sort][k] = std::min(block_scale_[sort][k], std::max(allowed, least));
+  });
+  if (network_.blocks.sensors.empty()) return;
+  blocks.update_slopes(dae_->drive().past());
+  for (std::size_t f = 0; f < network_.forces.size(); ++f) {
+    const int block = network_.forces[f].block;
+    if (block < 0) continue;
+    block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->drive().force[f]));
+    const double seen = std::max(block_force_seen_[f], floor_of_kind * largest_force);
+    for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
+      const Blocks::Sensor& sensor = network_.blocks.sensors[s];
+      if (sensor.what != Blocks::Sensor::What::position) continue;
+      const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
+      const NodeId node = dae_->structure().rigid[at(sensor.index)];
+      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae_->structure().mass[at(node)]));
+      if (block_scale_[static_cast<std::size_t>(Sort::position)].empty()) continue;
+      double& scale = block_scale_[static_cast<std::size_t>(Sort::position)][at(sensor.index)];
+      if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);
+    }
+  }
+}
+
+}  // namespace rheonet
