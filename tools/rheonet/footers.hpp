@@ -32,7 +32,7 @@ inline constexpr const char* footer_of_effects =
     "  rheonet effects scene.toml\n"
     "  rheonet effects scene.toml --within 1e-4 -o effects.csv\n\n"
     "Exit status: 0 done; 1 the full model could not be simulated, the command was interrupted, or the output could\n"
-    "not be written; 2 the scene or the command line is wrong.";
+    "not be written to its end; 2 the scene or the command line is wrong, or an output file cannot be opened.";
 
 inline constexpr const char* footer_of_compare =
     "Examples:\n"
@@ -42,8 +42,8 @@ inline constexpr const char* footer_of_compare =
     "end of the shortest run. RANGE is from:to:count, from:to:count:log or value,value,...; with a RANGE, -o writes\n"
     "the table of differences instead of the rows.\n\n"
     "Exit status: 0 done, and within --within; 1 not within, a scene could not be simulated, the comparison was\n"
-    "interrupted (the finished values of RANGE are kept), or the output could not be written; 2 a scene or the\n"
-    "command line is wrong.";
+    "interrupted (the finished values of RANGE are kept), or the output could not be written to its end; 2 a scene or the\n"
+    "command line is wrong, or an output file cannot be opened.";
 
 inline constexpr const char* footer_of_precision =
     "Examples:\n"
@@ -52,7 +52,7 @@ inline constexpr const char* footer_of_precision =
     "  rheonet precision one-element.toml --variant wired.toml --pair oil.force=oil.spring.force\n"
     "  rheonet precision layers.toml --variant parameters.N=10 --variant \"parameters.N=20; parameters.gap=2 mm\"\n\n"
     "Exit status: 0 done; 1 the scene could not be simulated, the command was interrupted, or the output could not\n"
-    "be written; 2 the scene or the command line is wrong.";
+    "be written to its end; 2 the scene or the command line is wrong, or an output file cannot be opened.";
 
 inline constexpr const char* footer_of_sweep =
     "Examples:\n"
@@ -67,7 +67,8 @@ inline constexpr const char* footer_of_sweep =
     "supplied, energy stored; steps, events. With measures a run is one row; without measures it has the rows of `run`. Headings have\n"
     "the SI unit of a column, as in `max(k1.force) [N]`.\n\n"
     "Exit status: 0 every run is done; 1 a run could not be read or simulated (the column `error` says why), the sweep\n"
-    "was interrupted, or its rows could not be written; 2 the scene or the command line is wrong.";
+    "was interrupted, or its rows could not be written to their end; 2 the scene or the command line is wrong, or an output file\n"
+    "cannot be opened.";
 
 inline constexpr const char* footer_of_plot =
     "Examples:\n"
@@ -78,14 +79,15 @@ inline constexpr const char* footer_of_plot =
     "columns: output of `run` or `sweep`, or columns with units, as `torque [in*ozf]`. Without -y all columns are drawn over\n"
     "the first. Each quantity has a panel, over one horizontal axis. Each run of a sweep is a curve. A measure is a column:\n"
     "-y 'value(k1.force, 2 s)'.\n\n"
-    "Exit status: 0 done; 1 a scene could not be simulated, or the figure could not be written; 2 a file or the\n"
-    "command line is wrong.";
+    "Exit status: 0 done; 1 a scene could not be simulated, or the figure could not be written to its end; 2 a file or the\n"
+    "command line is wrong, or an output file cannot be opened.";
 
 inline constexpr const char* footer_of_draw =
     "Examples:\n"
     "  rheonet draw scene.toml -o network.svg\n"
     "  rheonet draw scene.toml -o network.png --title 'Model A' --no-values\n\n"
-    "Exit status: 0 done; 1 the figure could not be written; 2 the scene or the command line is wrong.";
+    "Exit status: 0 done; 1 the figure could not be written to its end; 2 the scene or the command line is wrong, or an\n"
+    "output file cannot be opened.";
 
 inline constexpr const char* footer_of_report =
     "Examples:\n"
@@ -93,7 +95,8 @@ inline constexpr const char* footer_of_report =
     "  rheonet report stiff.toml soft.toml -o both.html --certify\n\n"
     "The report is one file. It opens in any browser without a network, and prints well.\n\n"
     "Exit status: 0 done; 1 a scene could not be simulated to its end, a claim of [expect] fails, a scene could not be\n"
-    "certified (the report says so), or the report could not be written; 2 a scene or the command line is wrong.";
+    "certified (the report says so), or the report could not be written to its end; 2 a scene or the command line is wrong, or an\n"
+    "output file cannot be opened.";
 
 inline constexpr const char* footer_of_serve =
     "Examples:\n"
