@@ -223,13 +223,14 @@ const RegisterComponent register_davidenkov({
             .equation = R"(f = f_r + 2 s\,g\!\left(\frac{|d - d_r|}{2}\right)\ \text{after a reversal},\qquad g(x) = \sigma\left(x - \frac{x^{n}}{n X^{n-1}}\right))",
             .source = "N. N. Davidenkov 1938 (Zh. Tekh. Fiz. 8, 483); nested loops: G. Masing 1926, E. Madelung 1905; "
                       "energies: W. D. Iwan 1966; P. L. Dahl 1982, Fig. 1",
-            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and constant from there. After "
-                     "each reversal the force follows the same curve, drawn twice as large, from the turning point (d_r, f_r). "
-                     "Where an inner loop closes, the force continues on the branch that the loop had left. A cycle of "
-                     "amplitude a < X is Davidenkov's loop f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with "
-                     "eta = (2 X)^(1-n), upper signs while d grows; the law need not know the amplitude. For a given eta "
-                     "choose coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)). A loop dissipates "
-                     "sigma eta (2 a)^(n+1) (n-1)/(n (n+1)). With `exponent` = inf the law is an sfm of exponent 0.",
+            .notes = "First loading: f = s g(abs(d)), up to Fc at d = X = n/(n-1) Fc/sigma, and constant from there.\n"
+                     "After each reversal the force follows the same curve from the turning point (d_r, f_r), scaled by 2 in both "
+                     "directions. Where an inner loop closes, the force continues on the branch that the loop had left.\n"
+                     "A cycle of amplitude a < X is Davidenkov's loop f = sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with "
+                     "eta = (2 X)^(1-n), upper signs while d grows. The element does not need to know the amplitude.\n"
+                     "For a given eta choose coulomb = sigma (n-1)/(2 n) eta^(-1/(n-1)).\n"
+                     "A loop dissipates sigma eta (2 a)^(n+1) (n-1)/(n (n+1)).\n"
+                     "With `exponent = inf` the law is an `sfm` of exponent 0.",
         },
     .role = Role::deflection,
     .limits = spring_to_slider({{.when = "exponent = inf", .becomes = "sfm",

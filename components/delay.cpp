@@ -12,14 +12,18 @@ const RegisterComponent register_delay({
             .parameters =
                 {
                     {.name = "delay", .quantity = Quantity::time, .lower_open = false, .symbol = "T", .description = "time between input and output; 0: none"},
-                    block_initial("output until the first of the input comes through"),
+                    block_initial("output for the first T seconds"),
                 },
             .effects = {{Effect::delay, "delay", 0}},
             .summary = "transport delay",
             .law = "y(t) = u(t - T), y0 before",
             .equation = R"(y(t) = u(t - T),\quad y_0\ \text{before})",
             .source = "definition",
-            .notes = "An input that is a function of time alone is delayed exactly. For other inputs the integrator stores the steps of the last T seconds. A step may be longer than the delay, unless the output prescribes a motion, or the input can jump because no mass keeps it from doing so. Jumps, corners and events leave the delay exactly T later.",
+            .notes = "An input that is a function of time alone is delayed exactly. For other inputs the integrator stores the steps of the last T "
+                     "seconds.\n"
+                     "A step may be longer than the delay, unless the output prescribes a motion, or the input can jump because no mass "
+                     "keeps it from doing so.\n"
+                     "Jumps, corners and events leave the delay exactly T later.",
         },
     .role = Role::block,
     .block = [](std::span<const double> v) { return BlockLaw{.delay = v[0], .initial = v[1]}; },

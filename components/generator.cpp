@@ -37,7 +37,7 @@ const RegisterComponent register_generator({
             .law = "y(t) given",
             .equation = R"(y(t)\ \text{given})",
             .source = "definition",
-            .notes = "Takes every signal that a force or a motion takes.",
+            .notes = "Accepts every signal shape of `force` and `motion`.",
         },
     .role = Role::block,
     .block = [](std::span<const double>) { return BlockLaw{}; },

@@ -10,7 +10,7 @@ Slip coulomb(std::span<const double> v) { return {.coulomb = v[0], .breakaway = 
 
 std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
   if (v[1] >= v[0]) return {};
-  return Misfit{"breakaway", "is less than `coulomb`: once at rest it would have to slip at a force that holds it"};
+  return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
 }
 
 const RegisterComponent register_slider({

@@ -68,12 +68,13 @@ const RegisterComponent register_vfm({
                         {Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()},
                         {Effect::delay, "delay", 0}},
             .absences = {{{Effect::elasticity}, {{"delay", 0}}}},
-            .summary = "viscous friction model: Newton's law with a lag",
+            .summary = "viscous friction model: linear viscous damping that follows the velocity with a lag",
             .law = "(B/sigma) df/dt + f = B w(t - TD)",
             .equation = R"(\frac{B}{\sigma}\,\frac{\mathrm{d}f}{\mathrm{d}t} + f = B\,w(t - T_D))",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24, 62 (J. C. Maxwell 1867 by its form)",
-            .notes = "Stores f^2/(2 sigma), dissipates f^2/B. The delayed velocity is 0 before the start. With a delay the element is not "
-                     "passive: it can return energy and drive an oscillation. Next to a node with neither mass nor prescribed "
+            .notes = "Stores f^2/(2 sigma), dissipates f^2/B. The delayed velocity is 0 before the start.\n"
+                     "With a delay the element is not passive: it can return energy and drive an oscillation.\n"
+                     "Next to a node with neither mass nor prescribed "
                      "motion, no step is longer than a third of the delay, so that a very short delay costs time.",
         },
     .role = Role::deflection,

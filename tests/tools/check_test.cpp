@@ -201,8 +201,8 @@ stop = 1
 TEST_CASE("values that contradict each other are mistakes of the netlist, each at its place") {
   const std::pair<const char*, const char*> cases[] = {
       {"slider\", coulomb = 2, breakaway = 1.9999 }",
-       "scene.toml:2:76: error: `breakaway` is less than `coulomb`: once at rest it would have to slip at a force that "
-       "holds it\n"},
+       "scene.toml:2:76: error: `breakaway` must be at least `coulomb`: under a force between the two the slider could neither "
+       "stick nor slip\n"},
       {"sfm\", stiffness = 31, coulomb = 1.7, f0 = -1.70001 }",
        "scene.toml:2:84: error: `f0` lies beyond `coulomb`: a force that it cannot have\n"},
       {"cfm\", stiffness = 31, damping = 3, coulomb = 1.7, f0 = 1.70001 }",

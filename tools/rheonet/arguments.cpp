@@ -46,8 +46,15 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return name.empty() ? "" : fmt::format("did you mean `{}`?", name);
 }
 
-// The first word that nobody asked for.
-void refuse_extra_words(const CLI::App& app) {
+/// Whether `word` follows a value of --set on the command line: `--set k1.stiffness=40 N/m` without quotes.
+bool follows_override(const std::string& word, const std::vector<std::string>& words) {
+  for (std::size_t i = 2; i < words.size(); ++i)
+    if (words[i] == word && (words[i - 1].starts_with("--set=") || (words[i - 2] == "--set" && words[i - 1].find('=') != std::string::npos))) return true;
+  return false;
+}
+
+// The first word that nobody asked for. `words` are those of the command line.
+void refuse_extra_words(const CLI::App& app, const std::vector<std::string>& words) {
   const auto is_option = [](const std::string& word) { return word.size() > 1 && word[0] == '-'; };
   const CLI::App* command = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
   for (const CLI::App* level : {&app, command}) {
@@ -67,7 +74,8 @@ void refuse_extra_words(const CLI::App& app) {
         if (hint.empty() && word.ends_with(".toml")) hint = fmt::format("to simulate a scene: `rheonet run {}`", word);
         throw WrongCommandLine{fmt::format("unknown command `{}`", word), hint};
       }
-      throw WrongCommandLine{fmt::format("unexpected argument `{}`", word), ""};
+      throw WrongCommandLine{fmt::format("unexpected argument `{}`", word),
+                             follows_override(word, words) ? "write a value that has a space in quotes: --set 'PATH=VALUE UNIT'" : ""};
     }
   }
 }
@@ -243,7 +251,7 @@ struct CommandLine {
     add_overrides(command);
   }
   void add_accuracy(CLI::App* command) {
-    command->add_option("--accuracy", accuracy, "largest error of each record, relative to its largest magnitude")
+    command->add_option("--accuracy", accuracy, "allowed error of each record, relative to its largest magnitude")
         ->type_name("E");
   }
 
@@ -366,18 +374,18 @@ std::variant<Arguments, ExitStatus> read_arguments(std::vector<std::string> word
 
   arguments.words = words;
   words = with_every_option(words);
-  std::reverse(words.begin(), words.end());  // the order in which CLI11 wants a vector
+  std::vector<std::string> reversed(words.rbegin(), words.rend());  // the order in which CLI11 wants a vector
   try {
     try {
-      app.parse(words);
+      app.parse(reversed);
     } catch (const CLI::Success& help_or_version) {
       app.exit(help_or_version);
       return done;
     } catch (const CLI::ParseError& error) {
-      refuse_extra_words(app);  // a misspelt word is often why another is missing
+      refuse_extra_words(app, words);  // a misspelt word is often why another is missing
       throw WrongCommandLine{parse_error_in_words(error), ""};
     }
-    refuse_extra_words(app);
+    refuse_extra_words(app, words);
     if (accuracy) arguments.accuracy = read_number("--accuracy", *accuracy);
     if (within) arguments.within = read_number("--within", *within);
     if (order) arguments.order = read_whole("--order", *order, 1, 5);

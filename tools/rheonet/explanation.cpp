@@ -100,17 +100,17 @@ Passage cost_of(const Scene& scene, const Explanation& e) {
     add(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries, c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
   std::vector<std::string> times;
   const auto add_time = [&times](const char* of, double rate) {
-    if (rate > 0 && std::isfinite(1 / rate)) times.push_back(fmt::format("{}: {}", of, duration(1 / rate)));
+    if (rate > 0 && std::isfinite(1 / rate)) times.push_back(fmt::format("{} ({})", duration(1 / rate), of));
   };
-  add_time("the network by itself", c.fastest_rate);
+  add_time("the network", c.fastest_rate);
   add_time("the drives", c.fastest_drive);
-  if (!times.empty()) add(fmt::format("the fastest that changes takes a time of 1/omega: {}", fmt::join(times, "; ")));
+  if (!times.empty()) add(fmt::format("shortest time scale, 1/omega: {}", fmt::join(times, ", ")));
   if (c.known_instants > 0) add(plural(static_cast<std::size_t>(c.known_instants), "start") + " of the integrator at jumps and corners of signals");
   if (c.tried >= 1) {
     add(fmt::format("{} to accuracy {:g}: {} of CPU time", plural(static_cast<std::size_t>(c.steps), "step"), scene.accuracy, duration(c.seconds())));
   } else if (c.tried_steps > 0) {
-    add(fmt::format("about {:.2g} steps to accuracy {:g}, {} each: {} of CPU time, if all goes on as the first {} steps do, "
-                    "which come to {:.2g} % of the run",
+    add(fmt::format("about {:.2g} steps to accuracy {:g}, {} each: {} of CPU time, if the rest of the run resembles the first {} steps, "
+                    "{:.2g} % of it",
                     c.steps, scene.accuracy, duration(c.seconds_a_step), duration(c.seconds()), c.tried_steps, 100 * c.tried));
   }
   return passage;

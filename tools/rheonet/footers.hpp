@@ -8,16 +8,17 @@ inline constexpr const char* footer_of_rheonet =
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet components spring\n"
     "`rheonet COMMAND --help` describes the options of a command.\n\n"
-    "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, with exit status 1; the whole rows up to there are kept.\n"
+    "Ctrl-C (SIGINT) and SIGTERM end any command within 2 s, with exit status 1. Complete rows written so far are kept.\n"
     "A second signal ends it at once.";
 inline constexpr const char* footer_of_run =
     "Examples:\n"
     "  rheonet run scene.toml -o result.csv\n"
     "  rheonet run scene.toml --set k1.stiffness=\"400 N/m\" simulate.stop=\"5 s\"\n\n"
-    "Rows and events are CSV: FILE ends in .csv, .txt, .dat or has no ending. A run that is interrupted leaves the rows up to\n"
-    "there; with --certify it leaves an earlier file as it was.\n\n"
-    "Exit status: 0 done; 1 the scene could not be simulated, the run was interrupted, a file could not be written,\n"
-    "a claim of [expect] fails, or the rows could not be certified; 2 the scene or the command line is wrong.";
+    "Rows and events are CSV: FILE ends in .csv, .txt, .dat or has no ending. An interrupted run leaves the rows\n"
+    "written so far; with --certify it leaves an earlier file as it was.\n\n"
+    "Exit status: 0 done; 1 the scene could not be simulated, the run was interrupted, a file could not be written\n"
+    "to its end, a claim of [expect] fails, or the rows could not be certified; 2 the scene or the command line is wrong, or\n"
+    "an output file cannot be opened.";
 inline constexpr const char* footer_of_check =
     "Exit status: 0 no mistake; 1 the scene can be read but not simulated; 2 the scene or the command line is wrong.";
 
