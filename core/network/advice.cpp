@@ -30,7 +30,7 @@ Diagnostic warning(const Spot& spot, std::string message, std::string hint) {
   return {.severity = Severity::warning, .spot = spot, .message = std::move(message), .hint = std::move(hint)};
 }
 
-bool is_given(double start) { return !std::isnan(start) && start != 0; }
+bool begins_elsewhere(double start) { return !std::isnan(start) && start != 0; }
 
 /// The last part of a node's path in lower case, behind the path up to there.
 std::string without_capitals(const std::string& path) {
@@ -143,7 +143,7 @@ class Adviser {
     }
     for (std::size_t n = 0; n < scene_.nodes.size(); ++n) {
       const SceneNode& node = scene_.nodes[n];
-      if (parts.of_node[n] >= 0 && (is_given(node.position) || is_given(node.velocity))) driven[at(parts.of_node[n])] = 1;
+      if (parts.of_node[n] >= 0 && (begins_elsewhere(node.position) || begins_elsewhere(node.velocity))) driven[at(parts.of_node[n])] = 1;
     }
     return driven;
   }
@@ -157,7 +157,7 @@ class Adviser {
     const std::vector<Parameter>& parameters = component.declaration.parameters;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const bool displaces = parameters[k].kind == Parameter::Kind::initial || parameters[k].quantity == Quantity::position;
-      if (component.role != Role::block && displaces && is_given(element.values[k])) return true;
+      if (component.role != Role::block && displaces && begins_elsewhere(element.values[k])) return true;
     }
     return false;
   }
