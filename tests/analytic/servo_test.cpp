@@ -127,10 +127,10 @@ s = { type = "slider", between = ["b", "ground"], coulomb = 0.4, breakaway = 0.5
 push = { type = "force", at = "b", force = { square = 2.1, frequency = 0.7 } }
 )";
   const std::string rest = "[simulate]\nstop = 6\noutput = { points = 301 }\nrecord = [\"a.position\", \"b.velocity\", \"s.force\"]\n";
-  const Trajectory passive = simulate(std::string(network) + "c = { type = \"dashpot\", between = [\"a\", \"b\"], damping = 0.9 }\n" + rest, 1e-8);
-  const Trajectory active = simulate(std::string(network) +
-      "g = { type = \"gain\", in = \"l.velocity\", gain = -0.9 }\n"
-      "f = { type = \"force\", between = [\"a\", \"b\"], force = { block = \"g\" } }\n" + rest, 1e-8);
+  const Trajectory passive = simulate(fmt::format("{}c = {{ type = \"dashpot\", between = [\"a\", \"b\"], damping = 0.9 }}\n{}", network, rest), 1e-8);
+  const Trajectory active = simulate(fmt::format(
+      "{}g = {{ type = \"gain\", in = \"l.velocity\", gain = -0.9 }}\n"
+      "f = {{ type = \"force\", between = [\"a\", \"b\"], force = {{ block = \"g\" }} }}\n{}", network, rest), 1e-8);
   for (const char* record : {"a.position", "b.velocity"})
     for (std::size_t row = 0; row < active.time().size(); ++row)
       CHECK(std::abs(active[record][row] - passive[record][row]) <= 1e-7 * passive.scale(record));

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -267,7 +269,8 @@ TEST_CASE("the same text is evaluated anew in each environment") {
 }
 
 TEST_CASE("expressions are as deep as anybody writes them, and no deeper") {
-  check_plain(std::string(500, '(') + "c" + std::string(500, ')'), 1.75);
-  CHECK(refusal(std::string(501, '(') + "c" + std::string(501, ')')).message == "parentheses are nested too deeply");
+  const auto nested = [](std::size_t depth) { return fmt::format("{}c{}", std::string(depth, '('), std::string(depth, ')')); };
+  check_plain(nested(500), 1.75);
+  CHECK(refusal(nested(501)).message == "parentheses are nested too deeply");
   CHECK(refusal(std::string(100000, '(')).offset == 500);
 }

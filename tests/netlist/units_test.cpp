@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -145,8 +147,9 @@ TEST_CASE("mistakes in a product are named with their place") {
 TEST_CASE("names and nesting without end are refused at once") {
   CHECK(refusal("radomegaNmNmNmNmNmNmNmNmNmNmNmNmNmN").message.find("unknown unit") == 0);
   CHECK(refusal("omegaNNNNNNN").offset == 0);
-  CHECK(unit((std::string(100, '(') + "m" + std::string(100, ')')).c_str()).factor == 1);
-  CHECK(refusal((std::string(101, '(') + "m" + std::string(101, ')')).c_str()).message ==
+  const auto nested = [](std::size_t depth) { return fmt::format("{}m{}", std::string(depth, '('), std::string(depth, ')')); };
+  CHECK(unit(nested(100).c_str()).factor == 1);
+  CHECK(refusal(nested(101).c_str()).message ==
         "parentheses are nested too deeply");
   CHECK(refusal(std::string(100000, '(').c_str()).offset == 100);
 }
