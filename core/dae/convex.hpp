@@ -15,7 +15,8 @@ namespace rheonet {
 /// where u is the change of x from what it starts from. That is the minimum of a convex function, found by Newton's method
 /// on an active set with exact line search. A branch whose law jumps at 0 joins its ends while its force stays within the
 /// jump. The change of a heavy node may be far below the rounding of x, and its force not below that of others: so they are
-/// kept apart. The same holds for w = x_a - x_b of a branch: steps add to it, so that a small w keeps all its digits. x stands for velocities, or for displacements: see instant.cpp and jump.cpp.
+/// kept apart. The same holds for w = x_a - x_b of a branch: steps add to it, so that a small w keeps all its digits. x stands for
+/// velocities, or for displacements: see instant.cpp and jump.cpp.
 class ConvexNetwork {
  public:
   struct Law {

@@ -86,7 +86,20 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     again = !broken.empty();
     stepped = false;
   }
+  count_from_turns(state);
   return change;
+}
+
+/// Friction that turns counts its deflection from there.
+void Instant::count_from_turns(State& state) const {
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      const double by = laws.batch->recentre(i, state.p[j]);
+      state.p[j] -= by;
+      state.offset[j] += by;
+    }
+  }
 }
 
 /// Between steps of the drive what a slider bears beyond its bound is an error of the integrator's steps. It has its bound then,

@@ -89,6 +89,7 @@ class Instant {
   Onset look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
                    const Nodal& now);
   bool breaks_loose(const Onset& onset) const;
+  void count_from_turns(State& state) const;
   void stop_at_turns(const Fired& fired, const Modes& modes, State& state);
   void add_nodes(Onset& onset, const State& state) const;
   void add_drive(Onset& onset);

@@ -14,7 +14,8 @@ struct State {
   std::vector<double> p;         ///< deflection of each deflection branch [m]
   std::vector<double> position;  ///< of each node [m]; kept up for those that are asked for
   std::vector<double> blocks;    ///< the states of those blocks that have one [unit of the output]
-  std::vector<double> offset;    ///< displacement less deflection of each deflection branch that does not creep [m]: constant between reversals
+  std::vector<double> offset;    ///< displacement less deflection of each deflection branch that does not creep [m]; changes at
+                                 ///< reversals only
 };
 
 /// A deflection branch that both directions hold at rest.

@@ -5,46 +5,12 @@
 #include <numbers>
 
 #include "core/netlist/counting.hpp"
+#include "core/netlist/finite_signal.hpp"
 #include "core/netlist/keys.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/units.hpp"
 
 namespace rheonet {
-
-namespace {
-
-/// Whether a wave, its rate and its period are finite. The corners of a triangle have 2/pi of the rate of a sine.
-bool is_finite_wave(double amplitude, double frequency, double offset) {
-  const bool has_period = frequency == 0 || std::isfinite(1 / frequency);
-  return has_period && std::isfinite(std::abs(offset) + std::abs(amplitude)) && std::isfinite(2 * std::numbers::pi * frequency) &&
-         std::isfinite(2 * std::numbers::pi * frequency * amplitude);
-}
-
-struct FiniteShape {
-  bool operator()(const Signal::Constant& s) const { return std::isfinite(s.value); }
-  bool operator()(const Signal::Step& s) const { return std::isfinite(s.offset + s.height); }
-  bool operator()(const Signal::Ramp& s) const { return std::isfinite(s.slope); }
-  bool operator()(const Signal::Sine& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
-  bool operator()(const Signal::Square& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
-  bool operator()(const Signal::Triangle& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
-  bool operator()(const Signal::Pulse& s) const { return is_finite_wave(s.height, s.frequency, s.offset); }
-  bool operator()(const Signal::Chirp& s) const {
-    return is_finite_wave(s.amplitude, s.frequency, s.offset) && is_finite_wave(s.amplitude, s.end_frequency, s.offset) &&
-           std::isfinite(2 * std::numbers::pi * (s.end_frequency - s.frequency) / s.duration);
-  }
-  bool operator()(const Signal::Table& s) const {
-    for (std::size_t i = 0; i < s.times.size(); ++i) {
-      if (!std::isfinite(s.offset + s.values[i])) return false;
-      if (i > 0 && s.times[i] > s.times[i - 1] && !std::isfinite((s.values[i] - s.values[i - 1]) / (s.times[i] - s.times[i - 1]))) return false;
-    }
-    return true;
-  }
-};
-
-/// Whether the values, rates and periods of a signal are finite.
-bool is_within_numbers(const Signal& signal) { return std::visit(FiniteShape{}, signal.shape()); }
-
-}  // namespace
 
 const std::vector<std::string>& SignalPlan::shape_names() {
   // In the order of Shape.
@@ -197,7 +163,7 @@ std::optional<Signal> SignalPlan::evaluate(const Environment& environment, Conte
   if (constant_ && made_) return made_;
   unit_ = quantity_ ? BlockUnit{dimension_of(*quantity_, context.domain), 0, false} : BlockUnit{};
   made_ = make(environment, context);
-  if (made_ && !is_within_numbers(*made_)) {
+  if (made_ && !is_finite(*made_)) {
     context.mistakes.error((file_name_ ? *file_name_ : points_.empty() ? main_.source() : points_.front().value.source()).spot,
                            "signal `" + name_ + "` has values, rates or periods beyond the range of numbers",
                            "a jump in a table is two points at one time");

@@ -33,10 +33,10 @@ std::vector<int> places(const std::vector<Conductance>& conductances, Eigen::Ind
   return place;
 }
 
-/// Unknowns by their places.
-class Elimination {
+/// A network of conductances from which unknowns are eliminated in the order of their places.
+class StarMesh {
  public:
-  Elimination(const std::vector<Conductance>& conductances, const std::vector<int>& place)
+  StarMesh(const std::vector<Conductance>& conductances, const std::vector<int>& place)
       : later_(place.size()), held_(place.size(), 0), sum_(place.size(), 0), next_(place.size(), 0), among_(place.size(), 0) {
     for (const auto& [a, b, value] : conductances) {
       if (a == b) continue;
@@ -97,22 +97,22 @@ class Elimination {
     }
   }
 
-  std::vector<std::vector<Neighbour>> later_;  ///< conductances from each unknown to the unknowns eliminated after it
-  std::vector<double> held_;                   ///< conductance from each unknown to the held value
-  std::vector<double> sum_;                    ///< pivot: sum of both when the unknown is eliminated
-  std::vector<std::ptrdiff_t> next_;           ///< index into `later_`: first neighbour that is not eliminated yet
-  std::vector<double> among_;                  ///< work: the conductances of the pivot's row, by place
+  std::vector<std::vector<Neighbour>> later_;  ///< of each unknown: its conductances to unknowns that go after it
+  std::vector<double> held_;                   ///< of each unknown: its conductance to the held node
+  std::vector<double> sum_;                    ///< the pivot: the sum of both when the unknown goes
+  std::vector<std::ptrdiff_t> next_;           ///< index into `later_`: the first neighbour that is still there
+  std::vector<double> among_;                  ///< conductances of the row of the pivot, by place; 0 between pivots
 };
 
 }  // namespace
 
 bool solve_conductances(const std::vector<Conductance>& conductances, Eigen::VectorXd& x) {
   const std::vector<int> place = places(conductances, x.size());
-  Elimination elimination(conductances, place);
-  if (!elimination.eliminate()) return false;
+  StarMesh network(conductances, place);
+  if (!network.eliminate()) return false;
   std::vector<double> ordered(place.size());
   for (std::size_t k = 0; k < place.size(); ++k) ordered[at(place[k])] = x[static_cast<Eigen::Index>(k)];
-  elimination.solve(ordered);
+  network.solve(ordered);
   for (std::size_t k = 0; k < place.size(); ++k) x[static_cast<Eigen::Index>(k)] = ordered[at(place[k])];
   return true;
 }

@@ -137,7 +137,7 @@ void Claims::end_piece(const State& state, Course& course, double to, double val
 
 void Claims::piece(double from, double to, const Read& read, int halvings, double parent) {
   if (!any_over_time_) {
-    // Of values at an instant alone what lies between is not asked for.
+    // All claims are of values at one instant: they do not depend on what happens between two steps.
     values_ = read(to);
     see(values_);
     for (State& state : claims_) {

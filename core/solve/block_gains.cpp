@@ -32,7 +32,7 @@ BlockGains::BlockGains(const Network& network) : blocks_(network.blocks) {
   for (const int block : recorded_blocks(network)) gains_[block] = {};
 }
 
-/// From the output back to what it follows from. A loop through delays is gone through once.
+/// Goes from the output back to sensors and states. Passes a loop through delays once.
 BlockGains::Derivatives BlockGains::derivatives_of(int output) const {
   const std::size_t count = blocks_.blocks.size();
   Derivatives result{std::vector<double>(count, 0), std::vector<double>(blocks_.sensors.size(), 0)};

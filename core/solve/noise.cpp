@@ -43,33 +43,32 @@ double Tolerances::noise(int branch) const {
 
 void Tolerances::find_noise(const std::vector<double>& slope) {
   const Structure& structure = dae_->structure();
-  find_left_forces(slope);
+  find_force_errors(slope);
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
     slider_noise_[k] = noise_of(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
   }
   find_slip_noise(slope);
 }
 
-/// What steps and rounding may leave of forces. A dilatant law would make a large velocity of it near rest.
-void Tolerances::find_left_forces(const std::vector<double>& slope) {
-  left_force_.clear();
+/// Errors that steps and round-off may add to forces. Near rest, a dilatant law turns a small force into a large velocity.
+void Tolerances::find_force_errors(const std::vector<double>& slope) {
+  force_error_.clear();
   if (!dae_->rough()) return;
-  left_force_.assign(part_.size(), 0);
-  for (std::size_t n = 0; n < left_force_.size(); ++n) left_force_[n] = to_and_fro * force_rounding_[n];
+  force_error_ = force_rounding_;
   const Structure& structure = dae_->structure();
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
     const int unknown = dae_->deflection_unknown(static_cast<int>(j));
     if (unknown < 0) continue;
-    double& most = left_force_[at(part_of(structure.deflections[j]))];
+    double& most = force_error_[at(part_of(structure.deflections[j]))];
     most = std::max(most, std::abs(slope[j]) * tolerance_[at(unknown)]);
   }
 }
 
 double Tolerances::unfelt_dilatant(int rate) const {
-  if (left_force_.empty()) return 0;
+  if (force_error_.empty()) return 0;
   std::size_t i = 0;
   const RateBatch& law = network_.rate_of(rate, i);
-  return law.velocity_at(i, left_force_[at(part_of(dae_->structure().rates[at(rate)]))]);
+  return law.velocity_at(i, force_error_[at(part_of(dae_->structure().rates[at(rate)]))]);
 }
 
 /// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the

@@ -15,6 +15,10 @@ namespace {
 constexpr double force_grains = 16;
 // A difference of two velocities that is larger than this share of the smaller one is told from none, with something to spare.
 constexpr double different = 2.2 * velocity_grain;
+// Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
+// slopes are of the velocities that it comes from.
+constexpr double to_and_fro = 4;
+
 double speed_at(const Dae::View& view, const Branch& b) {
   return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
 }
@@ -186,7 +190,7 @@ void Tolerances::find_block_rounding() {
 /// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, at
 /// rest the most. That of forces grows with them up to the next restart.
 void Tolerances::find_force_rounding(const Dae::View& view) {
-  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  constexpr double eps = to_and_fro * force_grains * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
   const std::vector<double>& slope = dae_->slopes();
   const auto add = [&](NodeId part, double f) { force_rounding_[at(part)] = std::max(force_rounding_[at(part)], eps * std::abs(f)); };
@@ -203,11 +207,11 @@ void Tolerances::find_force_rounding(const Dae::View& view) {
   for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
     if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
     double& largest = force_rounding_[at(part_of(structure.rates[r]))];
-    largest = std::max(largest, dashpot_rounding_[r]);
+    largest = std::max(largest, to_and_fro * dashpot_rounding_[r]);
   }
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
     double& largest = rounding_at_rest_[at(part)];
-    largest = std::max(largest, law.velocity_at(i, to_and_fro * force_rounding_[at(part)]));
+    largest = std::max(largest, law.velocity_at(i, force_rounding_[at(part)]));
   });
 }
 
@@ -234,7 +238,7 @@ void Tolerances::find_rounding_now(const Dae::View& view) {
   rounding_now_ = plain_rounding_;
   if (!dae_->rough()) return;
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t r, int part) {
-    const double f = std::abs(view.rate_force[r]), rounding = to_and_fro * force_rounding_[at(part)];
+    const double f = std::abs(view.rate_force[r]), rounding = force_rounding_[at(part)];
     double& largest = rounding_now_[at(part)];
     largest = std::max(largest, law.velocity_at(i, f + rounding) - law.velocity_at(i, f));
   });

@@ -155,7 +155,6 @@ class Run {
     }
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
-    recentre();
     system_ = &systems_.of_modes();
     for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
       if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
@@ -177,16 +176,6 @@ class Run {
       if (t > 0) tell(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
-  }
-
-  void recentre() {
-    for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
-      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        const double by = laws.batch->recentre(i, state_.p[at(laws.first) + i]);
-        state_.p[at(laws.first) + i] -= by;
-        state_.offset[at(laws.first) + i] += by;
-      }
-    }
   }
 
   void note_once(const std::string& note) {

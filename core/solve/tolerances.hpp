@@ -56,7 +56,7 @@ class Tolerances {
   /// Velocity at which the force of a pseudoplastic dashpot is no more than that, or at which so much of it comes of
   /// rounding [m/s]. Infinite as long as it has had no force.
   double unfelt(int rate) const;
-  /// Velocity at which the force of a dilatant dashpot is no more than what steps and rounding may leave of forces around it [m/s].
+  /// Velocity at which the force of a dilatant dashpot is as small as the error of the forces around it [m/s].
   double unfelt_dilatant(int rate) const;
   /// Velocity below which the reversal of a branch is noise [m/s].
   double noise(int branch) const;
@@ -113,7 +113,7 @@ class Tolerances {
   void loosen_balanced_forces(const std::vector<double>& slope);
   double noise_of(bool given, double flow, const Branch& b, double of_difference) const;
   void find_noise(const std::vector<double>& slope);
-  void find_left_forces(const std::vector<double>& slope);
+  void find_force_errors(const std::vector<double>& slope);
   void find_slip_noise(const std::vector<double>& slope);
   void find_force_rounding(const Dae::View& view);
   void find_difference_rounding(const Dae::View& view);
@@ -183,11 +183,8 @@ class Tolerances {
   /// That of a velocity, and how long it adds up in what comes of it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
   std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
-  // Of each part: what rounding leaves of its forces [N], and of its velocities [m/s].
+  // Of each part: round-off of its forces near rest [N], and of its velocities [m/s].
   std::vector<double> force_rounding_;
-  /// Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its slopes
-  /// are of the velocities that it comes from.
-  static constexpr double to_and_fro = 4;
   std::vector<double> plain_rounding_;    ///< but for dilatant laws
   std::vector<double> rounding_at_rest_;  ///< with those at rest
   std::vector<double> rounding_now_;      ///< with those as they are at present
@@ -207,7 +204,7 @@ class Tolerances {
   double largest_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
-  std::vector<double> left_force_;  ///< what steps may leave of forces in each part [N]; empty where there are no dilatant laws
+  std::vector<double> force_error_;  ///< of each part: what steps and round-off may add to its forces [N]; empty without dilatant laws
   std::vector<double> slider_noise_, slip_noise_, tolerance_, grain_;
   std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
   std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]

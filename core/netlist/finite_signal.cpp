@@ -1,0 +1,44 @@
+#include "core/netlist/finite_signal.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+namespace rheonet {
+
+namespace {
+
+/// Whether a wave, its rate and its period are finite. The corners of a triangle have 2/pi of the rate of a sine.
+bool is_finite_wave(double amplitude, double frequency, double offset) {
+  const bool has_period = frequency == 0 || std::isfinite(1 / frequency);
+  return has_period && std::isfinite(std::abs(offset) + std::abs(amplitude)) && std::isfinite(2 * std::numbers::pi * frequency) &&
+         std::isfinite(2 * std::numbers::pi * frequency * amplitude);
+}
+
+/// Whether the values, rates and periods of a shape are finite.
+struct FiniteShape {
+  bool operator()(const Signal::Constant& s) const { return std::isfinite(s.value); }
+  bool operator()(const Signal::Step& s) const { return std::isfinite(s.offset + s.height); }
+  bool operator()(const Signal::Ramp& s) const { return std::isfinite(s.slope); }
+  bool operator()(const Signal::Sine& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
+  bool operator()(const Signal::Square& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
+  bool operator()(const Signal::Triangle& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
+  bool operator()(const Signal::Pulse& s) const { return is_finite_wave(s.height, s.frequency, s.offset); }
+  bool operator()(const Signal::Chirp& s) const {
+    return is_finite_wave(s.amplitude, s.frequency, s.offset) && is_finite_wave(s.amplitude, s.end_frequency, s.offset) &&
+           std::isfinite(2 * std::numbers::pi * (s.end_frequency - s.frequency) / s.duration);
+  }
+  bool operator()(const Signal::Table& s) const {
+    for (std::size_t i = 0; i < s.times.size(); ++i) {
+      if (!std::isfinite(s.offset + s.values[i])) return false;
+      if (i > 0 && s.times[i] > s.times[i - 1] && !std::isfinite((s.values[i] - s.values[i - 1]) / (s.times[i] - s.times[i - 1]))) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+bool is_finite(const Signal& signal) { return std::visit(FiniteShape{}, signal.shape()); }
+
+}  // namespace rheonet
