@@ -45,14 +45,12 @@ void Dae::number_unknowns() {
   // dashpot at each node.
   Sets told(network.nodes());
   std::vector<double> softest(network.nodes(), std::numeric_limits<double>::infinity());
-  std::set<std::pair<NodeId, NodeId>> power_laws;  // between these ends
   for (NodeId node : network.node_order) {
     if (!massless(node)) told.join(node, ground);
   }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
-      if (laws.batch->growth(i).exponent != 1) power_laws.insert(std::minmax(b.a, b.b));
       if (!std::isfinite(laws.batch->impulse(i))) continue;
       told.join(b.a, b.b);
       if (laws.batch->impulse(i) == 0) continue;
@@ -74,16 +72,13 @@ void Dae::number_unknowns() {
       // velocity is.
       const bool needed = std::isfinite(impulse) || (told.find(b.a) != told.find(b.b) && !told_by_others[at(laws.first) + i]);
       const bool at_massless = massless(b.a) || massless(b.b);
-      // The difference of two velocities keeps none of the digits of a small one, whatever holds the node: a slider of a small
-      // bound, say. Beside ground it is the velocity itself. A power law beside it has its force among the unknowns already: from
-      // rest, where its slope is 0, Newton's method would not find the shares of both.
+      // So does one that is much stiffer than what it is in series with: the difference of the velocities of its ends would have
+      // lost its digits. Beside ground it is the velocity itself.
       const bool moving = b.a != ground && b.b != ground;
-      // Where masses move, friction begins and ends to slip by the velocities: there they are the unknowns.
-      const bool differenced = moving && at_massless && network.masses.empty() && !power_laws.contains(std::minmax(b.a, b.b));
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
       const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
       const bool stiff_between = moving && least_mass > 0 && impulse * length > stiff_for_mass * least_mass;
-      const bool by_force = linear ? differenced || stiff(b.a) || stiff(b.b) || stiff_between : needed && at_massless;
+      const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between : needed && at_massless;
       by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }

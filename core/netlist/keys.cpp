@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <string_view>
 
 #include "core/netlist/characters.hpp"
 
@@ -21,6 +23,14 @@ bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_
   return false;
 }
 
+/// Where a key that is often misplaced belongs; empty for all others.
+std::string place_of(std::string_view key) {
+  const auto among = [&](std::initializer_list<std::string_view> keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+  if (among({"domain", "title", "include"})) return "at the top of the file, above all tables: it is for the whole scene";
+  if (among({"stop", "accuracy", "output", "record", "start_from"})) return "in [simulate]";
+  return "";
+}
+
 }  // namespace
 
 const TomlEntry* Keys::require(const std::string& key, Spot where, std::string hint) {
@@ -37,8 +47,10 @@ void Keys::finish(Mistakes& mistakes) const {
   for (const TomlEntry& entry : table_.entries) {
     if (among(known_, entry.key) || among(silent_, entry.key)) continue;
     mistyped.push_back(nearest(entry.key, known_));
+    const std::string place = place_of(entry.key);
     mistakes.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
-                   did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and")));
+                   place.empty() ? did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and"))
+                                 : "`" + entry.key + "` belongs " + place);
   }
   for (const Missing& missing : missing_)
     if (!among(mistyped, missing.key))

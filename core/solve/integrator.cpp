@@ -307,6 +307,13 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
   s.rejected = 0;
 }
 
+void Integrator::go_on(TimePoint stop) {
+  Implementation& s = *impl_;
+  s.stop = stop;
+  s.keep_time();
+  if (!s.fired.empty()) s.evaluate(s.left);
+}
+
 Integrator::Outcome Integrator::step() {
   Implementation& s = *impl_;
   s.previous = s.time;

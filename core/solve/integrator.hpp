@@ -52,6 +52,8 @@ class Integrator {
 
   /// Starts afresh at t from a consistent state. The first step is h.
   void restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop);
+  /// Goes on from the stop time to another one: hardly anything has changed there.
+  void go_on(TimePoint stop);
   /// No step is longer than this [s]; infinite for no limit.
   void limit_step(double longest);
   Outcome step();

@@ -13,6 +13,8 @@ namespace {
 
 // Roundings of forces that balance (a sum of a few).
 constexpr double force_grains = 16;
+// A restart leaves a balance off by Dae::rounding_share of the sum of its terms: of so many times the largest force.
+constexpr double balance_terms = 4;
 // A difference of two velocities that is larger than this share of the smaller one is told from none, with something to spare.
 constexpr double different = 2.2 * velocity_grain;
 // Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
@@ -137,7 +139,9 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const double f = std::abs(loads.f[k]), df = std::abs(loads.df[k]), dc = std::abs(loads.dc[k]);
       // At its bound friction has hardly any slope, and its deflection goes with others.
       const double slope = std::max(df, view.p[k] != 0 ? f / std::abs(view.p[k]) : 0);
-      if (df != 0) rounding_[i] += eps * (alone ? f : loads.force[part]) / slope;
+      const bool in_balance = structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0;
+      const double share = in_balance ? balance_terms * Dae::rounding_share : eps;
+      if (df != 0) rounding_[i] += share * (alone ? f : loads.force[part]) / slope;
       drift_[i] = {eps * (alone ? speed_at(view, b) : loads.speed[part]), dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       rounding_[i] = eps * loads.force[at(part_of(structure.rates[k]))];

@@ -46,6 +46,8 @@ constexpr double longest_angle = 0.3;
 // Nor farther than this while sliders slip that follow a drive at once: they turn back but once within it.
 constexpr double longest_slip = 1.5;
 
+// A restart takes about so many steps to come to the length and order that there were. Where a stretch takes more there is little to save.
+constexpr int steps_of_restart = 20;
 // What takes so many steps takes seconds.
 constexpr double many_steps = 3e5;
 
@@ -134,16 +136,34 @@ class Run {
   /// Over a stretch and the instant at its end; returns that.
   double advance(double from) {
     const double t = stretch(from);
+    std::vector<Drive::Break> breaks;
     if (t >= drive_.next_break()) {
-      for (const Drive::Break& b : drive_.breaks(t)) {
-        tell({t, b.element, b.jumps ? "jump" : "corner", b.direction});
-      }
+      breaks = drive_.breaks(t);
+      for (const Drive::Break& b : breaks) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
     } else if (t >= settings_.stop) {
       return t;
     }
     leave(t);
+    const std::shared_ptr<System> before = system_;
+    std::vector<double> y = y_, yp(y_.size(), 0);
+    const bool often = stopped_ && steps_ <= steps_of_restart;
+    if (often) system_->consistency.derivative(t, y, yp);
     cross(t, true, {});
+    smooth_ = often && system_ == before && !tolerances_.blind() &&
+              differs_little(y, yp, time_until(std::min(drive_.next_break(), settings_.stop), t));
+    if (settings_.profile && !smooth_) {
+      for (const Drive::Break& b : breaks) settings_.profile->blame({b.element});
+    }
     return t;
+  }
+
+  /// What the present state and rates differ from these by comes to less than the error of a step within the time `ahead`. Then
+  /// the integrator need not begin anew: a measured signal has a corner at each of its samples, and most are that small.
+  bool differs_little(const std::vector<double>& y, const std::vector<double>& yp, double ahead) const {
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      if (!(std::abs(y_[i] - y[i]) + ahead * std::abs(yp_[i] - yp[i]) <= tolerances_.values()[i])) return false;
+    }
+    return true;
   }
 
   /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
@@ -155,12 +175,15 @@ class Run {
     }
     const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
-    system_ = &systems_.of_modes();
+    const std::shared_ptr<System> before = system_;
+    system_ = systems_.of_modes();
     for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
       if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
     }
-    tolerances_.attach(system_->dae);
-    softening_.attach(system_->structure);
+    if (system_ != before) {
+      tolerances_.attach(system_->dae);
+      softening_.attach(system_->structure);
+    }
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);
     yp_.assign(y_.size(), 0);
@@ -213,15 +236,22 @@ class Run {
   double stretch(double t) {
     const double given = std::min(drive_.next_break(), settings_.stop);
     double until = std::min(given, given_reversals_.next(t, given));
+    stopped_ = false;
+    steps_ = 0;
     if (until - t <= time_grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
     double shrink = 1;
-    restart(t, until, shrink);
+    if (smooth_) {
+      go_on(t, until);
+    } else {
+      restart(t, until, shrink);
+    }
     headway_.reset();
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
         throw SimulationError(fmt::format("interrupted {}", at_time(*network_.scene, system_->integrator.time())));
       }
       Integrator::Outcome outcome = system_->integrator.step();
+      ++steps_;
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
         // A fresh start with a shorter first step helps where the history is to blame.
         if ((shrink *= 1e-2) < 1e-7) fail(outcome);
@@ -263,6 +293,7 @@ class Run {
       if (outcome == Integrator::Outcome::stop) {
         y_ = system_->integrator.y();
         yp_ = system_->integrator.yp();
+        stopped_ = true;
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
@@ -344,18 +375,30 @@ class Run {
       system_->consistency.derivative(t, y_, yp_);
     }
     double h = std::min({until - t, 100 * ahead, first_step(ypp, tolerances_.values())});
+    // Nothing that a step could get wrong.
+    if (system_->dae.unknowns() == 0 && !system_->events.sticks() && !system_->events.slips_along()) h = until - t;
+    limit_step();
+    if (settings_.profile) settings_.profile->restart(system_->dae);
+    system_->consistency.rest();
+    system_->integrator.restart(drive_.exact(t), y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t),
+                                 drive_.exact_break(until));
+  }
+
+  /// The same where the integrator keeps its history.
+  void go_on(double t, double until) {
+    system_->events.begin(t, y_.data(), yp_.data());
+    limit_step();
+    system_->integrator.go_on(drive_.exact_break(until));
+  }
+
+  void limit_step() {
     const bool sticks = system_->events.sticks(), slips_along = system_->events.slips_along();
-    if (system_->dae.unknowns() == 0 && !sticks && !slips_along) h = until - t;  // nothing that a step could get wrong
     const double omega = drive_.fastest();
     double turn = std::numeric_limits<double>::infinity();
     if (omega > 0 && slips_along) turn = longest_slip / omega;
     if (omega > 0 && sticks) turn = longest_angle / omega;
     if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(settings_.accuracy)) / omega);
     system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
-    if (settings_.profile) settings_.profile->restart(system_->dae);
-    system_->consistency.rest();
-    system_->integrator.restart(drive_.exact(t), y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t),
-                                 drive_.exact_break(until));
   }
 
   double tolerance(double share) const { return std::max(share * settings_.accuracy, Tolerances::least_tolerance); }
@@ -389,7 +432,10 @@ class Run {
   Switches switches_;
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
-  System* system_ = nullptr;
+  bool stopped_ = false; ///< the last stretch has come to its end by a step, which the integrator can go on from
+  long steps_ = 0;       ///< of the last stretch
+  bool smooth_ = false;  ///< at the last break all went on without a change that counts
+  std::shared_ptr<System> system_;
   std::vector<double> y_, yp_;
   std::vector<double> deflections_;  ///< at the end of the last step [m]
   SimulationStatistics statistics_;

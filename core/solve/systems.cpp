@@ -30,7 +30,7 @@ Systems::Systems(const Network& network, const Structure& classified, Drive& dri
   }
 }
 
-System& Systems::of_modes() {
+const std::shared_ptr<System>& Systems::of_modes() {
   std::vector<char> key;
   for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
   for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
@@ -40,10 +40,10 @@ System& Systems::of_modes() {
       past_ = statistics();
       systems_.clear();
     }
-    found = systems_.emplace(key, std::make_unique<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
+    found = systems_.emplace(key, std::make_shared<System>(network_, analyse(network_, modes_), drive_, needed_, modes_,
                                                            tolerances_, options_)).first;
   }
-  return *found->second;
+  return found->second;
 }
 
 Integrator::Statistics Systems::statistics() const {

@@ -31,9 +31,9 @@ class Systems {
   Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
           const Modes& modes, Tolerances& tolerances, const Integrator::Options& options);
 
-  /// That of the present modes, of sliders and of laws that are constant forces now. Valid until the next call. Throws
+  /// That of the present modes, of sliders and of laws that are constant forces now. Throws
   /// SimulationError as `analyse` does.
-  System& of_modes();
+  const std::shared_ptr<System>& of_modes();
   /// Of all systems that have been.
   Integrator::Statistics statistics() const;
 
@@ -46,7 +46,7 @@ class Systems {
   const Integrator::Options options_;
   /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
   std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
-  std::map<std::vector<char>, std::unique_ptr<System>> systems_;
+  std::map<std::vector<char>, std::shared_ptr<System>> systems_;
   Integrator::Statistics past_;  ///< of systems that are kept no more
 };
 

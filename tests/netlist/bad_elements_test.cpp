@@ -17,6 +17,17 @@ scene.toml:2:1: error: a `spring` needs `stiffness`
       | ^
   a stiffness, in N/m
 )~"},
+      {"a key of the whole scene",
+       R"~(
+[elements]
+k1 = { type = "spring", domain = "rotation", between = ["a", "ground"], stiffness = 1 }
+)~",
+       R"~(
+scene.toml:2:25: error: unknown key `domain` of a `spring`
+    2 | k1 = { type = "spring", domain = "rotation", between = ["a", "ground"], stiffness = 1 }
+      |                         ^
+  `domain` belongs at the top of the file, above all tables: it is for the whole scene
+)~"},
       {"the type is missing",
        R"~(
 [elements]

@@ -31,6 +31,20 @@ scene.toml:5:1: error: unknown key `duration` of [simulate]
       | ^
   its keys are `start`, `start_from`, `stop`, `accuracy`, `output` and `record`
 )~"},
+      {"a key of [simulate] among the tables",
+       R"~(
+accuracy = 1e-3
+[elements]
+k1 = { type = "spring", between = ["a", "ground"], stiffness = 1 }
+[simulate]
+stop = 1
+)~",
+       R"~(
+scene.toml:1:1: error: unknown key `accuracy` of the scene
+    1 | accuracy = 1e-3
+      | ^
+  `accuracy` belongs in [simulate]
+)~"},
       {"a mistyped start",
        R"~(
 [elements]
