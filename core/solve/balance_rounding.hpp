@@ -7,36 +7,37 @@
 
 namespace rheonet {
 
-/// How far rounding takes the deflections of what holds nodes without a velocity of their own (floating ones) [m].
+/// Round-off of the deflections of branches at floating nodes, that is nodes whose velocity is in no force balance [m].
 ///
-/// Such a node is where its forces balance, and these are known to rounding: their own, and that of the deflections that they
-/// come from, which for friction that has slid far is a large share of its force. So a deflection is known to that force over
-/// the slope of what holds its ends together, which near the bound of friction is a small part of its stiffness, and changes
-/// all the time.
+/// The position of such a node follows from its force balance. The forces there carry round-off: their own, and that of the
+/// deflections that they follow from. The latter is a large share of the force of friction that has slid far. So the
+/// round-off of a deflection is that of the forces over the slope that holds its ends together. Near the bound of friction
+/// this slope is a small part of the initial stiffness, and it changes all the time.
 class BalanceRounding {
  public:
   void attach(const Network& network, const Structure& structure);
-  /// Nothing floats: no deflection is told by a balance.
+  /// True if no deflection follows from a force balance.
   bool none() const { return branches_.empty(); }
-  /// At this view, with the slopes df/dp of all deflection branches there [N/m].
+  /// Finds the round-off in this view, with the slopes df/dp of all deflection branches there [N/m].
   void find(const Dae::View& view, const std::vector<double>& slope);
-  /// Of a deflection branch [m]; 0 if no balance tells it.
+  /// Round-off of a deflection branch [m]; 0 if it follows from no balance.
   double of(int branch) const { return rounding_[static_cast<std::size_t>(branch)]; }
 
  private:
-  struct Held { int branch, a, b; };  ///< between these of the places
+  struct Held { int branch, a, b; };  ///< between the places a and b
   void find_forces(const Dae::View& view, const std::vector<double>& slope);
   double held_together(int a, int b) const;
 
   const Network* network_ = nullptr;
   const Structure* structure_ = nullptr;
   std::vector<Held> branches_;
-  std::vector<int> place_;      ///< of each node: 0 for all that do not float, else that of its group
-  std::vector<int> component_;  ///< of each place: one that stands for all that floats together
-  std::vector<double> force_;   ///< of each component: rounding of its forces [N]
+  std::vector<int> place_;      ///< of each node: 0 if it does not float, else 1 + its group
+  std::vector<int> component_;  ///< of each place: the representative of its connected floating places
+  std::vector<double> force_;   ///< of each component: largest round-off of its forces [N]
   std::vector<double> rounding_;
   std::vector<int> order_;
-  // Of each place: what it is joined to, by which slope [N/m], and how many are below it.
+  // Maximum spanning tree: of each place its parent, the slope of the branch to the parent [N/m], and the size of its
+  // subtree.
   std::vector<int> up_, size_;
   std::vector<double> by_;
 };

@@ -9,15 +9,15 @@
 
 namespace rheonet {
 
-/// How well forces are known that balance others [N]: as well as all the others at a node where they are the only one that is
-/// not told by a law of its own.
+/// Round-off of forces that follow from a force balance [N]: where one force at a node has no law of its own, its error is
+/// the sum of the errors of all other forces there.
 ///
-/// Which balance tells which force is found once (`attach`); what it tells, as often as one likes: `begin`, `add_told` for all
-/// that laws tell, `find`.
+/// `attach` finds once which balance determines which force. Then, as often as needed: `begin`, `add_told` for each force
+/// that follows from a law, `find`.
 class BalancedForces {
  public:
-  /// `forces`: the branches of those that have to be found. The first `otherwise` of them are known in a way of their own where
-  /// no balance tells them.
+  /// `forces`: the branches of the forces to be found. Where no balance determines one of the first `otherwise` of them,
+  /// `find` asks its argument for the error.
   void attach(const Structure& structure, std::vector<Branch> forces, std::size_t otherwise);
 
   void begin();
@@ -26,7 +26,7 @@ class BalancedForces {
     at_node_[at(b.a)] += noise;
     at_node_[at(b.b)] += noise;
   }
-  /// Follows every balance as far as it tells something. `other(k)`: of force k in the way of its own.
+  /// Propagates the errors through all balances. `other(k)` gives the error of force k where no balance determines it.
   template <class Other>
   void find(Other other) {
     for (const Found& f : order_) {
@@ -34,11 +34,11 @@ class BalancedForces {
       add_told(forces_[f.force], noise_[f.force]);
     }
   }
-  /// Of force k; 0 if nothing tells it.
+  /// Error of force k [N]; 0 if nothing determines it.
   double noise(std::size_t k) const { return noise_[k]; }
 
  private:
-  struct Found { std::size_t force; NodeId by; };  ///< by the balance of a node; -1: otherwise
+  struct Found { std::size_t force; NodeId by; };  ///< `by`: the node whose balance determines it; -1: none
 
   std::vector<Branch> forces_;
   std::vector<Found> order_;

@@ -9,16 +9,16 @@
 
 namespace rheonet {
 
-/// How much the recorded outputs of blocks (as they are, or as forces) change with the quantities that they follow from: the largest
-/// magnitude of each derivative so far. Delays pass everything; a limiter at its bound passes nothing.
+/// Sensitivity of the recorded outputs of blocks (recorded directly, or as forces) to the quantities that they depend on:
+/// the largest magnitude so far of each derivative. A delay has gain 1; a limiter at its bound has gain 0.
 class BlockGains {
  public:
   explicit BlockGains(const Network& network);
-  /// To be called where limiters may have gone over to another side.
+  /// Call whenever a limiter may have reached or left a bound.
   void follow(const BlockSignals& signals);
 
-  /// Visits (block, sort, index, gain, how many quantities the output follows from). `index` is that of a node of the network, or of
-  /// a block with a state.
+  /// Visits (block, sort, index, gain, number of quantities that the output depends on). `index` is that of a node of the
+  /// network, or of a block with a state.
   enum class Of { position, velocity, state };
   template <class Visit>
   void for_each(Visit visit) const {

@@ -7,13 +7,13 @@
 
 namespace rheonet {
 
-/// A dense matrix in triangular factors, with pivots from each column: for a few unknowns, for which a library's calls cost more
-/// than the elimination does.
+/// LU factors of a dense matrix, with partial (column) pivoting: for a few unknowns, where calls of a library cost more
+/// than the elimination.
 class DenseFactors {
  public:
   explicit DenseFactors(int size) : size_(static_cast<std::size_t>(size)), matrix_(size_ * size_), pivot_(size_) {}
 
-  /// The matrix by columns, all of it to be filled in before it is factorised.
+  /// The matrix by columns. Fill in every entry before `factorise`, which overwrites them.
   double* matrix() { return matrix_.data(); }
 
   /// False if it is singular.
@@ -35,7 +35,7 @@ class DenseFactors {
     return true;
   }
 
-  /// In place.
+  /// Solves in place.
   void solve(double* x) const {
     for (std::size_t k = 0; k < size_; ++k) {
       std::swap(x[k], x[pivot_[k]]);
@@ -53,7 +53,7 @@ class DenseFactors {
 
   std::size_t size_;
   std::vector<double> matrix_;
-  std::vector<std::size_t> pivot_;  ///< of each column: the row that took its place from there on
+  std::vector<std::size_t> pivot_;  ///< of each column: the row that was swapped with its diagonal row
 };
 
 }  // namespace rheonet

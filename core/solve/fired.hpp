@@ -7,15 +7,15 @@
 
 namespace rheonet {
 
-/// What has come to an event at the end of the integrator's last step.
+/// The events at the end of the integrator's last step.
 struct Fired {
-  Instant::Fired sudden;      ///< what the instant has to decide about
-  std::vector<int> limits;    ///< of blocks
-  std::vector<int> elements;  ///< of the scene, all of them
+  Instant::Fired sudden;      ///< sliders and laws whose next modes Instant has to select
+  std::vector<int> limits;    ///< limits of blocks that fired
+  std::vector<int> elements;  ///< indices into Scene::elements of all elements that fired
 };
 
-/// Switches the memories of the laws that have come to one, in the state at t. One event may be that of several laws: of
-/// those that stand between the same ends, and of those that move at one velocity.
+/// Switches the memories of the laws whose event fired, in the state at t. An event also switches laws in parallel that are
+/// held at rest together, and laws that reverse at the same velocity.
 Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
 }  // namespace rheonet

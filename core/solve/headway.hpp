@@ -10,35 +10,37 @@
 
 namespace rheonet {
 
-/// Whether events bring a run on, or come over and over at one place (chattering) or ever faster (accumulating).
+/// Detects runs that make no progress: events that repeat at one place (chattering) or ever faster (accumulation points),
+/// failures of the integrator, and steps below the round-off of time.
 class Headway {
  public:
-  /// So many events of one element are looked at.
+  /// Events of one cause without a change of the state before the run is suspected to make no progress.
   static constexpr int enough = 500;
 
-  /// `accuracy` is that of the run: a change by less, of the largest velocity or deflection so far, is none.
+  /// `accuracy` is that of the run: a change below this share of the largest velocity or deflection so far is none.
   Headway(std::size_t causes, double accuracy);
 
-  /// What comes is counted from here on.
+  /// Begins all counts anew.
   void reset();
-  /// These causes (elements, say) have fired at t, and left the network in this state. True when one of them has had
-  /// `enough` events while nothing has changed: whether there is something wrong depends on how long that took.
+  /// Counts the causes (indices of elements, or of the solver) that fired at t and led to this state. True when one of them
+  /// has fired `enough` times while the state has not changed. The caller then judges whether this took too little time.
   bool lost(double t, const std::vector<int>& causes, const State& state);
-  /// It has taken long enough to be a fault of nothing: counts begin anew at t. True when nothing has changed meanwhile
-  /// for so many counts, within `instant` [s]: with such an instant after the other the run would not come to its end.
+  /// Call where `lost` returned true but the events took long enough to be legitimate: begins new counts at t. True when
+  /// the state has not changed for many such counts within `instant` [s], so that the run would never end.
   bool without_end(double t, double instant);
   /// Time at which the count began [s].
   double since() const { return since_; }
-  /// What has fired since then, the busiest first.
+  /// Causes that fired since then, the most frequent first.
   std::vector<int> busiest() const;
-  /// The same in words, the names and what would end it: causes beyond the elements of the network are left out.
+  /// A message with the names of the busiest elements and a remedy. Causes that are no elements of the network are left
+  /// out.
   std::string describe(const Network& network, double t) const;
 
-  /// The integrator has failed at t: true when it does so over and over within this time. It comes up to an instant at
-  /// which something grows without bound.
+  /// Counts a failure of the integrator at t. True when the last failures all lie `within` this time [s]: the solution
+  /// probably grows without bound there.
   bool failing(double t, double within);
-  /// A step has come to t: true when step after step brings the time on by no more than its rounding, of which `grain` [s] are
-  /// some.
+  /// Counts a step that ended at t. True when many steps in succession advanced time by round-off only; `grain` is a few
+  /// ulps of time [s].
   bool standing(double t, double grain);
 
  private:
@@ -50,14 +52,14 @@ class Headway {
 
   double accuracy_;
   double since_ = 0;
-  double first_ = 0;  ///< of the counts since something changed [s]
+  double first_ = 0;  ///< time of the last change of the state [s]
   int counts_ = 0;
   bool begun_ = false;
   Watched velocity_, deflection_;
   std::vector<int> count_;  ///< of each cause
   std::vector<int> fired_;  ///< causes with a count above 0
-  std::deque<double> failures_;  ///< the last instants [s]
-  double reached_ = 0;           ///< where the last steps have been [s]
+  std::deque<double> failures_;  ///< times of the last failures [s]
+  double reached_ = 0;           ///< time near which the last steps ended [s]
   int steps_there_ = 0;
 };
 
