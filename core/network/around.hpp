@@ -7,11 +7,10 @@
 
 namespace rheonet {
 
-/// The names of the elements that touch any of these nodes, in the order of the scene. What touches ground alone is not
-/// among them.
+/// The names of the elements that touch any of these nodes, in the order of the scene. `ground` among the nodes is ignored.
 std::vector<std::string> elements_at(const Network& network, const std::vector<NodeId>& nodes);
 
-/// The elements that may stick or slip, turn or stand: sliders and friction. Indices into Scene::elements.
+/// The elements with stick-slip or reversals: sliders and friction laws. Indices into Scene::elements.
 std::vector<int> elements_with_friction(const Network& network);
 
 }  // namespace rheonet

@@ -4,13 +4,13 @@
 
 namespace rheonet {
 
-// What is taken for granted of a scene, told in the notes of its network.
+// Each function adds to the notes of the network what the simulation assumes about the scene.
 
-/// Times that are left out because they are shorter than what tells the times of the run apart.
+/// Times that are set to 0 because they are below the resolution of time in this run (time_grain.hpp).
 void tell_lost_times(Network& network);
 /// The effects that the scene leaves out.
 void tell_left_out(Network& network);
-/// Values that the netlist gives and that mean nothing, at the limits of the laws that they are given to.
+/// Values given in the netlist that have no effect at the limits of the laws to which they belong.
 void tell_meaningless(Network& network);
 
 }  // namespace rheonet

@@ -9,39 +9,39 @@ namespace rheonet {
 
 struct Network;
 
-/// The blocks of a scene, and what they take in of the network.
+/// The blocks of a scene, and the quantities of the network that they sense.
 struct Blocks {
   struct Sensor {
     enum class What { position, velocity, force };
     What what;
-    int index;        ///< of a node of the network, or of an element of the scene
-    int motion = -1;  ///< that prescribes the node: then it is a function of time alone
+    int index;        ///< a node of the network (position, velocity), or an element of the scene (force)
+    int motion = -1;  ///< the given motion that prescribes the node: the signal is then a function of time alone; -1
     int record = 0;   ///< index into Scene::sensed, for messages
   };
   struct Input {
-    bool from_block;  ///< else from a sensor
+    bool from_block;  ///< otherwise `index` is a sensor
     int index;
     double sign;
   };
-  /// u is the sum of the inputs, or the signal.
+  /// The input u of the law is the sum of `inputs`, or `signal` if the block generates one.
   struct Block {
     int element;
     BlockLaw law;
     bool generates = false;
     Signal signal;
     std::vector<Input> inputs;
-    /// Its output does not depend on what it takes in at present.
+    /// Its present output does not depend on its present input.
     bool breaks_loops() const { return law.state || law.delay > 0; }
   };
 
-  std::vector<Block> blocks;   ///< those of the scene; then the rates of some of them
+  std::vector<Block> blocks;   ///< the blocks of the scene, followed by the rates (see find_blocks)
   std::vector<Sensor> sensors;
-  std::vector<int> order;      ///< in which all can be evaluated
+  std::vector<int> order;      ///< an order of evaluation in which each block follows those whose present outputs it needs
 };
 
-/// Time counts from the scene's start. Motions whose position a block gives get one that puts out their velocity. Throws
-/// SimulationError where blocks wait for each other in a loop, or take in what cannot be sensed, or where a position has no
-/// rate.
+/// Finds the blocks of a network; time counts from the scene's start. A motion whose position a block gives follows an added
+/// block instead, whose output is the velocity. Throws SimulationError for an algebraic loop, for a loop closed by delays
+/// alone, for a force that cannot be sensed, and for a position without a known rate.
 Blocks find_blocks(Network& network);
 
 }  // namespace rheonet

@@ -8,20 +8,20 @@ namespace rheonet {
 
 struct Network;
 
-/// The effects that the law of an element brings, whether or not the scene leaves them out. Feedback is not among them.
+/// The effects declared by the law of an element, including any that the scene leaves out. Feedback is not among them.
 std::vector<Effect> brought_by(const SceneElement& element);
 
-/// Of these, those that the scene leaves out.
+/// The effects of an element that the scene leaves out.
 std::vector<Effect> left_out_of(const Scene& scene, const SceneElement& element);
 
-/// Takes what the scene leaves out from the values of an element: they are then those of a limit of its law. Throws
-/// SimulationError where the law has no such limit.
+/// Changes the values of an element to those of its law without the effects that the scene leaves out. Throws
+/// SimulationError where no such law exists.
 void leave_out_effects(const Scene& scene, const SceneElement& element, std::vector<double>& values);
 
-/// Blocks (indices into Scene::blocks) whose output comes to a force or motion of the scene, through others or not.
+/// Flags those of Scene::blocks that drive a force or a motion of the scene, directly or through other blocks.
 std::vector<char> acting_blocks(const Scene& scene);
 
-/// The elements that are blocks and take in of the network what is no function of time alone, and act on it: feedback.
+/// The blocks in feedback loops, as indices of elements: they sense the network (not given motions alone) and act on it.
 std::vector<int> feedback_of(const Network& network);
 
 }  // namespace rheonet

@@ -13,10 +13,10 @@ struct SimulationError : std::runtime_error {
   using std::runtime_error::runtime_error;
   SimulationError(const Spot& where, const std::string& reason) : runtime_error(reason), spot(where) {}
 
-  std::optional<Spot> spot;  ///< in the netlist, where the reason lies in what stands there rather than in what happens
+  std::optional<Spot> spot;  ///< the place in the netlist, if the cause is there; absent if the error arises during the run
 };
 
-/// The equations do not determine the motion, or no state fits them.
+/// The equations do not determine the motion, or have no consistent state.
 class UndeterminedError : public SimulationError {
  public:
   using SimulationError::SimulationError;

@@ -16,15 +16,14 @@ namespace rheonet {
 ///
 ///     s F(x) = sum of min(s f_i + k_i x, Fc_i),      pair i yields at x = y_i = (Fc_i - s f_i)/k_i
 ///
-/// whatever the speed. The pairs in the order of y_i, and the sums over those that have yielded and over those that
-/// have not, make F, its slope and its energies a search among the y_i, O(log N). A reversal makes them anew, O(N) as
-/// long as their order stays, O(N log N) where it changes: the f_i are all that is remembered of the past, so that inner
-/// loops close and are wiped out by themselves, and any initial forces are as good as those of a virgin bundle. (Once all
-/// have yielded the y_i are in the order of 2 Fc_i/k_i for good, Masing's rule: nothing is left to sort.)
+/// at any speed. The pairs sorted by y_i, with sums over those that have yielded and those that stick, make F, its slope and
+/// its energies a search among the y_i, O(log N). A reversal recomputes the sums, O(N) if the order stays, O(N log N) if it
+/// changes. The forces f_i are the whole memory: inner loops close and are wiped out without further rules, and any initial
+/// forces are allowed. (Masing's rule: once all pairs have yielded, the order is that of 2 Fc_i/k_i for good.)
 ///
-/// A yield is a kink of F. Kinks of many small pairs are left to the integrator's error control; one that takes more
-/// than `kink_share` of the bundle's stiffness, and the last one, beyond which F is constant, are events. Up to the
-/// next of these F goes on straight beyond it, so that an integrator may look over it.
+/// A yield is a kink of F. The integrator's error control handles kinks of many small pairs. Two kinds of kink are events: a
+/// kink that takes more than `kink_share` of the bundle's stiffness, and the last one, beyond which F is constant. F is
+/// extended linearly beyond the next event, so that the integrator can step across it.
 class Iwan {
  public:
   struct Pair {
@@ -36,60 +35,61 @@ class Iwan {
   Iwan(std::vector<Pair> pairs, double kink_share);
 
   std::size_t size() const { return pairs_.size(); }
-  /// Begins at deflection p with these forces of the pairs, cut off at their bounds, towards `direction`.
+  /// Begins at deflection p towards `direction`, with these forces of the pairs, clamped to their bounds.
   void begin(double p, std::vector<double> forces, int direction);
-  /// The same with all at their bounds in `direction`.
+  /// The same with every pair at its bound in `direction`.
   void begin_sliding(double p, int direction);
-  /// Goes on from deflection p in the other direction; the force stays.
+  /// Reverses the direction at deflection p; the force does not change.
   void turn(double p);
-  /// The deflection jumps along the law. Returns the heat [J].
+  /// The deflection jumps along the law. Returns the energy dissipated [J].
   double jump(double p, double jump);
-  /// Passes the next kink that is an event, at deflection p, which is as near to it as the integrator could tell. What
-  /// has not quite come to its bound is put there, and its slider back by as much as its spring is stretched more.
+  /// Passes the next kink that is an event, at deflection p, which the integrator located with a small error. A pair that is
+  /// just short of its bound is put there; its slider moves back by the extra stretch of its spring.
   void pass_kink(double p);
 
   int direction() const { return s_; }
   bool all_yielded() const { return passed_ == size(); }
-  /// How far it is at deflection p to the next kink that is an event [m].
+  /// Distance from deflection p to the next kink that is an event [m]; infinite if there is none.
   double to_kink(double p) const;
 
   double force(double p, double& slope) const;
-  /// Force at p + step after motion there along the law, and its slope.
+  /// Force at p + step, reached by motion along the law, and the slope there.
   double force_along(double p, double step, double& slope) const;
-  /// Slope with which a motion in `direction` begins; 0: of what rests.
+  /// Slope with which a motion in `direction` begins; 0: slope at rest.
   double slope(double p, int direction) const;
   double stored_energy(double p) const;
-  /// What has turned into heat since the reversal [J], and the power that does now.
+  /// Energy dissipated since the last reversal [J], and the present power [W].
   double heat(double p) const { return heat_at(travel(p), yielded(p)); }
   double heating(double p, double w) const { return std::max(0.0, s_ * w) * sums_[yielded(p)].bounds; }
   double total_force() const { return total_force_; }
 
   double pair_force(std::size_t pair, double p) const;
-  /// Displacements of its spring where that is free of force and of its slider at present [m]: nothing to the law
-  /// itself.
+  /// Sets the displacements at which the spring is free of force and of the slider [m]. For the output alone: the force does
+  /// not depend on them.
   void place(std::size_t pair, double rest, double slide);
-  /// Something has moved them both without a law: their displacement together is `displacement`, at deflection p.
+  /// The ends have moved without a law: at deflection p the displacement of spring and slider together is now
+  /// `displacement`.
   void follow(double p, double displacement);
-  /// Displacements of its spring and of its slider: that of one which sticks stays the same to the last digit.
+  /// Displacements of its spring and of its slider. The displacement of a sticking slider is constant to the last digit.
   double stretch(std::size_t pair, double p) const {
     return rest_[pair] + pair_force(pair, p) / pairs_[pair].stiffness;
   }
   double slide(std::size_t pair, double p) const;
   bool pair_yields(std::size_t pair, double p) const { return rank_[pair] < yielded(p); }
-  /// How many have yielded since the reversal: the pairs in_order(0), in_order(1), ... one after the other.
+  /// Number of pairs that have yielded since the reversal: in_order(0), in_order(1), ... in this sequence.
   std::size_t yielded(double p) const { return yielded(travel(p), next_); }
   std::size_t in_order(std::size_t rank) const { return order_[rank]; }
-  /// Deflection at which they do.
+  /// Deflection at which the pair of this rank yields.
   double yield_point(std::size_t rank) const { return p_ref_ + s_ * y_[rank]; }
-  /// Changes whenever the ranks are given anew: at every beginning and reversal, and where pass_kink finds that a pair has
-  /// not quite come to its bound. While it stays, `yielded` counts along one order, and grows by yields alone.
+  /// Changes whenever the pairs are sorted again: at each start and reversal, and where pass_kink puts a pair at its bound.
+  /// Between such changes `yielded` counts along one order, and only yields raise it.
   long branch() const { return branch_; }
 
  private:
-  /// If the first `rank` pairs have yielded.
+  /// Sums for the case that the first `rank` pairs have yielded.
   struct Sums {
-    double bounds = 0, bound_energy = 0, lost = 0;  ///< of those: Fc, Fc^2/(2 k), Fc y
-    double force = 0, stiffness = 0, energy = 0;    ///< of the others, at the reversal: s f, k, f^2/(2 k)
+    double bounds = 0, bound_energy = 0, lost = 0;  ///< of these pairs: Fc, Fc^2/(2 k), Fc y
+    double force = 0, stiffness = 0, energy = 0;    ///< of the other pairs, at the reversal: s f, k, f^2/(2 k)
   };
   double travel(double p) const { return s_ * (p - p_ref_); }
   std::size_t yielded(double x, std::size_t limit) const;
@@ -105,26 +105,26 @@ class Iwan {
   const Iwan& turned(double p) const;
 
   std::vector<Pair> pairs_;
-  std::vector<double> rest_, slide_;  ///< of each; slide_ at the last reversal
+  std::vector<double> rest_, slide_;  ///< of each pair; slide_ at the last reversal
   double kink_share_;
   double total_stiffness_ = 0, total_force_ = 0;
 
-  // Since the last reversal, or whatever else gave the ranks anew (see branch):
+  // Since the last start or reversal (see branch):
   int s_ = 1;
   double p_ref_ = 0;
   std::vector<double> f_;                  ///< of each pair, at the reversal [N]
   std::vector<std::size_t> order_, rank_;  ///< pairs by y, and the inverse
-  std::vector<double> y_;                  ///< by rank [m]
-  std::vector<Sums> sums_;                 ///< by rank, 0 .. size()
-  double stiffness_back_ = 0;              ///< slope with which a motion would go back at the reversal itself
-  std::size_t passed_ = 0;                 ///< so many have yielded for good
-  std::size_t next_ = 0, next_end_ = 0;    ///< ranks [next_, next_end_) make the next kink that is an event
+  std::vector<double> y_;                  ///< of each rank [m]
+  std::vector<Sums> sums_;                 ///< of each rank, 0 .. size()
+  double stiffness_back_ = 0;              ///< slope of a motion that turns back at the reversal point
+  std::size_t passed_ = 0;                 ///< number of pairs whose yield has been accepted
+  std::size_t next_ = 0, next_end_ = 0;    ///< ranks [next_, next_end_): the next kink that is an event
   long branch_ = 0;
   struct Back;
-  mutable std::shared_ptr<const Back> back_;  ///< the way back from some point, if it has been asked for
+  mutable std::shared_ptr<const Back> back_;  ///< cached copy of the bundle, reversed at one deflection
 };
 
-/// Iwan bundles as deflection laws; their deflections are relative displacements, counted from the start.
+/// Iwan bundles as deflection laws. Their deflections are relative displacements since the start.
 class IwanBatch final : public DeflectionBatch {
  public:
   void add(Iwan bundle) { bundles_.push_back(std::move(bundle)); }

@@ -9,7 +9,7 @@
 
 namespace rheonet {
 
-/// What a deflection law without memory need not write again. Derive a law from it and hide what differs:
+/// Defaults of a deflection law without memory. Derive a law from it and hide the members that differ:
 ///
 ///     struct Law : MemorylessLaw {
 ///       explicit Law(std::span<const double> values);                // in the order of the declaration
@@ -18,14 +18,14 @@ namespace rheonet {
 ///       double start(double d);                                      // p at the start
 ///       double start_with(double f);                                 // the same for a law with an initial force
 ///       double stored_energy(double p) const;
-///       double dissipated_power(double p, double dp, double w) const;  // or, of one that gives back all that it stores:
+/// not for a lossless law, which has instead
 ///       static constexpr bool lossless = true;
 ///     };
 ///
-/// One whose force goes on beyond a bound until the event there also has `force_reached(p)`, the force within its bounds.
-/// One whose memory changes within a motion, not at its reversals alone, also has `follow(p, step)`, which changes it as the
-/// deflection goes from p to p + step. One that creeps also has `steady` and `settle`, one that feels velocities later
-/// `delay()` [s]. One whose deflection may count from a reversal has `recentre(p)`: see DeflectionBatch.
+/// Optional members: `force_reached(p)`, the force within its bounds, if `force` continues beyond a bound until the event
+/// there; `follow(p, step)` for a memory that also changes between reversals, as the deflection goes from p to p + step;
+/// `steady` and `settle` for a law that creeps; `delay()` [s] for a response to past velocities; `recentre(p)` for a
+/// deflection that may count from a reversal. See DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }

@@ -7,21 +7,21 @@
 
 namespace rheonet {
 
-/// The law of an element, without the effects that the scene leaves out and after all limits of its parameters. Throws
+/// The law of an element at all limits of its parameters, without the effects that the scene leaves out. Throws
 /// SimulationError where an effect cannot be left out.
 Reduced law_of(const Scene& scene, const SceneElement& element);
 
-/// The element is given a force, velocity or displacement of its own at the start.
+/// The netlist gives the element itself a force, velocity or displacement at the start.
 bool starts_by_itself(const SceneElement& element);
 
-/// A law by which force is a multiple of displacement, beyond a rest length, or of velocity.
+/// A force proportional to the displacement beyond a rest length, or to the velocity.
 struct LinearLaw {
   bool spring;         ///< else a dashpot
   double coefficient;  ///< stiffness [N/m | N m/rad] or damping [N s/m | N m s/rad]
   double rest = 0;     ///< of a spring [m | rad]
 };
 
-/// Absent of a law that is not linear, that has a start of its own, or of which nothing is left.
+/// Absent if the law is not linear, has a start value of its own, or has become nothing.
 std::optional<LinearLaw> linear_law(const Reduced& law);
 
 }  // namespace rheonet

@@ -9,31 +9,31 @@
 
 namespace rheonet {
 
-/// The linear elements of a scene while they are merged.
+/// Merges linear elements of a scene in series and in parallel.
 ///
-/// Springs f = K (d - R) and dashpots f = K w. In series, with s = -1 where the second is the other way round,
+/// Springs f = K (d - R) and dashpots f = K w. With s = -1 if the second one points the other way,
 ///
-///     1/K = 1/K1 + 1/K2,  R = R1 + s R2;   side by side  K = K1 + K2,  R = (K1 R1 + s K2 R2)/K
+///     in series  1/K = 1/K1 + 1/K2,  R = R1 + s R2;   in parallel  K = K1 + K2,  R = (K1 R1 + s K2 R2)/K
 ///
-/// and whatever is merged moves by d1 = P d + Q, with w1 = P w, under the force f1 = G f + H.
+/// and a merged element, whose merger has d, w and f, has d1 = P d + Q, w1 = P w and f1 = G f + H.
 class LinearNet {
  public:
   struct Law { double K, R; };
-  /// How an element goes with another one, which stands for it.
+  /// Deflection and force of an element from those of its merger.
   struct Share { double P = 1, Q = 0, G = 1, H = 0; };
 
-  /// `kind` of each element: 0 if it is not linear; only those of one kind are merged. `stays` marks nodes that are kept, `alone`
-  /// elements that are.
+  /// `kind` of each element: 0 if it is not linear; only elements of one kind merge. `stays` marks nodes to keep, `alone`
+  /// elements to keep.
   LinearNet(const Scene& scene, const std::vector<int>& kind, const std::vector<Law>& laws, const std::vector<char>& stays,
             const std::vector<char>& alone);
 
   void merge_all();
   bool any() const { return parent_.size() > count_; }
 
-  /// The one that stands for an element, itself if none does; and how it goes with that.
+  /// The element into which `element` has been merged (itself if it was not), and its share of it.
   std::size_t find(std::size_t element, Share& share);
   bool left_out(NodeId node) const { return gone_[static_cast<std::size_t>(node)] != 0; }
-  /// Of what stands for others: an element of the scene in whose place it is, its ends and law.
+  /// The element of the scene whose place a merged element takes, its ends and its law.
   std::size_t home(std::size_t id) const { return home_[id]; }
   NodeId first(std::size_t id) const { return a_[id]; }
   NodeId second(std::size_t id) const { return b_[id]; }
@@ -57,12 +57,12 @@ class LinearNet {
   std::vector<NodeId> a_, b_;
   std::vector<Law> law_;
   std::vector<std::size_t> home_, parent_;
-  std::vector<Share> share_;              ///< with the parent
-  std::vector<std::vector<std::size_t>> at_;  ///< of each node, what has ever ended there
+  std::vector<Share> share_;              ///< of each element, with respect to its parent
+  std::vector<std::vector<std::size_t>> at_;  ///< of each node: all elements that ever ended there
   std::vector<int> degree_;
   std::vector<char> gone_;
   std::vector<NodeId> queue_;
-  std::unordered_map<Key, std::size_t> between_[2];  ///< of each kind, by the ends
+  std::unordered_map<Key, std::size_t> between_[2];  ///< of each kind, by the two ends
 };
 
 }  // namespace rheonet

@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-/// "`a`, `b` and 3 more", for messages: the first names stand for many.
+/// "`a`, `b` and 3 more", for messages: at most `most` names.
 inline std::string listed(const std::vector<std::string>& names, std::size_t most = 5) {
   std::string text;
   for (std::size_t k = 0; k < std::min(most, names.size()); ++k) text += fmt::format("{}`{}`", k ? ", " : "", names[k]);

@@ -9,22 +9,22 @@
 
 namespace rheonet {
 
-/// A scene in which one linear spring stands for several in series or side by side, and one linear dashpot for several: what is
-/// between them needs no equation. Each of them moves with, and carries a share of, the one that stands for it.
+/// A scene with linear springs and linear dashpots in series or in parallel merged into one; the nodes between them need no
+/// equation. A merged element moves with its merger and carries a share of its force.
 struct Merging {
-  /// What a record of the whole is, of the records of `scene`.
+  /// A record of the original scene, as a linear combination of the records of `scene`.
   struct Sum {
     double offset = 0;
-    std::vector<std::pair<std::size_t, double>> terms;  ///< position among the records, factor
+    std::vector<std::pair<std::size_t, double>> terms;  ///< index among those records, factor
   };
   Scene scene;
-  std::vector<Sum> records;          ///< of each record of the whole
-  std::vector<int> elements;         ///< of the whole, that another one stands for
-  std::vector<NodeId> nodes;         ///< of the whole, that are left out
+  std::vector<Sum> records;          ///< of each record of the original scene
+  std::vector<int> elements;         ///< of the original scene, replaced by a merged element
+  std::vector<NodeId> nodes;         ///< of the original scene, eliminated
 };
 
-/// Absent if there is nothing to merge. Nodes that are recorded, claimed or sensed, or that start somewhere, stay; and so does what
-/// starts with a force or displacement of its own.
+/// Absent if nothing can be merged. Nodes with start values, records, claims or sensors stay, and so do elements with a
+/// start force or displacement of their own.
 std::optional<Merging> merge(const Scene& scene);
 
 }  // namespace rheonet

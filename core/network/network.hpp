@@ -28,18 +28,18 @@ struct Laws {
   std::unique_ptr<Batch> batch;
 };
 
-/// A scene's elements by what they are to the structure; laws sorted by type, so that each type is one contiguous batch.
-/// Elements at a limit of their parameters have become the law of the limit, springs in series with sliders alone one
-/// element (pairs.hpp). Time counts from the scene's start.
+/// The elements of a scene by role; laws are sorted by type, so that each type is one contiguous batch. An element at a
+/// limit of its parameters has the law of that limit. Springs in series with a slider alone are one element (pairs.hpp).
+/// Time counts from the scene's start.
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
-  /// With a `block` its velocity is what that puts out, times `sign`; it then begins at `from` [m], if that is given.
+  /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given.
   struct Motion { int element; NodeId node; Signal signal; bool position; int block = -1; double sign = 1, from = not_given; };
   struct Slider { Branch branch; Slip law; };
-  /// b = -1 for a force at one node. With a `block` it is what that puts out, times `sign`.
+  /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output.
   struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; };
-  /// Where an element went: a branch of `deflections` or `rates`, or an index into sliders, masses, motions,
-  /// forces; or into `pairs`, whatever its role.
+  /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, motions or forces.
+  /// If `paired`, an index into `pairs` for either role.
   struct Place { Role role; int index; bool paired = false; };
 
   const Scene* scene = nullptr;
@@ -53,17 +53,18 @@ struct Network {
   std::vector<Force> forces;
   Blocks blocks;
   std::vector<Place> places;  ///< one for each element of the scene
-  /// Springs and sliders in series, and what they are together: the last branches of `deflections`. A bundle goes by the
-  /// name of its first slider.
+  /// Springs in series with sliders. Their bundles are the last branches of `deflections`, each named after its first
+  /// slider.
   std::vector<Pair> pairs;
   IwanBatch* bundles = nullptr;  ///< nullptr if there are none
   int first_bundle = 0;          ///< branch of the first one
-  std::vector<NodeId> scene_node;  ///< the scene's number of each node: those between pairs are not of the network
-  /// Of each of the scene's nodes: its number here (of a free end that of the node that it hangs on), or -1 - the pair that it
-  /// is in.
+  std::vector<NodeId> scene_node;  ///< the scene's number of each node of the network; it has no nodes between spring and
+                                   ///< slider of a pair
+  /// Of each node of the scene: its number here (for a free end, that of the node on which it hangs), or -1 - k between
+  /// spring and slider of pair k.
   std::vector<int> node_of;
   FreeEnds free_ends;
-  /// All nodes, ground first, in the order in which elements name them: the equations are numbered by it, so that two
+  /// All nodes, ground first, in the order in which elements name them. Equations are numbered in this order, so that two
   /// ways of writing a network give the same numbers.
   std::vector<NodeId> node_order;
   std::vector<std::string> notes;
@@ -74,7 +75,7 @@ struct Network {
   /// The batch that holds deflection branch number `branch`, and its index there.
   DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   RateBatch& rate_of(int branch, std::size_t& i) const;
-  /// Where an element and a node stand in the netlist.
+  /// Places of an element and of a node in the netlist.
   const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }
   const Spot& spot_of_node(NodeId n) const { return node(n).spot; }
   const std::string& node_name(NodeId n) const { return node(n).name; }
@@ -84,16 +85,16 @@ struct Network {
   }
 };
 
-/// "at t = 1.3 s", for messages: t counts from the scene's start, what is shown does not.
+/// "at t = 1.3 s", for messages. `t` counts from the scene's start, the time shown does not.
 std::string at_time(const Scene& scene, double t);
 
 /// "0.3 m" or "0.3 rad": for messages.
 std::string with_unit(const Scene& scene, double value, Quantity quantity);
 
-/// Whether an element of the role `motion` prescribes a position; else it prescribes a velocity.
+/// Whether an element of the role `motion` prescribes a position rather than a velocity.
 bool prescribes_position(const SceneElement& motion);
 
-/// The scene must outlive the network. Throws SimulationError for elements that no network can have.
+/// Builds the network of a scene, which must outlive it. Throws SimulationError for elements that no network can have.
 Network build_network(const Scene& scene);
 
 }  // namespace rheonet

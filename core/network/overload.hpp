@@ -6,13 +6,13 @@
 
 namespace rheonet {
 
-/// Refuses what is applied to these nodes from the time t on: the elements of the scene that lead away from there have come
-/// to the largest force that they can take. Throws SimulationError.
+/// Throws SimulationError: the load on these nodes exceeds the force that their connections can carry from the time t on.
+/// `elements` of the scene lead away from these nodes and are at their largest force.
 [[noreturn]] void report_overload(const Network& network, double t, const std::vector<NodeId>& nodes,
                                   const std::vector<int>& elements);
 
-/// Where rounding hides which friction slips under its forces: throws SimulationError with `what` ("at t = 1 s", say), the names
-/// of all that might, and what would mend it.
+/// Throws SimulationError where round-off hides which friction slips. The message begins with `what` ("at t = 1 s", say),
+/// names all candidates and says how to mend the scene.
 [[noreturn]] void report_undecided(const Network& network, const std::string& what);
 
 }  // namespace rheonet

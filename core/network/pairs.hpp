@@ -8,26 +8,25 @@
 
 namespace rheonet {
 
-/// A spring in series with a slider through a node that nothing else touches: one rate-independent element, a stop
-/// operator. The node needs no equation, nor does the slider a mode.
+/// A spring in series with a slider, through a node that nothing else touches: one rate-independent element, a stop
+/// operator. The node needs no equation and the slider no mode.
 struct Pair {
   int spring, slider;             ///< indices into Scene::elements
-  NodeId node;                    ///< the one between them, of the scene
-  NodeId spring_end, slider_end;  ///< of the scene, until the network numbers them
+  NodeId node;                    ///< between the two, a node of the scene
+  NodeId spring_end, slider_end;  ///< nodes of the scene until the network numbers them, then nodes of the network
   LinearSpring law;
   double coulomb;                   ///< N
-  double spring_sign, slider_sign;  ///< of their forces, if the force from the spring's end to the slider's is positive
+  double spring_sign, slider_sign;  ///< of the two forces, if the force from the spring's end to the slider's is positive
 
   // In the network (see core/network/iwan.hpp):
   int bundle = -1;        ///< index into Network::bundles
   std::size_t index = 0;  ///< in that bundle
-  double sign = 1;        ///< of the force from the spring's end to the slider's, if that of the bundle is positive
+  double sign = 1;        ///< of the force from the spring's end to the slider's, if the bundle's force is positive
 };
 
-/// The pairs of a scene. What has a mass, a drive, a third element or a velocity given at its middle is none, nor is
-/// one whose slider breaks away at more than it slips with. At an end without mass or motion start values other than 0
-/// may say more than a force of the pair: there it is none if it is given any, or begins with more than its slider
-/// holds.
+/// The pairs of a scene. The node between must have no mass, motion, third element or given velocity, and the slider must
+/// slip at its breakaway force. If an end has neither mass nor motion, given start values may also constrain its neighbours:
+/// a pair is then accepted only without given values, and if its slider holds the initial force.
 std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& laws);
 
 }  // namespace rheonet

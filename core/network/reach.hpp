@@ -8,26 +8,26 @@
 
 namespace rheonet {
 
-/// What of a scene is near enough to all that moves, starts or is asked for to be reached before the stop. Beyond lie masses at
-/// rest between linear springs free of force and linear dashpots alone: motion comes to them from one to the next.
+/// The share of a scene that disturbances can reach before the stop. Beyond lie masses at rest, joined by linear dashpots
+/// and unloaded linear springs alone: motion propagates through them from one mass to the next.
 ///
-/// Their motion d elements away from the rest of the network is bounded. With k and c the stiffnesses and dampings at a mass m,
-/// those towards masses nearer by (+), as far (0) and farther (-) and those to ground, let for any w > 1
+/// The motion d elements away from the rest of the network is bounded. Let k and c be the stiffnesses and dampings at a mass
+/// m, towards masses nearer (+), equally far (0) and farther (-) and to ground. For any w > 1 let
 ///
 ///     a = max over masses of  (c+ (w - 1) + c- (1/w - 1) - c_ground)/m
 ///     b = max over masses of  (k+ (w + 1) + k- (1/w + 1) + 2 k0 + k_ground)/m,      r^2 = a r + b
 ///
-/// Then w^d times any of their velocities, and r w^d times any displacement, grow no faster than exp(r t): the largest of them
-/// obey v' <= a v + b x and x' <= v. So with w^d = exp(r (stop - start))/e no mass beyond moves faster than the share e of what
-/// the rest does at the most (of its velocities, and of r times its displacements); and what it would answer is that share of a
-/// share. The w is taken that gives the least d.
+/// Then w^d times any velocity, and r w^d times any displacement, grow no faster than exp(r t), because the largest of these
+/// obey v' <= a v + b x and x' <= v. With w^d = exp(r (stop - start))/e, no mass beyond moves faster than the share e of the
+/// largest velocity of the rest (or of r times its largest displacement), and its reaction is that share of a share. The w
+/// with the smallest d is used.
 struct Reach {
-  std::vector<char> node, element;  ///< of each of the scene's: it is near enough
-  std::size_t beyond = 0;           ///< how many elements are not
-  int farthest = 0;                 ///< masses farther away than so many elements are not
+  std::vector<char> node, element;  ///< of each node and element of the scene: disturbances can reach it
+  std::size_t beyond = 0;           ///< number of elements out of reach
+  int farthest = 0;                 ///< masses at a larger distance, in elements, are out of reach
 };
 
-/// Absent where hardly anything lies beyond, or where forces are to be in balance at the start.
+/// Absent if hardly anything lies beyond, or if the start is to be an equilibrium or steady motion.
 std::optional<Reach> reach_of(const Scene& scene);
 
 }  // namespace rheonet

@@ -7,21 +7,21 @@
 
 namespace rheonet {
 
-/// What is made of a scene before it is simulated so that less is left to simulate. None changes what is recorded beyond the
-/// accuracy asked for; each can be switched off by its name (Scene::keep).
+/// Simplifications of a scene before it is simulated. They change no record beyond the requested accuracy. Each can be
+/// switched off by its name (Scene::keep).
 enum class Reduction { chains, bundles, given, positions, parts, unasked, reach };
 
 struct ReductionWords {
   Reduction reduction;
-  std::string name;  ///< as after --keep
-  std::string what;  ///< what it does, in one line
+  std::string name;  ///< as given to --keep
+  std::string what;  ///< its effect, in one line
 };
 
-/// All of them, in the order in which they are listed.
+/// All reductions, in the order in which they are listed.
 const std::vector<ReductionWords>& reductions();
 const std::string& name_of(Reduction reduction);
 
-/// The scene does without this reduction.
+/// The scene switches this reduction off.
 bool kept(const Scene& scene, Reduction reduction);
 
 }  // namespace rheonet

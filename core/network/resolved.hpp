@@ -6,9 +6,8 @@
 
 namespace rheonet {
 
-/// The values of an element, without the effects that the scene leaves out; times that mean something at 0 too (a delay) are
-/// 0 if they are shorter than what tells the times of the run apart: nothing can come so much later. [SI] Throws
-/// SimulationError where an effect cannot be left out.
+/// The values of an element [SI], without the effects that the scene leaves out. A time that may be 0 (a delay) is set to 0
+/// if it is below the resolution of time in the run. Throws SimulationError where an effect cannot be left out.
 std::vector<double> resolved_values(const Scene& scene, const SceneElement& element);
 
 }  // namespace rheonet

@@ -6,7 +6,7 @@
 
 namespace rheonet {
 
-/// Disjoint sets over 0 .. n-1 (nodes, say), each with a member that speaks for it. Paths are halved as they are walked.
+/// Union-find over 0 .. n-1 (nodes, say): disjoint sets, each with one member as its representative. Uses path halving.
 class Sets {
  public:
   explicit Sets(std::size_t n) : leader_(n) { std::iota(leader_.begin(), leader_.end(), 0); }
@@ -14,7 +14,7 @@ class Sets {
     while (up(i) != i) i = up(i) = up(up(i));
     return i;
   }
-  /// The one that speaks for j speaks for both from there on.
+  /// Unites the sets of i and j under the representative of j.
   void join(int i, int j) { up(find(i)) = find(j); }
 
  private:

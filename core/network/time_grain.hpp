@@ -5,7 +5,7 @@
 
 namespace rheonet {
 
-/// Times at about t that differ by no more than this are one: a few units in the last place [s].
+/// Resolution of time near t [s]: times that differ by no more are taken as equal. 64 units in the last place.
 inline double time_grain(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
 }  // namespace rheonet

@@ -2,8 +2,8 @@
 
 namespace rheonet {
 
-/// Velocities that differ by this share of their magnitudes are equal. An event of less would be one of the rounding: what
-/// begins to move there would be found at rest.
+/// Relative difference below which velocities are equal. Events from smaller differences would be round-off: a motion that
+/// seems to begin there would be found at rest.
 inline constexpr double velocity_grain = 1e-14;
 
 }  // namespace rheonet

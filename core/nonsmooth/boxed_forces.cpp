@@ -14,11 +14,11 @@ namespace rheonet {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Width of the gaps in a direction that are searched for an overloaded cut while the dual is bounded along that direction, as a
+// Narrowest gap in a direction that is searched for an overloaded cut while the dual is bounded along that direction, as a
 // share of the whole range. The nodes of an overloaded cut run ahead of all other nodes.
 constexpr double wide_gap = 0.1;
-// Newton's steps, for each branch, and for the smallest graphs: a grid of 2,500 nodes took 0.001 to 0.02 a branch where bounds are of
-// a kind, and 0.2 where they differ by 12 decades.
+// Limit of Newton's steps: for each branch, and for the smallest graphs. A grid of 2,500 nodes took 0.001 to 0.02 steps per
+// branch with bounds of one magnitude, and 0.2 with bounds that differ by 12 decades.
 constexpr std::size_t steps_a_branch = 4, least_steps = 100;
 // Refinements of a direct solution. Each one gains the digits of the factors.
 constexpr int refinements = 3;
@@ -78,7 +78,7 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
   if (without_bounds(load, force)) return Outcome::within;
   std::fill(open_.begin(), open_.end(), 1);
   difference_ = force;
-  std::vector<double> open_load = load;  // less what the branches of overloaded cuts carry
+  std::vector<double> open_load = load;  // minus the forces of the branches of overloaded cuts
   const std::size_t most = least_steps + steps_a_branch * branches_.size();
   for (std::size_t step = 0; step < most; ++step) {
     for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -87,7 +87,7 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
     if (balanced(load, force)) return !of_least_norm(force) ? Outcome::failed : cuts_.empty() ? Outcome::within : Outcome::beyond;
     find_direction();
     const double least = minimum_along();
-    // Without a minimum along the direction, the load of a cut is at least what the cut can carry, but for round-off.
+    // Without a minimum along the direction, some cut's load reaches the capacity of the cut, except for round-off.
     const bool bounded = std::isfinite(least);
     if (const auto cut = CutSearch(branches_, open_, held_, open_load).along(direction_, bounded ? wide_gap : 0)) {
       give_way(*cut, open_load, force);
@@ -100,8 +100,8 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
   return Outcome::failed;
 }
 
-/// The forces of least norm, which are the answer where they lie in their boxes. Differences of large potentials lose digits: the
-/// same factors bring them back.
+/// Computes the forces of least norm without bounds. Returns true if they lie in their boxes: they are then the answer.
+/// Iterative refinement with the same factors recovers the digits that differences of large potentials lose.
 bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<double>& force) {
   std::fill(held_.begin(), held_.end(), 0);
   std::fill(force.begin(), force.end(), 0.0);
@@ -157,12 +157,13 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
   return failed_node_ < 0;
 }
 
-/// Newton's direction for the active set at present. Branches within their boxes join nodes to parts. First those parts that do
-/// not reach a held node move as a whole, as if the branches between them were within their boxes, until all parts balance; then the
-/// nodes within the parts. Scaled to a length of about 1, because products of forces might overflow.
+/// Newton's direction for the present active set. Branches within their boxes connect nodes into parts. First, the parts
+/// without a held node move as a whole, as if the branches between them were within their boxes, until all parts balance;
+/// then the nodes within the parts move. The direction is scaled to a length of about 1, because products of forces might
+/// overflow.
 void BoxedForces::find_direction() {
   const int nodes = static_cast<int>(held_.size());
-  Sets parts(held_.size() + 1);  // the last one is held
+  Sets parts(held_.size() + 1);  // the last member stands for held nodes
   const auto slot = [&](int node) { return node < 0 || held_[at(node)] ? nodes : node; };
   const auto within = [&](std::size_t k) { return branches_[k].low < difference_[k] && difference_[k] < branches_[k].high; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -202,7 +203,7 @@ void BoxedForces::find_direction() {
   for (std::size_t k = 0; k < branches_.size(); ++k) along_[k] = open_[k] ? difference(k, direction_) : 0;
 }
 
-/// Slope of the dual along the direction, which grows with the step.
+/// Slope of the dual along the direction; it increases with the step.
 double BoxedForces::slope_at(double step) const {
   double slope = 0;
   for (std::size_t n = 0; n < held_.size(); ++n) slope -= left_[n] * direction_[n];
@@ -212,7 +213,7 @@ double BoxedForces::slope_at(double step) const {
   return slope;
 }
 
-/// Infinite where the slope stays negative.
+/// The step to the minimum of the dual along the direction; infinite if the slope stays negative.
 double BoxedForces::minimum_along() const {
   std::vector<double> breaks;
   for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -245,8 +246,8 @@ void BoxedForces::move(double step) {
   grain_ += eps * largest;
 }
 
-/// The branches of the cut carry the load of its nodes, each beyond its bound by the same share (where all bounds are 0, by the same
-/// force). Their forces are taken away from `load`.
+/// Lets the branches of the cut carry the load of its nodes, each beyond its bound by the same share (by the same force if
+/// all bounds are 0). Subtracts their forces from `load`.
 void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, std::vector<double>& force) {
   const auto bound = [&](int k) {
     const BoxedBranch& b = branches_[at(k)];
@@ -266,7 +267,7 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
     if (branches_[at(k)].a >= 0) load[at(branches_[at(k)].a)] -= force[at(k)];
     if (branches_[at(k)].b >= 0) load[at(branches_[at(k)].b)] += force[at(k)];
   }
-  // Nothing holds the set now, and its balance as a whole is met: one of its nodes, the one with the largest terms, is left out.
+  // No branch holds the set now, and it balances as a whole: drop the balance of one node, the one with the largest terms.
   int heaviest = -1;
   for (std::size_t n = 0; n < load.size(); ++n) {
     if (cut.inside[n] && (heaviest < 0 || magnitude_[n] > magnitude_[at(heaviest)])) heaviest = static_cast<int>(n);
@@ -275,7 +276,7 @@ void BoxedForces::give_way(const OverloadedCut& cut, std::vector<double>& load, 
   if (cut.beyond) cuts_.push_back(cut);
 }
 
-/// Whether every force is the potential difference, or the bound that lies before it.
+/// Whether every force is the potential difference clamped to its box.
 bool BoxedForces::of_least_norm(const std::vector<double>& force) {
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     const BoxedBranch& b = branches_[k];

@@ -19,7 +19,7 @@ namespace rheonet {
 /// so that every node still balances.
 class BoxedForces {
  public:
-  /// Every node has a way along branches to a held one.
+  /// Each node has a path along branches to a held one.
   BoxedForces(int nodes, std::vector<BoxedBranch> branches);
   BoxedForces(BoxedForces&&) noexcept;
   BoxedForces& operator=(BoxedForces&&) noexcept;
@@ -30,13 +30,13 @@ class BoxedForces {
     beyond,  ///< cuts are overloaded: see `cuts`
     failed,  ///< a condition is not met to round-off: see `failed_node` and `failed_branch`
   };
-  /// `load`: of each node [N], finite. Writes the force of each branch.
+  /// `load`: of each node [N], finite. Writes the force of each branch into `force`.
   Outcome solve(const std::vector<double>& load, std::vector<double>& force);
 
   const std::vector<OverloadedCut>& cuts() const { return cuts_; }
   /// A node that does not balance, or -1.
   int failed_node() const { return failed_node_; }
-  /// A branch whose force is not that of least norm, or -1.
+  /// A branch whose force does not follow from the potentials by the least-norm condition, or -1.
   int failed_branch() const { return failed_branch_; }
 
  private:
@@ -55,13 +55,14 @@ class BoxedForces {
 
   struct Ends { std::size_t a, b; };
   std::vector<BoxedBranch> branches_;
-  std::vector<Ends> ends_;            ///< of each branch; those that are held share the place behind the last node
+  std::vector<Ends> ends_;            ///< of each branch; held ends share the index after the last node
   std::unique_ptr<Factors> factors_;  ///< of the Laplacian of all branches
-  std::vector<double> difference_;    ///< of each branch: phi_a - phi_b, kept apart as phi has larger round-off
-  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the direction of its difference
-  std::vector<double> left_, magnitude_;         ///< of each node: what is out of balance, and the sum of the terms [N]
-  std::vector<int> terms_;                       ///< of each node: how many
-  std::vector<char> held_;  ///< of each node: its balance follows from those of others
+  std::vector<double> difference_;    ///< of each branch: phi_a - phi_b; stored apart because phi has larger round-off
+  std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the difference of `direction_`
+  std::vector<double> left_, magnitude_;         ///< of each node: force out of balance, and sum of magnitudes of the terms
+                                                 ///< [N]
+  std::vector<int> terms_;                       ///< of each node: number of terms
+  std::vector<char> held_;  ///< of each node: its balance follows from the balances of other nodes
   std::vector<char> open_;  ///< of each branch: it is in no overloaded cut
   double grain_ = 0;        ///< round-off of a difference of potentials [N]
   std::vector<OverloadedCut> cuts_;

@@ -12,7 +12,7 @@ namespace rheonet {
 
 namespace {
 
-constexpr Eigen::Index largest_unordered = 8;  // up to so many unknowns an order that fills in less gains nothing
+constexpr Eigen::Index largest_unordered = 8;  // a fill-reducing order gains nothing for fewer unknowns
 
 /// The place of each unknown in an order of elimination with little fill-in.
 std::vector<int> places(const std::vector<Conductance>& conductances, Eigen::Index unknowns) {
@@ -50,7 +50,7 @@ class StarMesh {
   }
 
   bool eliminate() {
-    std::vector<std::vector<std::size_t>> reach(later_.size());  // of each: earlier ones of which it is the next neighbour
+    std::vector<std::vector<std::size_t>> reach(later_.size());  // of each unknown: earlier ones whose next neighbour it is
     std::vector<int> neighbours;
     for (std::size_t k = 0; k < later_.size(); ++k) {
       neighbours.clear();
@@ -97,10 +97,10 @@ class StarMesh {
     }
   }
 
-  std::vector<std::vector<Neighbour>> later_;  ///< of each unknown: its conductances to unknowns that go after it
+  std::vector<std::vector<Neighbour>> later_;  ///< of each unknown: conductances to unknowns eliminated after it
   std::vector<double> held_;                   ///< of each unknown: its conductance to the held node
-  std::vector<double> sum_;                    ///< the pivot: the sum of both when the unknown goes
-  std::vector<std::ptrdiff_t> next_;           ///< index into `later_`: the first neighbour that is still there
+  std::vector<double> sum_;                    ///< of each unknown, its pivot: the sum of `held_` and `later_`
+  std::vector<std::ptrdiff_t> next_;           ///< index into `later_`: first neighbour not yet eliminated
   std::vector<double> among_;                  ///< conductances of the row of the pivot, by place; 0 between pivots
 };
 

@@ -10,9 +10,9 @@
 
 namespace rheonet {
 
-// The slope of the dual along a direction d, far out, is the integral over all levels of capacity - load of the nodes above the
-// level (below it, for levels under 0). So where that slope is negative there is an overloaded cut between two levels, most
-// likely at the widest gap.
+// Far out, the slope of the dual along a direction d is the integral, over all levels, of (capacity - load) of the nodes
+// above the level (below it for negative levels). A negative slope therefore implies an overloaded cut between two levels,
+// most likely at the widest gap.
 std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& direction, double share) const {
   std::vector<int> order(load_.size());
   std::iota(order.begin(), order.end(), 0);
@@ -24,7 +24,7 @@ std::optional<OverloadedCut> CutSearch::along(const std::vector<double>& directi
     if (level > below) gaps.push_back({level - below, level > 0 ? level : below});
     below = level;
   };
-  bool passed = false;  // the level 0 of the held nodes
+  bool passed = false;  // the level 0 of held nodes has been passed
   for (const int n : order) {
     if (direction[at(n)] > 0 && !passed) meet(0);
     passed = passed || direction[at(n)] > 0;
@@ -80,7 +80,7 @@ bool CutSearch::overloaded(const std::vector<char>& inside, int side) const {
 /// The connected parts of the nodes with this value, without the part that reaches a held node.
 std::vector<std::vector<char>> CutSearch::pieces(const std::vector<char>& of, char value) const {
   const std::size_t nodes = of.size();
-  Sets sets(nodes + 1);  // the last one is held
+  Sets sets(nodes + 1);  // the last member stands for held nodes
   const auto slot = [&](int node) { return node < 0 || held_[at(node)] ? static_cast<int>(nodes) : node; };
   const auto belongs = [&](int node) { return slot(node) == static_cast<int>(nodes) ? value == 0 : of[at(node)] == value; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {

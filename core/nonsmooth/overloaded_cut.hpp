@@ -9,27 +9,27 @@ namespace rheonet {
 /// infinite). A node of -1 is held: it takes any force.
 struct BoxedBranch { int a, b; double low, high; };
 
-/// A set of nodes whose load is more than the branches that leave the set can carry. The set and the rest of the graph, with
-/// its held nodes, each hang together.
+/// A set of nodes whose load exceeds the force that the branches leaving the set can carry. The set is connected, and so is
+/// the rest of the graph with its held nodes.
 struct OverloadedCut {
   std::vector<char> inside;   ///< of each node
   int side = 1;               ///< the direction in which the load pushes the set
-  std::vector<int> branches;  ///< that leave the set
-  double excess = 0;          ///< of the load over what the branches can carry [N]
+  std::vector<int> branches;  ///< branches that leave the set
+  double excess = 0;          ///< load minus the largest force of the branches [N]
   bool beyond = false;        ///< the excess is more than round-off
 };
 
-/// Loads at the nodes of a graph, held up by branches. `open`: of each branch whether it takes part; `held`: of each node
-/// whether it takes any force. All must outlive this.
+/// Finds overloaded cuts for loads at the nodes of a graph. `open`: of each branch, whether it takes part; `held`: of each
+/// node, whether it takes any force. The arguments must outlive this object.
 class CutSearch {
  public:
   CutSearch(const std::vector<BoxedBranch>& branches, const std::vector<char>& open, const std::vector<char>& held,
             const std::vector<double>& load)
       : branches_(branches), open_(open), held_(held), load_(load) {}
 
-  /// An overloaded cut between nodes that move apart in this direction, of each node (0 where it is held). Looks where they are
-  /// apart by at least this share of the whole range. With a share of 0, the cut with the largest excess if no excess is more
-  /// than round-off.
+  /// An overloaded cut between nodes that `direction` moves apart (a displacement of each node, 0 where it is held). Only
+  /// gaps of at least `share` of the whole range of `direction` are examined. With a share of 0, returns the cut with the
+  /// largest excess if no excess is more than round-off.
   std::optional<OverloadedCut> along(const std::vector<double>& direction, double share) const;
 
  private:
