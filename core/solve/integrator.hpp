@@ -8,14 +8,15 @@
 
 namespace rheonet {
 
-/// Event functions along a trajectory: an event is one of them going from positive to negative.
+/// Event functions (guards) along a trajectory: an event is a fall of one of them from positive to 0 or below.
 class EventFunctions {
  public:
   virtual ~EventFunctions() = default;
   virtual int count() const = 0;
   virtual void evaluate(double t, const double* y, const double* yp, double* g) = 0;
-  /// Part of function `k` that keeps noise from being an event. If the function was larger at the beginning of a step, its event
-  /// is where it has fallen to this: an event that is always late shifts those after it, and a long run adds that up.
+  /// Dead band included in function `k`, which keeps round-off from firing it. If the function exceeds the band at the
+  /// beginning of a step, its event is located where it has fallen to the band: an event that is always late delays those
+  /// after it, and over a long run the delays add up.
   virtual double band(int /*k*/) const { return 0; }
 };
 
@@ -27,58 +28,58 @@ class Integrator {
     step,      ///< one step further
     event,     ///< at an event; see events()
     stop,      ///< at the stop time
-    stuck,     ///< no step however small meets the tolerance, or its equations cannot be solved
+    stuck,     ///< no step, however small, meets the tolerance, or Newton's iteration fails
     singular,  ///< the equations have no unique solution here
   };
 
-  /// Up to this many unknowns a dense matrix is factorised faster than KLU does it: see tools/bench/linear_algebra.md.
+  /// Up to this many unknowns dense factorisation is faster than KLU: see tools/bench/linear_algebra.md.
   static constexpr int dense_limit = 4;
-  /// The order of the method goes up to this at most.
+  /// Highest order of the method.
   static constexpr int highest_order = 5;
 
   struct Options {
-    int order = highest_order;  ///< from 1: the order goes no higher
-    int dense = dense_limit;    ///< linear algebra is dense up to so many unknowns
-    /// An event is looked for within each step; else it is taken to be at the end of the step that goes over it, as many
-    /// programs do.
+    int order = highest_order;  ///< highest order, from 1
+    int dense = dense_limit;    ///< linear algebra is dense up to this many unknowns
+    /// Locate each event within its step; if false, an event is taken to be at the end of its step, as many programs do.
     bool locate_events = true;
   };
 
-  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0), and a change of it below `grain[i]` is noise; they
-  /// are read before every step.
+  /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0), and a change of it below `grain[i]` is
+  /// round-off. Both are read before every step.
   Integrator(Dae& dae, EventFunctions& events, const std::vector<double>& tolerance, const std::vector<double>& grain,
              const Options& options);
   ~Integrator();
 
-  /// Starts afresh at t from a consistent state. The first step is h.
+  /// Restarts at t from a consistent state, with first step h [s]. No step passes `stop`.
   void restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop);
-  /// Goes on from the stop time to another one: hardly anything has changed there.
+  /// Continues from the stop time to another one with the same history: use it where the discontinuity at the stop time is
+  /// negligible.
   void go_on(TimePoint stop);
-  /// No step is longer than this [s]; infinite for no limit.
+  /// Limits the step size [s]; infinite for no limit.
   void limit_step(double longest);
   Outcome step();
-  /// Takes back the last step's part after t: an event of function `which` there has been missed.
+  /// Shortens the last step to end at t, at a missed event of function `which`.
   void cut(double t, int which);
 
   double time() const;
   double previous_time() const;  ///< where the last step began
   const std::vector<double>& y() const;
   const std::vector<double>& yp() const;
-  /// After an event: for each event function whether it fired.
+  /// After an event: for each event function, whether it fired (1) or not (0).
   const std::vector<int>& events() const;
   /// The solution (derivative 0) or its time derivative (1) within the last step.
   void interpolate(double t, int derivative, std::vector<double>& out) const;
   /// The unknown with the largest error estimate relative to its tolerance in the last attempted step.
   int worst_unknown() const;
-  /// The same of those alone that the error test looks at; -1 if none has an error.
+  /// The same among the unknowns in the error test; -1 if none of them has an error.
   int limiting_unknown() const;
-  /// Attempts at a step that were rejected since the last restart.
+  /// Rejected attempts at a step since the last restart.
   struct Failures {
-    long error_tests = 0;  ///< its error was too large
-    long convergence = 0;  ///< its equations could not be solved
+    long error_tests = 0;  ///< error too large
+    long convergence = 0;  ///< Newton's iteration failed
   };
   Failures failures() const;
-  int last_order() const;  ///< of the last step
+  int last_order() const;  ///< order of the last step
 
   struct Statistics {
     long steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;

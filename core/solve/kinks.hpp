@@ -7,30 +7,31 @@
 
 namespace rheonet {
 
-/// Small kinks one after the other, as a bundle of many pairs makes them where a mass smoothes what it does, upset the error
-/// test more than the solution. Where most steps go over some, their errors have either sign, and hardly add up: tolerances
-/// may be larger there (Accumulation::dense_share). What follows each kink by itself needs every digit.
+/// Detects runs over many small kinks. A bundle of many spring-slider pairs makes a kink whenever a pair yields; where a mass
+/// smooths its effect, such kinks upset the error test more than the solution. Where most steps cross kinks, their errors
+/// have either sign and largely cancel, so tolerances may be larger (Accumulation::dense_share). A step that resolves each
+/// kink separately needs the full tolerance.
 class Kinks {
  public:
   /// The network must outlive this.
   explicit Kinks(const Network& network) : network_(network) {}
 
-  /// After a step, with the view of the state that it reached.
+  /// Call after a step, with the view of the state at its end.
   void follow(const Dae& dae, const Dae::View& view);
-  /// Whether most steps go over some, or it is being tried if they do at a larger tolerance.
+  /// True where most steps cross kinks, or while a larger tolerance is on trial.
   bool dense() const { return dense_; }
 
  private:
   bool crossed(const Dae& dae, const Dae::View& view);
 
   const Network& network_;
-  /// How far each bundle has yielded, and on which of its branches.
+  /// How many pairs of each bundle have yielded, and on which branch of its law.
   struct Yielded { long branch = 0; std::size_t pairs = 0; };
   std::vector<Yielded> yielded_;
-  double pace_ = 0;            ///< share of the last steps that went over kinks
+  double pace_ = 0;            ///< moving average of the share of steps that crossed kinks
   bool dense_ = false;
-  bool found_dense_ = false;   ///< since it was last tried
-  long since_ = 0, wait_ = 0;   ///< steps since it was last gone over to the one or the other; until it is tried again
+  bool found_dense_ = false;   ///< most steps crossed kinks at some time in the present trial
+  long since_ = 0, wait_ = 0;   ///< steps since `dense_` changed; steps until the next trial
 };
 
 }  // namespace rheonet

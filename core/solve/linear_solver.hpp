@@ -9,20 +9,20 @@
 
 namespace rheonet {
 
-/// The direct solver of the linear equations of an integrator's step: KLU, or dense elimination for a few unknowns. Newtons
-/// stand beside metres a second in the matrix: so that pivots can be compared, and so that they are the same in whatever
-/// units, each unknown counts in multiples of its tolerance, and each equation is divided by the sum of its coefficients. An
-/// equation for a single unknown is then the pivot of that: what rests has a velocity of 0 exactly.
+/// The direct solver of the linear equations of an integrator's step: KLU, or dense elimination for a few unknowns. The
+/// matrix mixes newtons and metres a second. It is scaled so that pivots are comparable and independent of units: each
+/// unknown counts in multiples of its tolerance, and each equation is divided by the sum of its coefficients. A row with a
+/// single unknown is then chosen as the pivot of that unknown: a velocity at rest is exactly 0.
 class LinearSolver {
  public:
-  /// `tolerance` (of each unknown, > 0) is read whenever there is a new matrix.
+  /// `tolerance` (of each unknown, > 0) is read at each factorisation.
   LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance);
 
-  /// Entries of the matrix in the order of the pattern: to be filled in anew before it is factorised.
+  /// Entries of the matrix in the order of the pattern. Fill in all of them before each `factorise`, which overwrites them.
   double* entries() { return values_.data(); }
   /// False if it is singular.
   [[nodiscard]] bool factorise();
-  /// In place.
+  /// Solves in place.
   void solve(double* right);
 
  private:
@@ -31,9 +31,9 @@ class LinearSolver {
   const Pattern& pattern_;
   const std::vector<double>& tolerance_;
   std::optional<SparseFactors> sparse_;
-  DenseFactors dense_;  // of no unknowns if there are sparse ones
+  DenseFactors dense_;  // empty if `sparse_` is used
   std::vector<double> values_;
-  double first_growth_ = 1;  // with pivots that were chosen for that matrix
+  double first_growth_ = 1;  // growth of the coefficients when the pivots were chosen
   std::vector<double> row_scale_, column_scale_;
 };
 

@@ -7,29 +7,29 @@
 
 namespace rheonet {
 
-/// Newton's iteration for the equations of an integrator's step, up to a share of the step's allowed error, or as near as
-/// rounding lets it. Jacobians are kept as long as the coefficient cj of the step is about the same.
+/// Newton's iteration for the equations of an integrator's step, to a share of the step's allowed error, or to round-off. The
+/// Jacobian is kept while the coefficient cj of the step hardly changes.
 class Newton {
  public:
-  /// A change of unknown i below `grain[i]` is noise; `tolerance` is as for LinearSolver. All of them outlive this.
+  /// A change of unknown i below `grain[i]` is round-off; `tolerance` is as for LinearSolver. All arguments outlive this.
   Newton(Dae& dae, bool sparse, const std::vector<double>& tolerance, const std::vector<double>& grain);
 
-  /// From here on nothing is known of the equations. Counts begin anew.
+  /// Discards the Jacobian and the rate of convergence. Counts begin anew.
   void restart();
 
-  /// A step to t. It ends at y = predicted_y + c, y' = predicted_yp + cj c, with the correction c that is looked for.
+  /// A step to t. It ends at y = predicted_y + c, y' = predicted_yp + cj c, with the unknown correction c.
   struct Step {
     double t, cj;
     const double *predicted_y, *predicted_yp;
-    double *y, *yp;  ///< where an iterate is held
+    double *y, *yp;  ///< the present iterate
   };
-  /// Finds c, from 0 on, until the next change, each unknown times its weight, is foreseen to be no more than `enough` as a root
-  /// mean square. False if it does not converge.
+  /// Finds c, starting from 0, until the weighted root mean square of the next change is estimated to be at most `enough`.
+  /// False if it does not converge.
   [[nodiscard]] bool solve(const Step& step, double* correction, const double* weight, double enough);
 
   struct Counts {
     long residuals = 0, jacobians = 0;
-    long failures = 0;  ///< iterations that did not converge, also those that did with a new Jacobian
+    long failures = 0;  ///< iterations that did not converge, including those that did so after a new Jacobian
   };
   const Counts& counts() const { return counts_; }
   /// The last Jacobian has no inverse.
@@ -52,10 +52,10 @@ class Newton {
   const std::vector<double>& grain_;
   LinearSolver linear_;
   bool singular_ = false;
-  double jacobian_cj_ = 0;  // of the Jacobian; 0: there is none
+  double jacobian_cj_ = 0;  // of the Jacobian; 0: no Jacobian
   double last_cj_ = 0;      // of the last step
-  double foreseen_ = 0;     // what is left after a change, in parts of it
-  double first_change_ = 0; // as a norm
+  double foreseen_ = 0;     // estimate of the remaining error over the last change
+  double first_change_ = 0; // norm of the first change
   std::vector<double> change_;
   std::vector<double> last_change_;  // of rough equations
   Counts counts_;

@@ -11,29 +11,29 @@
 
 namespace rheonet {
 
-/// What the steps of a run are spent on. A step is put down to the unknown whose error estimate is the largest, relative to
-/// its tolerance, of those that the error test looks at; so are the attempts that were rejected before that step came to
-/// pass: the estimates of those are gone.
+/// Profile of a run: which elements its steps and restarts are due to. A step is attributed to the unknown in the error test
+/// with the largest error estimate relative to its tolerance. So are the attempts rejected before that step, because their
+/// own error estimates are gone.
 class Profile {
  public:
   struct Counts {
     long steps = 0;
     long rejected = 0;  ///< attempts whose error was too large
-    long diverged = 0;  ///< attempts whose equations Newton's iteration did not solve
-    long starts = 0;    ///< restarts of the integrator that it had a part in
+    long diverged = 0;  ///< attempts for which Newton's iteration failed
+    long starts = 0;    ///< restarts of the integrator attributed to it
     Counts& operator+=(const Counts& other);
   };
 
-  /// From here on steps are those of these equations, after a restart of their integrator.
+  /// Call after a restart of the integrator: from here on steps belong to these equations.
   void restart(const Dae& dae);
-  /// These elements are the reason for the next restart.
+  /// Attributes the next restart to these elements.
   void blame(const std::vector<int>& elements);
-  /// That is the failure of the last attempts.
+  /// Attributes the next restart to the unknown that limited the failed attempts.
   void blame_failure(const Integrator& integrator);
   void step(const Integrator& integrator);
 
   const std::map<Dae::Subject, Counts>& counts() const { return counts_; }
-  /// Steps of which no unknown has an error, and restarts for which no element is to blame: the first, say.
+  /// Steps in which no unknown has an error, and restarts that no element caused, such as the first.
   const Counts& others() const { return others_; }
   /// Steps at each order of the method.
   const std::array<long, Integrator::highest_order + 1>& orders() const { return orders_; }
@@ -46,7 +46,7 @@ class Profile {
   std::map<Dae::Subject, Counts> counts_;
   Counts others_;
   std::array<long, Integrator::highest_order + 1> orders_{};
-  Integrator::Failures failures_;  ///< up to the last step
+  Integrator::Failures failures_;  ///< counts up to the last step
   std::vector<Dae::Subject> blamed_;
 };
 

@@ -4,8 +4,8 @@
 
 namespace rheonet {
 
-/// Ends a run in which the integrator gets no further: throws SimulationError with the time, what it is that it cannot follow,
-/// and the elements whose values are to be looked at.
+/// Ends a run in which the integrator fails: throws SimulationError with the time, the unknown that the integrator cannot
+/// follow, and the elements whose values to check.
 [[noreturn]] void refuse_to_go_on(const System& system, const std::vector<double>& tolerance, Integrator::Outcome outcome);
 
 }  // namespace rheonet

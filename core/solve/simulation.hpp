@@ -13,17 +13,17 @@
 
 namespace rheonet {
 
-/// Receives a trajectory as it comes.
+/// Receives a trajectory while it is computed.
 class Observer {
  public:
   virtual ~Observer() = default;
-  /// A consistent state just after the start or an event; y' belongs to it. `heat` was released at that instant [J].
-  /// The equations and their solver hold until the next `begin`.
+  /// A consistent state just after the start or an event, with its y'. `heat` was released at that event [J]. The references
+  /// to the equations and their solver are valid until the next `begin`.
   virtual void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp, double heat) = 0;
   /// A step from integrator.previous_time() to integrator.time(). It may be interpolated. Memories of the laws are still
-  /// those of the step, also where it ends in an event, and the view of the equations is that of its end.
+  /// those of the step, even if it ends in an event, and the view of the equations is that of its end.
   virtual void step(const Integrator& integrator) = 0;
-  /// An element has switched at the end of the last step; `begin` follows the last such event of an instant.
+  /// An element has switched at the end of the last step; `begin` follows the last of several events at one time.
   virtual void event(const Event& event) = 0;
   /// The end of the run.
   virtual void end(double t) = 0;
@@ -32,12 +32,12 @@ class Observer {
 struct SimulationSettings {
   double stop = 1;  ///< s; the start is at 0
   double accuracy = 1e-6;
-  int order = Integrator::highest_order;  ///< of the method, at most: see Integrator::Options
+  int order = Integrator::highest_order;  ///< highest order of the method: see Integrator::Options
   bool locate_events = true;  ///< see Integrator::Options
-  bool switch_times = true;  ///< when within a step a pair has yielded is wanted, not only that it has
+  bool switch_times = true;  ///< locate the time within a step at which a pair yields, not only the step
   const std::atomic<bool>* interrupt = nullptr;
   std::function<void(double fraction)> progress;
-  Profile* profile = nullptr;  ///< finds out what steps are spent on
+  Profile* profile = nullptr;  ///< collects the causes of steps, if not null
 };
 
 struct SimulationStatistics {
@@ -46,12 +46,12 @@ struct SimulationStatistics {
   std::vector<std::string> chosen;  ///< see StartReport
 };
 
-/// Integrates from start to stop. `needed` marks the nodes whose positions are asked for. Throws SimulationError, with the
+/// Integrates from start to stop. `needed` marks the nodes whose positions are requested. Throws SimulationError, with the
 /// time and the elements concerned.
 SimulationStatistics simulate(const Network& network, const std::vector<char>& needed, const SimulationSettings& settings,
                               Observer& observer);
 
-/// The same up to the start itself: a state that the equations allow, and which modes begin.
+/// Only finds the consistent initial state and its modes.
 SimulationStatistics check_start(const Network& network, const std::vector<char>& needed,
                                  const SimulationSettings& settings, Observer& observer);
 

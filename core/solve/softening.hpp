@@ -9,30 +9,32 @@
 
 namespace rheonet {
 
-/// About how far power laws are taken as linear around rest, where their slope would be 0 or infinite.
+/// Regularisation of power laws near rest: the velocity up to which each is linear, because its slope at rest would be 0 or
+/// infinite.
 class Softening {
  public:
   /// The network must outlive this.
   explicit Softening(const Network& network);
 
-  /// Goes over to the modes with this structure.
+  /// Switches to the modes with this structure.
   void attach(const Structure& structure);
-  /// At the start, with the velocities of all nodes. Dilatant laws that start from rest would let their ends go there:
-  /// rounding of the velocities that the drive comes to gives them some slope.
+  /// Call at the start of a run, with the velocities of all nodes [m/s]. A dilatant law has slope 0 at rest and would leave
+  /// its ends free: it is linear up to the round-off of the velocity expected from the inputs, which gives it some slope.
   void begin(const Drive& drive, const std::vector<double>& velocity);
-  /// As far as the velocities below which nothing is resolved; of each law not again as long as that is about the same.
+  /// Makes each law linear up to the velocity that is not resolved. A law is changed only if that velocity has changed by a
+  /// factor of 2.
   void apply(const Tolerances& tolerances);
 
  private:
   const Network& network_;
   double slowest_stop(std::size_t rate, const Growth& growth) const;
-  std::vector<double> applied_;         ///< of each rate branch [m/s]; not_given before the first time
-  std::vector<double> least_velocity_;  ///< of each rate branch [m/s]
-  /// Of each rate branch: it may bring a mass to rest, or it is one of several in series that do, or that begin at rest
-  /// together. Elsewhere what a pseudoplastic law carries is told by its neighbours, and its velocity follows from that down
-  /// to nothing.
+  std::vector<double> applied_;         ///< of each rate branch: linear up to this velocity [m/s]; not_given before `apply`
+  std::vector<double> least_velocity_;  ///< of each dilatant rate branch: least such velocity [m/s]
+  /// Of each rate branch: pseudoplastic, and it may bring a mass to rest, or it is one of several in series that do so or
+  /// that start from rest together. The force of any other pseudoplastic law follows from its neighbours, and its velocity
+  /// from that force: it needs no regularisation.
   std::vector<char> stops_;
-  std::vector<double> mass_;  ///< of each rate branch: that it brings to rest, with others in series [kg]; 0 where it does not
+  std::vector<double> mass_;  ///< reduced mass that it stops, with others in series [kg]; 0 if none
 };
 
 }  // namespace rheonet

@@ -11,33 +11,33 @@
 
 namespace rheonet {
 
-/// One element goes over to something else.
+/// A change of an element's mode.
 struct Event {
   double t;          ///< s
   int element;       ///< index into Scene::elements
-  const char* what;  ///< see Switches; of a drive "jump" or "corner"
-  int direction;     ///< in which it moves from then on (of a drive: to which side its signal or slope goes): 1, -1; or 0
+  const char* what;  ///< see Switches; "jump" or "corner" of an input
+  int direction;     ///< of its motion afterwards (of an input: of the jump of its signal or slope): 1, -1; or 0
 };
 
-/// What every slider and every law with a memory does at present. Only what differs from one instant to the next is an
-/// event: an element that turns and turns back within an instant has none.
+/// Tracks the modes of sliders, laws with a memory and limiters, and turns their changes into events. Only a net change at an
+/// event time is an event: an element that reverses twice at the same time has none.
 ///
-///   slider             "slip", "stick"; "breakaway": it slips and lets go of more than its force of sliding
-///   law with a memory  "start", "stop": between rest and motion; "yield", "release": it comes to its bound, leaves it
+///   slider             "slip", "stick"; "breakaway": it begins to slip at more than its sliding force
+///   law with a memory  "start", "stop": between rest and motion; "yield", "release": it reaches its bound, leaves it
 ///   both               "reversal"
 ///   limiter            "limit", "release"
 ///
-/// A slider in a pair (core/network/pairs.hpp) is told of as any other, though a bundle goes on without an event: when it
-/// yielded within a step follows from the deflection of the bundle.
+/// A slider in a pair (core/network/pairs.hpp) is reported like any other, although its bundle causes no event of the
+/// integrator: the time at which it yields within a step follows from the deflection of the bundle.
 class Switches {
  public:
   /// Both must outlive this.
   Switches(const Network& network, const BlockSignals& blocks);
 
-  /// What has changed since the last call, with the deflections of all branches. Valid until the next one.
+  /// Events since the last call, given the deflections of all branches [m]. Valid until the next call.
   const std::vector<Event>& follow(double t, const Modes& modes, const std::vector<double>& p);
-  /// The same at the end of the last step, with the deflections there, of the pairs that have yielded within it: at their
-  /// times, in their order; not `timed`, all at its end.
+  /// Events of the pairs that yielded within the last step, given the deflections p at its end: at their times, in order; if
+  /// not `timed`, all at its end.
   const std::vector<Event>& follow_step(const Integrator& integrator, const Dae& dae, const std::vector<double>& p,
                                         bool timed);
 
@@ -50,14 +50,14 @@ class Switches {
     Condition last;
     Condition now() const { return {batch->direction(i), batch->constant(i)}; }
   };
-  /// What has been told of the pairs of a bundle.
+  /// The pairs of a bundle as last reported.
   struct Bundle {
     int branch;              ///< of the network
     const Iwan* law;
     std::vector<int> pairs;  ///< index into Network::pairs, of each
-    std::vector<signed char> mode;      ///< of each: the direction in which it slips
-    std::vector<std::size_t> slipping;  ///< since they yielded on a branch of the law, the first of its order
-    long on = -1;                       ///< that branch
+    std::vector<signed char> mode;      ///< of each: the direction in which it slips, 0: it sticks
+    std::vector<std::size_t> slipping;  ///< pairs that slip on branch `on`, in the order in which they yielded
+    long on = -1;                       ///< branch of the law as last seen
   };
   void follow(double t, Bundle& bundle, double p);
   void follow_blocks(double t);
@@ -67,7 +67,7 @@ class Switches {
 
   const Network& network_;
   const BlockSignals& blocks_;
-  std::vector<int> sides_;  ///< of each block, as for BlockSignals::side
+  std::vector<int> sides_;  ///< of each block: see BlockSignals::side
   std::vector<Law> laws_;
   std::vector<Bundle> bundles_;
   Modes last_;

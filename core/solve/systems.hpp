@@ -12,7 +12,7 @@
 
 namespace rheonet {
 
-/// The equations of one set of modes, and what solves them.
+/// The equations of one set of modes, their solvers and their events.
 struct System {
   Structure structure;
   Dae dae;
@@ -24,17 +24,17 @@ struct System {
          Tolerances& tolerances, const Integrator::Options& options);
 };
 
-/// The systems of the modes that a run has been in: some are kept, for when their modes come back.
+/// Cache of the systems of the modes that a run has been in.
 class Systems {
  public:
   /// `classified` is the network's structure with every slider slipping. All must outlive this.
   Systems(const Network& network, const Structure& classified, Drive& drive, const std::vector<char>& needed,
           const Modes& modes, Tolerances& tolerances, const Integrator::Options& options);
 
-  /// That of the present modes, of sliders and of laws that are constant forces now. Throws
+  /// The system of the present modes of the sliders, and of the laws that are constant forces at present. Throws
   /// SimulationError as `analyse` does.
   const std::shared_ptr<System>& of_modes();
-  /// Of all systems that have been.
+  /// The sum over all systems so far.
   Integrator::Statistics statistics() const;
 
  private:
@@ -44,10 +44,10 @@ class Systems {
   const Modes& modes_;
   Tolerances& tolerances_;
   const Integrator::Options options_;
-  /// Deflection branches that may become constant forces between floating nodes: then the structure changes.
+  /// Deflection branches at floating nodes that may become constant forces: the structure depends on whether they are.
   std::vector<std::pair<const DeflectionBatch*, std::size_t>> may_tie_;
   std::map<std::vector<char>, std::shared_ptr<System>> systems_;
-  Integrator::Statistics past_;  ///< of systems that are kept no more
+  Integrator::Statistics past_;  ///< of systems dropped from the cache
 };
 
 }  // namespace rheonet

@@ -8,8 +8,9 @@
 
 namespace rheonet {
 
-/// What only constant forces hold on to must be in balance, and stay so: throws SimulationError where it is not, in the
-/// state last viewed, after `overloaded`, which may throw one that tells better. Returns in words, for each such tie, that its motion is left open.
+/// Checks the balance of node groups that only constant forces hold (ties), in the state last viewed. Where the forces do not
+/// balance, or the load changes, throws SimulationError, after a call of `overloaded`, which may throw a better one. Returns
+/// a note for each tie: its motion is undetermined.
 std::vector<std::string> check_ties(const Dae& dae, double t, const std::function<void()>& overloaded);
 
 }  // namespace rheonet

@@ -4,9 +4,9 @@
 
 namespace rheonet {
 
-/// Gives a serial vector operations of our own for what an integration does in every step: sums, multiples, norms. Clones of it
-/// have them too. What they return is the same but for rounding. (Those of SUNDIALS are as fast as it was compiled: as it is
-/// packaged without optimisation they take half of a step.)
+/// Replaces the operations of a serial vector that an integration needs in every step (sums, multiples, norms) by faster
+/// ones. Clones of the vector inherit them. Results agree with SUNDIALS' to round-off. (Debian's SUNDIALS is packaged without
+/// optimisation: its own operations take half the time of a step.)
 void quicken(N_Vector vector);
 
 }  // namespace rheonet
