@@ -32,7 +32,7 @@ Diagnostic warning(const Spot& spot, std::string message, std::string hint) {
 
 bool begins_elsewhere(double start) { return !std::isnan(start) && start != 0; }
 
-/// The last part of a node's path in lower case, behind the path up to there.
+/// The path of a node with its last part in lower case.
 std::string without_capitals(const std::string& path) {
   std::string name = path;
   for (std::size_t i = path.rfind('.') == path.npos ? 0 : path.rfind('.'); i < name.size(); ++i)
@@ -55,7 +55,7 @@ class Adviser {
   }
 
  private:
-  /// Members of a `repeat` and instances of a model share their places: one warning is for all of them.
+  /// Members of a `repeat` and instances of a model share their place in the file: warn once for all of them.
   void warn_once(const Spot& spot, std::string message, std::string hint) {
     if (told_.insert(place_of(spot)).second) found_.push_back(warning(spot, std::move(message), std::move(hint)));
   }
@@ -93,7 +93,7 @@ class Adviser {
   void look_at_parts() {
     const Parts parts = find_parts(scene_, {}, Between::ground);
     const auto count = static_cast<std::size_t>(parts.count);
-    // Blocks without a node are no part of the network. A loose node, or one with a doubtful name, has a warning already.
+    // Parts without nodes (blocks alone) do not count. A loose node, or one with a doubtful name, already has its warning.
     std::vector<char> counts(count, 0), is_loose(count, 0);
     for (std::size_t n = 1; n < scene_.nodes.size(); ++n) {
       if (parts.of_node[n] < 0) continue;
@@ -119,7 +119,7 @@ class Adviser {
     look_at_driven_parts(parts, counts);
   }
 
-  /// Several networks in one scene are compared with each other, as a rule: then something of each is recorded or claimed.
+  /// A scene with several networks usually compares them, and then records or claims something of each.
   void look_at_driven_parts(const Parts& parts, const std::vector<char>& counts) {
     if (std::count(counts.begin(), counts.end(), 1) < 2) return;
     const bool is_chosen = scene_.records.size() < every_record(scene_).size();
@@ -148,7 +148,7 @@ class Adviser {
     return driven;
   }
 
-  /// It moves something, pushes it, or begins or rests elsewhere than at 0.
+  /// The element moves or pushes something, or starts or rests at a position other than 0.
   bool drives(const SceneElement& element) const {
     const Component& component = *components()[at(element.declaration)];
     if (component.role == Role::motion || component.role == Role::force) {
@@ -162,13 +162,13 @@ class Adviser {
     return false;
   }
 
-  /// It is not 0 from the start of the run to its end.
+  /// The signal is not 0 throughout the run.
   bool acts(const Signal& signal) const {
     const Piece piece = signal.piece(scene_.start);
     return piece.level != 0 || piece.slope != 0 || piece.amplitude != 0 || piece.end < scene_.stop;
   }
 
-  /// Parts that a claim, or a record too, is about.
+  /// Flags the parts that have claims, or records if `records_too`.
   std::vector<char> asked_parts(const Parts& parts, bool records_too) const {
     std::vector<char> asked(static_cast<std::size_t>(parts.count), 0);
     const auto ask = [&](int part) {
@@ -196,7 +196,7 @@ class Adviser {
         if (!table || table->times.size() < 2) continue;
         const double end = table->time + table->times.back();
         const double before_last = table->values[table->values.size() - 2];
-        // Two equal values at the end say that it is to be held.
+        // Two equal values at the end mean that the last value is to be held.
         if (end >= scene_.stop - time_rounding * (scene_.stop - scene_.start) || before_last == table->values.back()) continue;
         warn_once(element.spot, fmt::format("the table of `{}` ends at {:.6g} s, before the run does at {:.6g} s: its last value is held from there on",
                                             element.name, end, scene_.stop),

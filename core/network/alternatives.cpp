@@ -6,7 +6,7 @@ namespace rheonet {
 
 namespace {
 
-// A function's static: components register while other files' static objects may not exist yet.
+// A local static: components register before static objects of other files may exist.
 std::vector<Alternative>& registered_alternatives() {
   static std::vector<Alternative> instance;
   return instance;

@@ -16,7 +16,7 @@ namespace rheonet {
 void tell_lost_times(Network& network) {
   for (const SceneElement& element : network.scene->elements) {
     const std::vector<double> values = resolved_values(*network.scene, element);
-    if (!left_out_of(*network.scene, element).empty()) continue;  // on demand, and told by whoever demands it
+    if (!left_out_of(*network.scene, element).empty()) continue;  // left out on request, see tell_left_out
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (values[k] != 0 || !(element.values[k] > 0)) continue;
       const Declaration& declared = components()[static_cast<std::size_t>(element.declaration)]->declaration;
@@ -41,7 +41,7 @@ void tell_left_out(Network& network) {
 
 void tell_meaningless(Network& network) {
   const Scene& scene = *network.scene;
-  std::vector<std::pair<std::string, std::vector<std::string>>> told;  // why, and what
+  std::vector<std::pair<std::string, std::vector<std::string>>> told;  // reason, and the paths of the parameters
   for (const SceneElement& element : scene.elements) {
     const Component& component = *components()[at(element.declaration)];
     if (component.limits.empty() || element.given.none()) continue;

@@ -31,7 +31,7 @@ class Finder {
     const std::vector<int> rates = number_rates();
     for (const SceneBlock& block : scene_.blocks) add(block);
     for (const int block : rates) add_rate(block);
-    // A loop that delays alone close would be gone round without end, and without a state that smoothes what jumps.
+    // Without a state to smooth discontinuities, a loop of delays alone would repeat each of them for ever.
     const auto refuse_delays = [&](const std::vector<int>& loop) {
       refuse(loop, "make a loop in which nothing but delays takes time, and what jumps would jump for ever; put a `lag` into it");
     };
@@ -45,8 +45,8 @@ class Finder {
   }
 
  private:
-  /// Motions follow the rate of a block that gives their position. Returns these blocks: their rates come after the blocks of
-  /// the scene.
+  /// Makes a motion whose position a block gives follow the rate of that block. Returns these blocks; their rates are
+  /// numbered after the blocks of the scene.
   std::vector<int> number_rates() {
     std::vector<int> rates;
     for (Network::Motion& motion : network_.motions) {
@@ -97,7 +97,7 @@ class Finder {
     result_.blocks.push_back(std::move(block));
   }
 
-  /// A quantity of the network, as a sum of what sensors tell.
+  /// Adds a quantity of the network to the inputs of a block, as a sum of sensors.
   void take_in(Blocks::Block& block, const SceneBlock::Input& input) {
     const Record& record = scene_.sensed[at(input.index)];
     const bool no_feedback = !open_.empty() && open_[result_.blocks.size()] != 0;
@@ -157,7 +157,7 @@ class Finder {
     return found == network_.motions.end() ? -1 : static_cast<int>(found - network_.motions.begin());
   }
 
-  /// The same quantity is sensed once.
+  /// The index of a sensor; each quantity is sensed once.
   int sensor(const Blocks::Sensor& wanted) {
     const auto same = [&](const Blocks::Sensor& s) { return s.what == wanted.what && s.index == wanted.index; };
     const auto found = std::find_if(result_.sensors.begin(), result_.sensors.end(), same);
@@ -166,14 +166,14 @@ class Finder {
     return static_cast<int>(result_.sensors.size()) - 1;
   }
 
-  /// Depth first: what a block needs comes before it. `stops` where an output needs no input of the same instant.
+  /// Depth-first topological sort: a block follows the blocks whose outputs it needs. `stops`: it needs no present input.
   template <class Stops, class Refuse>
   std::vector<int> sort(const Stops& stops, const Refuse& refuse_loop) const {
     enum : char { fresh, open, done };
     std::vector<char> mark(result_.blocks.size(), fresh);
     std::vector<int> order;
     for (std::size_t first = 0; first < mark.size(); ++first) {
-      std::vector<std::pair<int, std::size_t>> path;  // blocks, and how many of their inputs have been looked at
+      std::vector<std::pair<int, std::size_t>> path;  // blocks, and number of their inputs visited
       if (mark[first] == fresh) path.emplace_back(static_cast<int>(first), 0);
       while (!path.empty()) {
         auto& [index, next] = path.back();
@@ -212,7 +212,7 @@ class Finder {
 
   Network& network_;
   const Scene& scene_;
-  std::vector<char> open_;  ///< blocks that take in nothing of the network: feedback is left out; empty: none
+  std::vector<char> open_;  ///< blocks whose feedback is left out: they sense no unknown of the network; empty: none
   Blocks result_;
 };
 

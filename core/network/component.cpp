@@ -12,7 +12,7 @@ struct Registry {
   std::vector<const Declaration*> declarations;
 };
 
-// A function's static: components register while other files' static objects may not exist yet.
+// A local static: components register before static objects of other files may exist.
 Registry& registry() {
   static Registry instance;
   return instance;

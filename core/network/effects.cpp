@@ -67,7 +67,7 @@ void leave_out_effects(const Scene& scene, const SceneElement& element, std::vec
     done.push_back(brought.effect);
   }
   for (const Absence& absence : declaration.absences) {
-    // What a limit of its parameters has taken from an element is left out of it as well: it is then the model of that limit.
+    // An effect that the element lacks at a limit of its parameters counts as left out: the law of that limit applies.
     const auto is_out = [&](Effect e) { return contains(out, e); };
     const auto is_absent = [&](Effect e) { return is_out(e) || !contains(brought_here, e); };
     const std::vector<Effect>& of = absence.effects;

@@ -29,10 +29,10 @@ namespace {
       names.size() > 1 ? "s" : "", listed(names)));
 }
 
-/// An element whose force is constant at present: it leads somewhere, but holds nothing.
+/// An element whose force is constant at present: it joins nodes, but its force does not depend on their motion.
 struct Weak { int element; NodeId a, b; };
 
-/// Spanning trees of the deflection branches, breadth first, so that loops stay short.
+/// Spanning trees of the deflection branches, grown breadth first to keep loops short.
 class Forest {
  public:
   Forest(const Network& network, Structure& s) : network_(network), s_(s), branches_of_(s.groups.size()) {
@@ -41,7 +41,7 @@ class Forest {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
         const int j = laws.first + static_cast<int>(i);
         const Branch& b = s.deflections[at(j)];
-        if (b.a == b.b || laws.batch->delay(i) > 0) continue;  // what comes later holds nothing now
+        if (b.a == b.b || laws.batch->delay(i) > 0) continue;  // a delayed force does not depend on the present motion
         if (laws.batch->constant(i)) {
           weak_.push_back({b.element, b.a, b.b});
           continue;
@@ -58,7 +58,7 @@ class Forest {
     }
   }
 
-  /// Grows from the nodes that are in no group; then ties what no tree reaches, and grows from there.
+  /// Grows trees from the nodes outside all groups; then ties groups that no tree reaches and grows from these.
   void grow() {
     for (std::size_t g = 0; g < branches_of_.size(); ++g) {
       for (int j : branches_of_[g]) attach_from_outside(j);
@@ -107,7 +107,7 @@ class Forest {
     }
   }
 
-  /// All groups that hang together with `first` through deflection branches.
+  /// All groups connected with `first` through deflection branches.
   std::vector<int> piece(int first) const {
     std::vector<char> seen(s_.groups.size(), 0);
     std::vector<int> members{first};
@@ -149,7 +149,7 @@ class Forest {
     queue_.push(root);
   }
 
-  /// Groups are numbered by depth.
+  /// Numbers the groups by depth.
   void renumber() {
     std::vector<Structure::Group> sorted;
     sorted.reserve(order_.size());
@@ -186,7 +186,7 @@ struct Sum {
   }
 
   Structure::Loop loop(const Structure& s, int branch) const {
-    constexpr double rounding = 1e-12;  // coefficients are shares of the nodes around a tie
+    constexpr double rounding = 1e-12;  // relative to coefficients of order 1: shares of the nodes around a tie
     Structure::Loop result{.branch = branch, .flows = {}, .velocities = {}};
     for (auto [j, sign] : flows) {
       if (std::abs(sign) > rounding) result.flows.push_back({j, sign});
@@ -201,7 +201,7 @@ struct Sum {
   }
 };
 
-/// -(v_a - v_b), expressed along the trees from both nodes up to where their paths meet.
+/// Expresses -(v_a - v_b) along the trees, from both nodes up to where their paths meet.
 Sum difference(const Structure& s, NodeId a, NodeId b) {
   Sum sum;
   // velocity(node) = v_node + base(group), base(group) = base(parent's group) + v_parent - v_node' + sign (p' + creep)
@@ -230,7 +230,7 @@ Sum difference(const Structure& s, NodeId a, NodeId b) {
   return sum;
 }
 
-/// The sum of the relative velocities of all that leads away from a tie is 0: the condition of least squares.
+/// Least-squares condition of each tie: the relative velocities of the elements that lead out of it sum to 0.
 void Forest::solve_ties() {
   const auto count = static_cast<Eigen::Index>(s_.ties.size());
   std::vector<int> tie_of(s_.kind.size(), -1);

@@ -42,7 +42,7 @@ class FreeEndSearch {
 
   FreeEnds find() {
     find_held();
-    // Mostly every node has a mass, or only a few have none.
+    // Shortcut for the common case: every node is held.
     if (std::find(held_.begin(), held_.end(), 0) == held_.end()) return std::move(result_);
     find_hanging();
     if (any_hangs()) let_stressed_go();
@@ -62,7 +62,7 @@ class FreeEndSearch {
     return false;
   }
 
-  /// Nodes that something holds besides elements that join them to others.
+  /// Nodes held otherwise than by elements that join nodes: by a mass, a motion, a force or a start value.
   void find_held() {
     held_[ground] = 1;
     for (std::size_t n = 0; n < held_.size(); ++n) {
@@ -77,12 +77,12 @@ class FreeEndSearch {
     }
   }
 
-  /// A node that hangs lies in no block (a part of the graph that no single node parts) with a node over all that are held.
+  /// Hanging nodes share no biconnected component with the auxiliary node `above`, which is joined to every held node.
   void find_hanging() {
     using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS, boost::no_property,
                                         boost::property<boost::edge_index_t, std::size_t>>;
     const std::size_t nodes = held_.size(), above = nodes;
-    // Once between the same two: the search for blocks does not number what runs beside an edge that it has come along.
+    // Keep one edge per pair of nodes: Boost's biconnected_components does not number edges parallel to the tree edge.
     std::vector<std::pair<std::size_t, std::size_t>> joins;
     for (std::size_t e = 0; e < laws_.size(); ++e) {
       const std::size_t a = at(scene_.elements[e].a), b = at(scene_.elements[e].b);
@@ -100,7 +100,7 @@ class FreeEndSearch {
     const std::size_t blocks = boost::biconnected_components(graph, boost::make_iterator_property_map(block.begin(), index));
     std::vector<char> firm(blocks, 0);
     for (const auto& edge : boost::make_iterator_range(boost::out_edges(above, graph))) firm[block[boost::get(index, edge)]] = 1;
-    std::vector<std::size_t> reached;  // what is not free, and what is found to hang, in that order
+    std::vector<std::size_t> reached;  // nodes that do not hang, then hanging nodes in the order of the search
     std::vector<char> met(nodes + 1, 0);
     met[above] = 1;
     for (std::size_t n = 0; n < nodes; ++n) {
@@ -119,7 +119,7 @@ class FreeEndSearch {
     }
   }
 
-  /// Springs have a force at the start if their ends do not begin together, and there may be one behind a step.
+  /// A spring is stressed at the start if its ends are not at its rest length; a step at the start may stress it too.
   bool stressed(std::size_t e) const {
     if (laws_[e].component->role != Role::deflection) return false;
     const Values one{laws_[e].values};
@@ -130,7 +130,7 @@ class FreeEndSearch {
     return force != 0;
   }
 
-  /// Whatever hangs on what may begin elsewhere than at 0, over any number of elements, stays as it is.
+  /// Keeps all nodes of a connected part, in which any start displacement may be other than 0, in the network.
   void let_stressed_go() {
     Sets together(held_.size());
     std::vector<std::size_t> displaced;
@@ -149,13 +149,13 @@ class FreeEndSearch {
     }
     std::vector<char> goes(held_.size(), 0);
     for (const std::size_t n : displaced) goes[at(together.find(static_cast<NodeId>(n)))] = 1;
-    goes[ground] = 0;  // it is joined to nothing
+    goes[ground] = 0;  // ground connects nothing
     for (std::size_t n = 1; n < held_.size(); ++n) {
       if (goes[at(together.find(static_cast<NodeId>(n)))]) result_.on[n] = static_cast<NodeId>(n);
     }
   }
 
-  /// Where a block moves a node that begins where the block does.
+  /// The motion follows a block, so that its node starts at the block's initial output.
   bool fed(std::size_t e) const {
     return std::any_of(scene_.feeds.begin(), scene_.feeds.end(), [&](const SceneFeed& feed) { return feed.element == static_cast<int>(e); });
   }

@@ -9,13 +9,13 @@ namespace rheonet {
 
 namespace {
 
-// Yields this near to each other, relative to the way there, are one kink: more than their rounding, and too little to
-// be seen in the force.
+// Yield points closer than this, relative to their distance from the reversal, are one kink: more than their round-off, and
+// too close to affect the force.
 constexpr double same_kink = 1e-13;
 
 }  // namespace
 
-/// What a reversal at p would lead to.
+/// The bundle after a reversal at p.
 struct Iwan::Back {
   double p;
   Iwan bundle;
@@ -52,7 +52,7 @@ void Iwan::turn(double p) {
   go(p, -s_);
 }
 
-/// What the pairs have come to.
+/// Stores the forces and displacements of the pairs at p.
 void Iwan::remember(double p) {
   for (std::size_t i = 0; i < size(); ++i) {
     slide_[i] = slide(i, p);
@@ -60,7 +60,7 @@ void Iwan::remember(double p) {
   }
 }
 
-/// From deflection p in `direction`, with the forces f_.
+/// Starts at deflection p in `direction` with the forces f_.
 void Iwan::go(double p, int direction) {
   s_ = direction;
   p_ref_ = p;
@@ -92,7 +92,7 @@ void Iwan::sum_up() {
     sums_[r + 1].bound_energy = sums_[r].bound_energy + Fc * Fc / (2 * k);
     sums_[r + 1].lost = sums_[r].lost + Fc * y_[r];
   }
-  // Each kind from its own end: no differences, no digits lost.
+  // Sum each kind from its own end: no differences, so no cancellation.
   for (std::size_t r = size(); r-- > 0;) {
     const auto [k, Fc] = pairs_[order_[r]];
     const double f = s_ * f_[order_[r]];
@@ -103,7 +103,7 @@ void Iwan::sum_up() {
   }
 }
 
-/// The next kink that is worth an event, from those passed on.
+/// Finds the next kink that is an event, after the yields already accepted.
 void Iwan::find_kink() {
   next_end_ = passed_;
   while (next_end_ < size()) {

@@ -30,7 +30,7 @@ namespace {
 
 bool same(const Reduced& x, const Reduced& y) { return x.component == y.component && same_values(x.values, y.values); }
 
-/// Two values within its bounds at which no law has a limit.
+/// Two values within the bounds of a parameter at which no law has a limit.
 std::array<double, 2> ordinary_values(const Parameter& p) {
   const double low = std::max(p.lower, 0.0), length = std::isfinite(p.upper) ? p.upper - low : 1;
   return {low + 0.37 * length, low + 0.71 * length};

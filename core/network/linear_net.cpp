@@ -37,7 +37,7 @@ LinearNet::Key LinearNet::key(std::size_t id) const {
   return static_cast<Key>(low) << 32 | static_cast<Key>(high);
 }
 
-/// Side by side with what is there already.
+/// Merges an element with any element in parallel, as often as there is one.
 void LinearNet::put(std::size_t id) {
   if (alone_[home_[id]]) return;
   auto& between = between_[kind_[home_[id]] - 1];
@@ -117,7 +117,7 @@ std::size_t LinearNet::find(std::size_t element, Share& share) {
   std::vector<std::size_t> path;
   std::size_t root = element;
   for (; parent_[root] != root; root = parent_[root]) path.push_back(root);
-  // From the top down, so that each comes to know its share with the root.
+  // From the root down, so that the share of each element refers to the root.
   for (std::size_t k = path.size(); k-- > 0;) {
     const std::size_t id = path[k], above = parent_[id];
     if (above == root) continue;

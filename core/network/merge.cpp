@@ -37,7 +37,7 @@ class Merger {
  private:
   const Component& component(std::size_t e) const { return *components()[at(scene_.elements[e].declaration)]; }
 
-  /// What is linear; false if no two of a kind are in series or side by side.
+  /// Finds the linear elements. Returns false if no two of a kind are in series or in parallel.
   bool worth_it() {
     std::vector<char> count(scene_.nodes.size(), 0);
     std::vector<std::pair<std::uint64_t, int>> between;
@@ -88,7 +88,7 @@ class Merger {
     }
     for (const Record& record : scene_.records) {
       if (record.subject == Record::Subject::node) stay(record.index);
-      // The place of a dashpot is no multiple of that of others: it depends on where it began.
+      // A dashpot's displacement is no multiple of its merger's: it depends on where it began.
       const bool place = record.channel == Record::Channel::displacement;
       if (record.subject == Record::Subject::element && place && kind_[at(record.index)] != spring) {
         stay(scene_.elements[at(record.index)].a);
@@ -140,7 +140,7 @@ class Merger {
     for (const Record& record : scene_.records) take(record);
   }
 
-  /// -1 for what is left out. What stands for others has the place of the first of them.
+  /// Numbers the remaining elements and nodes; -1: eliminated. A merged element takes the place of its first member.
   void number() {
     element_.assign(scene_.elements.size(), -1);
     stands_.assign(scene_.elements.size(), 0);
@@ -197,7 +197,7 @@ class Merger {
     result_.records.push_back(std::move(sum));
   }
 
-  /// A quantity of an element, by that which stands for it.
+  /// Adds a quantity of an element, expressed by its merger.
   void add(int e, Record::Channel channel, double sign, Merging::Sum& sum) {
     LinearNet::Share share;
     const std::size_t home = net_->home(net_->find(at(e), share));
@@ -213,7 +213,7 @@ class Merger {
     sum.terms.emplace_back(base(record), sign * factor);
   }
 
-  /// The place of a record of the reduced scene; each is there once.
+  /// The index of a record in the reduced scene, where each record occurs once.
   std::size_t base(const Record& record) {
     std::vector<Record>& records = result_.scene.records;
     const auto [found, fresh] = known_.try_emplace({record.subject, record.index, record.channel}, records.size());
@@ -227,7 +227,7 @@ class Merger {
   std::vector<char> stays_, alone_;
   LinearNet* net_ = nullptr;
   std::vector<int> element_, node_;
-  std::vector<std::size_t> stands_;  ///< of each element that is left, what it stands for
+  std::vector<std::size_t> stands_;  ///< of each remaining element: its id in the LinearNet
   std::map<std::tuple<Record::Subject, int, Record::Channel>, std::size_t> known_;
   Merging result_;
 };

@@ -23,8 +23,8 @@ struct Merging {
   std::vector<NodeId> nodes;         ///< of the original scene, eliminated
 };
 
-/// Absent if nothing can be merged. Nodes with start values, records, claims or sensors stay, and so do elements with a
-/// start force or displacement of their own.
+/// Absent if nothing can be merged. Nodes with start values, records, claims or sensors stay. So do claimed or sensed
+/// elements, and elements with a start force or displacement of their own.
 std::optional<Merging> merge(const Scene& scene);
 
 }  // namespace rheonet

@@ -16,16 +16,16 @@ namespace rheonet {
 
 namespace {
 
-// A kink that takes a larger share of a bundle's stiffness is an event. Measured on a mass that N equal springs hold
-// (tests/analytic/iwan_test.cpp), at accuracies from 1e-3 to 1e-9: the error is within the accuracy either way; up to
-// about 30 pairs events cost no more steps than the error test does without them, from 50 on up to twice as many.
+// Share of a bundle's stiffness above which a kink is an event. Measured on a mass that N equal springs hold
+// (tests/analytic/iwan_test.cpp) at accuracies from 1e-3 to 1e-9. The error is within the accuracy either way. Compared with
+// the error test alone, events cost no more steps up to about 30 pairs, and up to twice as many from 50 pairs on.
 constexpr double kink_worth_an_event = 0.03;
 
 std::string describe(const std::string& what, const std::string& element, const std::string& rule) {
   return fmt::format("{} `{}`: {}", what, element, rule);
 }
 
-/// Branches of one role while they are sorted by component.
+/// Branches of one role, sorted by component.
 using ByComponent = std::map<std::string, std::vector<std::pair<Branch, std::vector<double>>>>;
 
 template <class Batch, class Make>
@@ -60,7 +60,7 @@ std::vector<Reduced> laws_of(const Scene& scene) {
   return laws;
 }
 
-/// Nodes between pairs are left out, and free ends.
+/// Numbers the nodes. Nodes inside pairs get none; free ends share the number of the node on which they hang.
 void number_nodes(Network& network) {
   const Scene& scene = *network.scene;
   network.node_of.assign(scene.nodes.size(), 0);
@@ -77,7 +77,7 @@ void number_nodes(Network& network) {
   }
 }
 
-/// All pairs between the same two nodes are one branch.
+/// Makes one branch of all pairs between the same two nodes.
 void tie_up_pairs(Network& network) {
   if (network.pairs.empty()) return;
   std::map<std::pair<NodeId, NodeId>, int> bundle_of;
@@ -100,7 +100,7 @@ void tie_up_pairs(Network& network) {
     bundle.push_back({pair.law.stiffness, pair.coulomb});
   }
   auto batch = std::make_unique<IwanBatch>();
-  // Rows at every event: then every yield is one.
+  // A scene with rows at every event needs an event at every yield.
   const double kink_share = network.scene->output_events ? 0 : kink_worth_an_event;
   for (std::vector<Iwan::Pair>& bundle : bundles) batch->add(Iwan(std::move(bundle), kink_share));
   network.bundles = batch.get();
@@ -128,7 +128,7 @@ DeflectionBatch& Network::batch_of(int branch, std::size_t& i) const { return ba
 RateBatch& Network::rate_of(int branch, std::size_t& i) const { return batch_with(rate_laws, branch, i); }
 
 std::string at_time(const Scene& scene, double t) {
-  // A late start leaves fewer digits to what has passed since: more are shown.
+  // After a late start the same resolution of elapsed time takes more digits.
   const double elapsed = std::max(std::abs(t), 1e-3 * (scene.stop - scene.start));
   const int digits = 9 + static_cast<int>(std::ceil(std::max(0.0, std::log10(std::abs(scene.start) / elapsed))));
   return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, 16));
@@ -146,10 +146,10 @@ bool prescribes_position(const SceneElement& motion) {
 
 namespace {
 
-/// What elements of one role are gathered in until they are batched, by component.
+/// Elements collected by component before they are made into batches.
 struct Gathered { ByComponent deflections, rates; };
 
-/// Puts an element where its role belongs.
+/// Stores an element in the list of its role.
 void place_element(Network& network, int index, Reduced& law, const Branch& ends, Gathered& gathered) {
   const Scene& scene = *network.scene;
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
@@ -191,7 +191,7 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
   }
 }
 
-/// Motions and forces that follow blocks.
+/// Connects motions and forces to the blocks that feed them.
 void feed_sources(Network& network) {
   for (const SceneFeed& feed : network.scene->feeds) {
     const auto [role, index, unused] = network.places[static_cast<std::size_t>(feed.element)];

@@ -11,12 +11,12 @@ namespace rheonet {
 
 namespace {
 
-/// What touches a node.
+/// The elements at a node.
 struct Touch {
   int count = 0;
   int spring = -1, slider = -1;
-  bool firm = false;          ///< ground, a mass or a motion: its start value is its own
-  std::vector<double> start;  ///< where it may start [m]; NaN where that follows from something else
+  bool firm = false;          ///< ground, a mass or a motion: its start value is independent of its neighbours
+  std::vector<double> start;  ///< where it may start [m]; NaN if its start follows from other values
 };
 
 bool is_spring(const Reduced& law) { return law.component && law.component->spring; }
@@ -64,7 +64,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
   return result;
 }
 
-/// What a block takes in is a quantity of its own: no pair hides it.
+/// Excludes sensed nodes and elements from pairs, because blocks need their quantities.
 void keep_sensed(const Scene& scene, std::vector<Touch>& touched) {
   const auto keep = [&](NodeId node) { ++touched[at(node)].count; };
   const auto keep_ends = [&](int element) {
@@ -81,10 +81,10 @@ void keep_sensed(const Scene& scene, std::vector<Touch>& touched) {
 
 NodeId other_end(const SceneElement& element, NodeId node) { return element.a == node ? element.b : element.a; }
 
-/// Wherever the spring's end starts, its force is not beyond what the slider holds.
+/// Wherever the spring's end may start, the slider holds the force of the spring.
 bool holds_at_start(const Pair& pair, const Touch& end) {
   return std::all_of(end.start.begin(), end.start.end(), [&](double x) {
-    return std::abs(pair.law.stiffness * (pair.spring_sign * x - pair.law.rest)) <= pair.coulomb;  // not for NaN
+    return std::abs(pair.law.stiffness * (pair.spring_sign * x - pair.law.rest)) <= pair.coulomb;  // false for NaN
   });
 }
 
@@ -112,10 +112,10 @@ std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& law
               .spring_sign = spring.b == node ? 1.0 : -1.0,
               .slider_sign = slider.a == node ? 1.0 : -1.0};
     if (pair.spring_end == pair.slider_end) continue;
-    // A start displacement of the spring may be what places its end. (NaN: not given.)
+    // A start displacement of the spring may determine the position of its end. (NaN: not given.)
     if (!std::isnan(pair.law.displacement)) continue;
-    // Where an end has no place of its own, what is given here may have to balance what is given there; and a slider
-    // that cannot hold its spring slides as far as all others there let it.
+    // At an end without mass or motion, values given here may have to balance values of neighbours; and the slip of a slider
+    // that cannot hold its spring depends on the neighbours.
     const bool firm = touched[at(pair.spring_end)].firm && touched[at(pair.slider_end)].firm;
     const bool given = !std::isnan(pair.law.force) || !std::isnan(scene.nodes[at(node)].position);
     if (!firm && (given || !holds_at_start(pair, touched[at(pair.spring_end)]))) continue;

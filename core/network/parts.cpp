@@ -8,7 +8,7 @@ namespace rheonet {
 
 namespace {
 
-/// Sets of nodes, and behind them elements.
+/// Union-find over the nodes, followed by the elements.
 class Joiner {
  public:
   Joiner(const Scene& scene, const std::vector<char>& without, Between between)
@@ -37,8 +37,8 @@ class Joiner {
   }
 
   bool shared(NodeId node) const { return shared_[at(node)] != 0; }
-  /// It stands at shared nodes alone, and nothing in it moves by itself; or it is not looked at. An element whose force a block
-  /// takes in belongs to the part of the block, but for a motion, which all parts at its node have.
+  /// The element belongs to no part: it acts on a shared node alone, or it is ignored. An element whose force a block senses
+  /// belongs to the part of the block, unless it is a motion, which all parts at its node share.
   bool bound(std::size_t e) const {
     if (ignored_[e]) return true;
     if (sensed_[e] && role(e) != Role::motion) return false;

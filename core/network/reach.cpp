@@ -14,25 +14,25 @@ namespace rheonet {
 
 namespace {
 
-// The share e (see the header): of an answer it is below any rounding, even squared it is no number too small.
+// The share e (see the header): far below the accuracy of an answer, and e^2 is still far above underflow.
 constexpr double share = 1e-12;
-// A scene of which less than this lies beyond is simulated as a whole.
+// Smallest share of nodes out of reach for which a scene is cut.
 constexpr double worth_a_cut = 0.1;
-// Values of w - 1 that are tried, from the first on in equal ratios: of what spreads like heat the best w is near 1, of what is
-// hardly begun before the stop it is large.
+// Trial values of w - 1, a geometric series. The best w is near 1 if motion spreads by diffusion, and large if it has hardly
+// begun before the stop.
 constexpr std::size_t weights_tried = 48;
 constexpr double first_excess = 1e-3, excess_ratio = 1.6;
 
 constexpr int unreached = std::numeric_limits<int>::max();
 
-/// What an element is to a mass at rest.
+/// An element, as it acts on masses at rest.
 struct Quiet {
   enum class Kind : char { none, mass, spring, dashpot, other };
   Kind kind = Kind::other;
   double value = 0;  ///< mass [kg], stiffness [N/m] or damping [N s/m]
 };
 
-/// As found before, of one declaration.
+/// The last result of find_quiet for one declaration.
 struct Found {
   const SceneElement* element = nullptr;
   Quiet quiet = {};
@@ -58,7 +58,8 @@ class ReachSearch {
  private:
   struct Branch { NodeId a, b; double stiffness, damping; };
 
-  /// Elements made by one entry of a netlist mostly have the same values. (Effects may be left out of some of them.)
+  /// Caches by declaration: elements from one entry of a netlist mostly share their values (but effects may be left out of
+  /// some).
   Quiet quiet(const SceneElement& e) {
     Found& before = found_[at(e.declaration)];
     if (!before.element || !scene_.without.empty() || !same_values(before.element->values, e.values)) before = {&e, find_quiet(e)};
@@ -152,7 +153,7 @@ class ReachSearch {
     }
   }
 
-  /// Distances from where something begins. Ground hands nothing on.
+  /// Breadth-first distances from the nodes where motion may begin. Ground does not transmit motion.
   void go_out() {
     std::vector<NodeId> front, next;
     for (std::size_t n = 1; n < distance_.size(); ++n) {
@@ -174,7 +175,7 @@ class ReachSearch {
   int farthest() const {
     std::array<double, weights_tried> weight, a, b;
     for (std::size_t k = 0; k < weights_tried; ++k) weight[k] = 1 + first_excess * std::pow(excess_ratio, static_cast<double>(k));
-    a.fill(0);  // what only slows down is not counted on
+    a.fill(0);  // a >= 0: a negative growth rate, from damping, is not relied upon
     b.fill(0);
     for (std::size_t n = 1; n < distance_.size(); ++n) {
       if (distance_[n] == 0 || distance_[n] == unreached) continue;
@@ -225,7 +226,7 @@ class ReachSearch {
   const Scene& scene_;
   std::vector<Found> found_;     ///< of each declaration
   std::vector<double> mass_;     ///< of each node [kg]
-  std::vector<int> distance_;    ///< of each node: elements between it and where something begins
+  std::vector<int> distance_;    ///< of each node: number of elements between it and the nearest node where motion may begin
   std::vector<Branch> branches_; ///< linear ones
   std::vector<std::size_t> first_;
   std::vector<int> neighbours_;

@@ -15,7 +15,7 @@ namespace rheonet {
 namespace {
 
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
-/// Sticking sliders join their ends. A known node stands for what it is joined to, else a massive one.
+/// Joins the ends of sticking sliders. The representative is a known node if there is one, otherwise a massive one.
 void join(const Network& network, const Modes& modes, Structure& s) {
   const std::size_t n = s.kind.size();
   Graph bonds(n);
@@ -45,7 +45,7 @@ void join(const Network& network, const Modes& modes, Structure& s) {
   for (std::size_t k = 0; k < s.sliders.size(); ++k) {
     Branch& b = s.sliders[k];
     b = {b.element, end(b.a), end(b.b)};
-    // What others hold together sticks too, though its force may be at its bound.
+    // A slider whose ends others join sticks too, even with its force at its bound.
     s.stuck[k] = s.stuck[k] || b.a == b.b;
   }
 }
@@ -77,9 +77,9 @@ void assign_known_and_massive(const Network& network, Structure& s) {
   }
 }
 
-/// Massless nodes joined by dashpots: viscous if the dashpots lead to a known or massive node, else one floating group.
+/// Massless nodes that dashpots join are viscous if dashpots lead to a known or massive node, otherwise one floating group.
 void assign_viscous_and_floating(const Network& network, Structure& s) {
-  // Known and massive nodes stop the search: dashpots beyond them are another matter. They are left out of the graph.
+  // The search ends at known and massive nodes, which are therefore not in the graph.
   const std::size_t n = s.kind.size();
   const auto massless = [&](NodeId node) { return s.kind[at(node)] == Kind::floating; };
   Graph dashpots(n);
