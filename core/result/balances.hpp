@@ -9,38 +9,39 @@
 
 namespace rheonet {
 
-/// The forces at a massless node do not sum to 0, as they stand in the rows of a run.
+/// An imbalance of forces at a massless node, in the rows of a run.
 struct Imbalance {
   std::string node;                   ///< its name
-  std::vector<std::string> elements;  ///< those at the node
-  double sum = 0;                     ///< of their forces, magnitude [N]
-  double largest = 0;                 ///< the largest of these forces in the run [N]
-  double time = 0;                    ///< of the row [s]
+  std::vector<std::string> elements;  ///< names of the elements at the node
+  double sum = 0;                     ///< magnitude of the sum of their forces [N]
+  double largest = 0;                 ///< largest of these forces in the run [N]
+  double time = 0;                    ///< of the row with the imbalance [s]
 };
 
-/// The balance of forces at each massless node that a record of a scene has to do with: of all the elements there, drives too,
-/// as rows print them. Runs that share an error of a force cannot measure it by each other; at a node it shows.
+/// The balance of forces, as printed in rows, at each massless node that a record refers to: the forces of all elements
+/// there, drives included. Runs that share an error of a force cannot measure it by comparison; the imbalance at a node
+/// shows it.
 class Balances {
  public:
   explicit Balances(const Scene& scene);
 
-  /// The scene, with the forces that are needed but not recorded as records behind its own.
+  /// The scene, with the additional forces needed appended to its own records.
   const Scene& scene() const { return scene_; }
-  /// How many of the records are the scene's own.
+  /// Number of the scene's own records.
   std::size_t asked() const { return asked_; }
 
-  /// Raises the errors of the scene's own records, which are relative to `allowed`, to what the rows of a run of `scene()` leave
-  /// unbalanced at their nodes: that of a force by as much; that of a motion by the same share of itself as it is of the largest
-  /// force there. Returns the imbalance that has raised an error beyond that the most; absent if none has.
+  /// Raises the errors of the scene's own records, whose limit is `allowed` (relative), to the imbalances in the rows of a
+  /// run of `scene()`. The error of a force is raised to the imbalance, that of a motion to its scale times imbalance /
+  /// largest force there. Returns the imbalance behind the largest raised error above `allowed`; absent if there is none.
   std::optional<Imbalance> raise(const Course& course, double allowed, std::vector<RecordError>& errors) const;
 
  private:
   struct Term { std::size_t record; double sign; };
   struct Node {
     NodeId id;
-    std::vector<Term> terms;             ///< one for each element there
-    std::vector<std::size_t> forces;     ///< own records that are forces of elements there
-    std::vector<std::size_t> movements;  ///< own records of how the node moves, or of an element there
+    std::vector<Term> terms;             ///< one for each element at the node
+    std::vector<std::size_t> forces;     ///< own records that are forces of elements at the node
+    std::vector<std::size_t> movements;  ///< own records of the motion of the node, or of an element there
   };
   void find_nodes(const Scene& scene);
 

@@ -11,55 +11,55 @@
 
 namespace rheonet {
 
-/// What is known of the errors of a run.
+/// Estimated errors of a run.
 struct Certificate {
-  /// How much tighter the tolerance of a run is that measures another. Two runs that differ too little share their error:
-  /// over the scenes in netlists/ at accuracies from 1e-3 to 1e-8 a tolerance 10 times tighter leaves between 0.02 and 2.0
-  /// of the error (0.14 in the median), one 100 times tighter between 0.002 and 0.23 (0.02), for about twice the steps.
+  /// Ratio of the tolerances of a run and of the run that measures it. Runs with similar tolerances share their error. Over
+  /// the scenes in netlists/ at accuracies from 1e-3 to 1e-8, a tolerance 10 times tighter leaves between 0.02 and 2.0 of
+  /// the error (median 0.14); one 100 times tighter leaves between 0.002 and 0.23 (median 0.02), for about twice the steps.
   static constexpr double factor = 100;
-  /// What the measuring run may be wrong itself, as a share of the error that it measures: the worst of those.
+  /// Upper bound of the measuring run's own error, as a share of the error that it measures: above the worst of these
+  /// (0.23).
   static constexpr double own_error = 0.25;
-  /// At this tolerance and below rounding may be what a measuring run is wrong by, which no tolerance makes smaller. Then a
-  /// third run measures too, to the same tolerance but of another order: other steps, other formulas, other roundings. Of
-  /// three runs a, b, c whose errors are independent the mean of (a - b)(a - c) is that of the square of the error of a (J. E.
-  /// Gray and D. W. Allan, 28th Symposium on Frequency Control (1974) 243): the error is taken for no less.
+  /// At tolerances up to this one, round-off may dominate the error of a measuring run, and a tighter tolerance does not
+  /// reduce it. A third run then measures too, to the same tolerance but with another order: other steps, formulas and
+  /// round-off. If the errors of three runs a, b, c are independent, the mean of (a - b)(a - c) is the mean square error of
+  /// a (J. E. Gray and D. W. Allan, 28th Symposium on Frequency Control (1974) 243). The error is not estimated below that.
   static constexpr double rounding_shows = 1e-9;
 
-  /// A run to one tolerance, measured by one to a hundredth of that.
+  /// A run to one tolerance, measured by a run to a hundredth of it.
   struct Round {
     double tolerance;  ///< of the run that was measured
-    std::size_t worst;  ///< position of the record with the largest relative error
-    RecordError error;  ///< of that
+    std::size_t worst;  ///< index of the record with the largest relative error
+    RecordError error;  ///< error of this record
   };
   bool holds = false;               ///< every record is within the scene's accuracy
-  std::vector<Round> rounds;        ///< the last one first measured to hold, if one does
-  std::size_t kept = 0;             ///< the round of whose run the rows are
-  std::vector<RecordError> errors;  ///< of that run, of each record of the scene; empty without a round
-  double until = not_given;         ///< if it does not hold: the first time at which an error is more than asked for [s]
-  std::optional<Imbalance> imbalance;  ///< if it does not hold because forces at a node are out of balance: the worst
-  std::string obstacle;             ///< why no tighter run could measure: what ended it; "" if none was needed, or the
-                                    ///< limit of double precision has been reached
+  std::vector<Round> rounds;        ///< if a round has shown the accuracy to hold, it is the last one
+  std::size_t kept = 0;             ///< index of the round whose measured run provides the rows
+  std::vector<RecordError> errors;  ///< of each record in the kept run; empty without a round
+  double until = not_given;         ///< if it does not hold: the first time at which an error exceeds the accuracy [s]
+  std::optional<Imbalance> imbalance;  ///< if it does not hold because of forces out of balance: the worst imbalance
+  std::string obstacle;             ///< error message of a tighter run that could not measure; "" if none was needed, or if
+                                    ///< the limit of double precision was reached
   Summary summary;                  ///< of the run whose rows are kept
   int runs = 0;
-  double cpu_seconds = 0;           ///< of all runs that came to their end, together
+  double cpu_seconds = 0;           ///< of all completed runs together
 
   const Round& result() const { return rounds[kept]; }
 };
 
-/// Simulates a scene so that each recorded quantity is as accurate as the scene asks, and estimates the errors actually
-/// made. Rows, events and calls of `row` are those of one run, which another, to a tolerance a hundred times tighter, has
-/// shown to be as accurate as that; they go on at once, `progress` being told of the tighter. Where it is not, the tighter
-/// run takes its place, and is measured by one tighter still, down to the limit of double precision; at last the tightest one
-/// there can be measures one a hundred times looser. Forces that do not balance at a massless node, in the rows that are
-/// written, are errors too: all runs may share them. If none ever is, the rows are those of the most accurate run. `tolerance`
-/// and `state` of the settings are not used.
+/// Simulates a scene so that each record is as accurate as the scene asks, and estimates the actual errors. Two runs start
+/// at once, one to the scene's accuracy and one to a tolerance a hundred times tighter, which measures the first and reports
+/// `progress`. If the first is not accurate enough, the tighter one replaces it and is measured in turn, down to the limit
+/// of double precision; finally the tightest possible run measures one a hundred times looser. Imbalances at massless nodes
+/// in the written rows count as errors, because all runs may share them. Rows, events and calls of `row` come from the run
+/// shown to be accurate; if there is none, from the most accurate run. `tolerance` and `state` of the settings are not used.
 ///
-/// Rows are held in memory until they are known to be good. Throws SimulationError as `run` does where the scene itself
-/// cannot be simulated; the rows up to there have then been written.
+/// Rows are held in memory until they are accepted. Throws SimulationError like `run` if the scene cannot be simulated; the
+/// rows up to there have then been written.
 Certificate certify(const Scene& scene, const RunSettings& settings = {});
 
-/// The same to the tolerance of the settings in place of the scene's accuracy. Returns the summary of the run whose rows are
-/// kept, with the CPU time of all runs. Throws SimulationError also where they are not known to be as accurate.
+/// The same, to the tolerance of the settings if given. Returns the summary of the kept run, with the CPU time of all runs.
+/// Throws SimulationError also if no run is shown to be accurate.
 Summary run_certified(const Scene& scene, const RunSettings& settings);
 
 }  // namespace rheonet

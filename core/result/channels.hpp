@@ -8,24 +8,24 @@
 
 namespace rheonet {
 
-/// An element between the same ends as a record of a displacement, which knows its own: the difference of two positions has
-/// lost the digits of a small one. -1: there is none. `sign` is -1 where its ends are the other way round.
+/// An element with a displacement of its own between the ends of a displacement record. The difference of two positions
+/// would lose the digits of a small displacement. -1: there is no such element. `sign` is -1 if its ends are swapped.
 struct Gauge { int element = -1; double sign = 1; };
-/// One for each record.
+/// The gauge of each record.
 std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records);
 
 /// For each node whether its position is needed to answer the scene's records and claims.
 std::vector<char> needed_positions(const Network& network);
 
-/// Takes records of a scene from states of its DAE.
+/// Evaluates records of a scene from states of its DAE.
 class Channels {
  public:
   Channels(const Network& network, const std::vector<Record>& records);
-  /// Goes over to these equations.
+  /// Switches to the equations of another set of modes.
   void attach(Dae& dae, Consistency& consistency);
 
-  /// One value a record, SI, of a consistent state. One within a step of the integrator is consistent to its tolerance
-  /// only: with `rate`, the inverse of that step, it is brought onto the equations where that matters.
+  /// The value of each record [SI] in a consistent state. A state inside an integrator step is consistent to the tolerance
+  /// only: with `rate`, the inverse of the step, the unknowns are made consistent where that matters.
   const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                   double rate = 0);
 
@@ -43,7 +43,7 @@ class Channels {
   const std::vector<Gauge> gauges_;
   Dae* dae_ = nullptr;
   Consistency* consistency_ = nullptr;
-  bool bent_ = false;          ///< between steps forces are out of balance at some massless node
+  bool bent_ = false;          ///< some massless node is out of balance between steps
   bool rates_needed_ = false;  ///< a record needs y' of a floating node
   std::vector<double> y_, slope_, yp_, row_;
 };

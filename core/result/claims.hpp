@@ -8,45 +8,45 @@
 
 namespace rheonet {
 
-/// What has become of a claim.
+/// Result of the check of a claim.
 struct Finding {
-  double found = not_given;  ///< SI; NaN if there is no such figure (what is never crossed, a ratio to 0)
-  double tolerance = 0;      ///< on both sides of what is claimed, SI
+  double found = not_given;  ///< SI; NaN if it does not exist (a level never crossed, a ratio to 0)
+  double tolerance = 0;      ///< on either side of the claimed value, SI
   bool holds = false;
 };
 
-/// Follows the records that a scene's claims are about through a run. Each step is looked at in pieces no longer than
-/// an output interval, halved until the cubic through 4 points of a record is the record, to the run's accuracy. The
-/// points are those of Lobatto's rule, which gives means. Extremes are at them or where the cubic turns, and between two
-/// of all these a record goes one way: it reaches no level unseen.
+/// Evaluates the records that a scene's claims refer to, during a run. Each step is divided into pieces no longer than an
+/// output interval, which are halved until the cubic through 4 points of a record agrees with the record to the run's
+/// accuracy. The points are those of Lobatto's rule, which gives means. Extremes lie at these points or at turning points of
+/// the cubic; between two of them a record is monotonic, so that no crossing of a level is missed.
 class Claims {
  public:
-  /// The claimed records at a time of the last step, counted from the start of the run.
+  /// The claimed records at a time in the last step; times count from the start of the run.
   using Read = std::function<const std::vector<double>&(double t)>;
   using Rows = std::array<std::vector<double>, 4>;  ///< the claimed records at 4 times
 
   explicit Claims(const Scene& scene);
   bool any() const { return !claims_.empty(); }
 
-  /// Just after the start or an event; `fastest` is the largest angular frequency of what drives the records from there on [rad/s].
+  /// State just after the start or an event. `fastest`: largest angular frequency of the inputs from there on [rad/s].
   void begin(double t, const std::vector<double>& values, double fastest = 0);
   void step(double from, double to, const Read& read);
-  /// One for each of the scene's claims.
+  /// The finding of each of the scene's claims.
   std::vector<Finding> findings() const;
 
  private:
-  /// A figure of one record, as far as it has come.
+  /// Figures of one record, so far.
   struct Course {
     double last = not_given, largest = not_given, smallest = not_given;
-    double largest_at = not_given, smallest_at = not_given;  ///< when it was that first
+    double largest_at = not_given, smallest_at = not_given;  ///< first time of these values
     double integral = 0, squares = 0, length = 0;
     double at = not_given;
   };
   struct State {
     Claim claim;      ///< its times count from the start of the run
-    Course of, per;   ///< per: of the record that it is divided by
-    double side = 0;            ///< of the level, that the record was on last: 1, -1; 0 not known yet
-    double looked = not_given;  ///< when it was on that side
+    Course of, per;   ///< `of`: the record; `per`: the record by which it is divided
+    double side = 0;            ///< last side of the level: 1, -1; 0 if not known yet
+    double looked = not_given;  ///< time of the last point examined
     double crossed = not_given;
   };
 
@@ -54,11 +54,11 @@ class Claims {
     double t, value;
   };
 
-  /// One that has come of so many halvings, of one whose cubic was `parent` times too far from the record.
+  /// `halvings`: how many led to this piece; `parent`: the deviation (as of off_cubic) of the piece that was halved.
   void piece(double from, double to, const Read& read, int halvings = 0, double parent = 0);
   bool may_matter(double middle, const Rows& rows) const;
-  /// How far the cubic through a piece is at x, of [-1, 1], from what the records are there, in parts of what the accuracy
-  /// allows: the most of those that are looked at in this piece.
+  /// Largest deviation of the cubics of a piece from the claimed records at x in [-1, 1], in units of the accuracy.
+  /// `probed`: the records there.
   double off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const;
   void see(const std::vector<double>& row);
   void end_piece(const State& state, Course& course, double to, double value) const;
@@ -66,14 +66,14 @@ class Claims {
   double figure(const State& state, const Course& course) const;
 
   std::vector<State> claims_;
-  std::vector<double> cuts_;     ///< times at which pieces end: those that claims name
+  std::vector<double> cuts_;     ///< times named by claims, at which pieces end
   std::vector<double> largest_;  ///< magnitude in the run of each claimed record
-  std::vector<double> values_;   ///< at the end of what has been looked at
+  std::vector<double> values_;   ///< of the claimed records at the end of the last piece
   double interval_;
-  double slack_;  ///< an event this close to a time is at it, as of rows
+  double slack_;  ///< an event this close to a time coincides with it, as for rows
   double start_, length_, accuracy_;
   double fastest_ = 0;
-  bool any_over_time_ = false;  ///< some figure is of more than one instant
+  bool any_over_time_ = false;  ///< some figure depends on more than one time
 };
 
 }  // namespace rheonet

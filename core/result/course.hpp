@@ -7,23 +7,23 @@
 
 namespace rheonet {
 
-/// A run, kept.
+/// The rows of a run, in memory.
 struct Course {
   std::vector<double> times;
-  std::vector<std::vector<double>> rows;  ///< of each time, the scene's records
+  std::vector<std::vector<double>> rows;  ///< of each time, values of the scene's records
   Summary summary;
 };
 
-/// Simulates. Rows also go to the `row` of the settings as they come. Throws SimulationError.
+/// Simulates. The `row` of the settings is called as well. Throws SimulationError.
 Course run_to_memory(const Scene& scene, RunSettings settings = {});
 
-/// How far the course of a record is from that of another, SI.
+/// Difference of two records, SI.
 struct Difference {
-  double largest = 0;            ///< magnitude
-  double time = 0;               ///< when it is that [s]
-  double first = 0, second = 0;  ///< the two values then
-  double rms = 0;                ///< root of the mean of squares
-  double scale = 0;              ///< largest magnitude of either: what relative differences are relative to
+  double largest = 0;            ///< largest magnitude
+  double time = 0;               ///< time of the largest difference [s]
+  double first = 0, second = 0;  ///< the two values at that time
+  double rms = 0;                ///< root mean square
+  double scale = 0;              ///< largest magnitude of either record, the reference of relative differences
 
   double relative() const { return scale > 0 ? largest / scale : 0; }
   double relative_rms() const { return scale > 0 ? rms / scale : 0; }

@@ -4,7 +4,7 @@
 
 namespace rheonet {
 
-/// CPU time of this thread alone [s]: simulations may run side by side.
+/// CPU time of this thread alone [s], because simulations may run in parallel.
 inline double cpu_seconds() {
   std::timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

@@ -15,13 +15,12 @@ struct WriteError : SimulationError {
   using SimulationError::SimulationError;
 };
 
-/// Writes rows, their numbers so that they read back as the same doubles. Each goes to the buffer of the file as a whole,
-/// where another thread may flush it. A row that comes more than a quarter of a second after the last flush flushes the
-/// file; the last ones need `flush`, which the caller owes.
-/// Throws WriteError if that fails (disk full, pipe closed).
+/// Writes rows; numbers read back as the same doubles. Each row enters the buffer of the file as a whole, so that another
+/// thread may flush it. A row that follows the last flush by more than 0.25 s flushes the file. The caller must call `flush`
+/// after the last row. Throws WriteError if writing fails (disk full, pipe closed).
 class CsvWriter {
  public:
-  /// `what` is written, for messages: "the results". Without a file nothing is.
+  /// `what` names the contents in messages: "the results". Without a file nothing is written.
   CsvWriter(std::FILE* file, const char* what) : file_(file), what_(what) {}
   void header(const std::vector<std::string>& names);
   void row(double time, const std::vector<double>& values);
@@ -41,8 +40,8 @@ class CsvWriter {
   double last_flush_ = 0;    ///< s
 };
 
-/// go(), and then the flush of `writer` that is owed, also where go() throws: what has been thrown is what is said then, and
-/// closing the file tells of a writing that fails.
+/// Returns go(), and then flushes `writer`. If go() throws, `writer` is flushed too and that exception is rethrown; an error
+/// of the flush is then left to the closing of the file.
 template <class Writer, class Go>
 auto flushed(Writer& writer, Go go) {
   const auto kept = [&] {

@@ -10,20 +10,21 @@
 
 namespace rheonet {
 
-/// The energy account of a run: power integrated over each step. Where the powers at the last seven steps' ends lie on a
-/// polynomial it is that which is integrated, which takes no evaluation; else the powers that follow from the integrator's
-/// polynomial, by the 4-point Lobatto rule; where an element is driven on all sides (steps are then longer than what happens in it) by its adaptive 7-point
-/// Kronrod extension (Gander and Gautschi, BIT 40 (2000) 84). Laws that know their heat in closed form are asked for it.
+/// The energy account of a run: power, integrated over each step. If the powers at the last seven step ends lie on a
+/// polynomial, the integral of the polynomial is used, without further evaluations. Otherwise the powers along the
+/// integrator's polynomial are integrated by the 4-point Lobatto rule, or by its adaptive 7-point Kronrod extension (Gander
+/// and Gautschi, BIT 40 (2000) 84) if an element is driven at all its ends, since steps may then be longer than its motion
+/// requires. Laws that know their heat in closed form provide it.
 class EnergyAccount {
  public:
-  /// `tolerance` is relative to the largest energy so far; `length`: of the run [s].
+  /// `tolerance` is relative to the largest energy so far; `length` of the run [s].
   EnergyAccount(double tolerance, double length);
-  /// Goes over to these equations.
+  /// Switches to the equations of another set of modes.
   void attach(Dae& dae, Consistency& consistency);
 
-  /// Just after the start or an event. What is stored more than before was supplied in that instant, with the heat.
+  /// State just after the start or an event. A gain of stored energy at the event, and `heat` [J], count as supplied.
   void begin(double t, const std::vector<double>& y, const std::vector<double>& yp, double heat);
-  /// With the view of the equations that of the end of the step.
+  /// The view of the equations must be that of the end of the step.
   void step(const Integrator& integrator);
 
   double supplied() const { return sum_.supplied; }
@@ -38,7 +39,7 @@ class EnergyAccount {
   Power power_at_end(const Integrator& integrator);
   Power power(const Integrator& integrator, double t);
   void remember(double t, const Power& power);
-  /// The same as `lobatto` from the powers at steps' ends; absent if these are too few, or on no polynomial.
+  /// The integral over a step from the powers at step ends; absent if these are too few or not smooth enough.
   std::optional<Power> from_past(double a, double b) const;
   Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
 
@@ -50,10 +51,11 @@ class EnergyAccount {
   bool begun_ = false;
   Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`
   static constexpr std::size_t remembered = 7;
-  std::array<double, remembered> times_{};       ///< ends of the last steps since the last `begin`, the last one first
-  std::size_t known_ = 0;                        ///< of these
-  std::array<Power, remembered> differences_{};  ///< of the powers at the first one, two, ... of these, divided
-  double heat_ = 0;    ///< of the laws that know it, when `last_` was
+  std::array<double, remembered> times_{};       ///< ends of steps since the last `begin`, the latest first
+  std::size_t known_ = 0;                        ///< number of valid entries
+  std::array<Power, remembered> differences_{};  ///< divided differences of the powers at the first one, two, ... of these
+                                                 ///< times
+  double heat_ = 0;    ///< heat of laws that know it, at the time of `last_`
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
   std::vector<double> y_, yp_;
 };

@@ -7,14 +7,14 @@
 
 namespace rheonet {
 
-/// Cuts a scene up into `jobs` scenes; `job_of` says into which one each part goes. What belongs to no part goes to all at whose
-/// nodes it stands if it is a motion, else to the first of those; what stands nowhere else, or beside nothing but the job `unasked`
-/// (-1: there is none), to the first of all; a block that belongs to no part to none. Records and claims must each need parts of one
-/// job alone, but for recorded forces: these are sums of what each job has of them.
+/// Divides a scene into `jobs` scenes; `job_of` gives the job of each part. A motion in no part goes to every job at its
+/// node. Another element in no part goes to the first job at its node, or to job 0 if there is none but `unasked` (-1: no
+/// such job). A block in no part goes nowhere. Each record or claim may need parts of one job only, except that a recorded
+/// force is the sum of its terms in all jobs.
 std::vector<Excerpt> cut(const Scene& scene, const Parts& parts, const std::vector<int>& job_of, int jobs, int unasked);
 
-/// The marked nodes and elements of a scene, with all of its records and claims, which need no others. Ends of marked elements are
-/// marked; ground always stays.
+/// The marked nodes and elements of a scene, with all of its records and claims, which must need no others. The ends of
+/// marked elements must be marked; ground always stays.
 Scene cut_out(const Scene& scene, const std::vector<char>& nodes, const std::vector<char>& elements);
 
 }  // namespace rheonet

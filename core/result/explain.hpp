@@ -8,30 +8,30 @@
 
 namespace rheonet {
 
-/// What will be simulated of a scene, and why: everything that is known before it runs. Names are those of the scene.
+/// The plan of a simulation, with reasons: everything known about a scene before it runs. Names are those of the scene.
 struct Explanation {
   struct EffectFound {
     Effect effect;
-    std::vector<std::string> by = {};        ///< elements that bring it
-    std::vector<std::string> left_out = {};  ///< elements that would, but for what the scene leaves out
+    std::vector<std::string> by = {};        ///< elements that bring the effect
+    std::vector<std::string> left_out = {};  ///< elements that would, if the scene did not leave it out
   };
-  std::vector<EffectFound> effects = {};  ///< all there are, in their order
+  std::vector<EffectFound> effects = {};  ///< all effects, in the order of their enumeration
 
-  /// Unknowns of one kind that are determined in one way.
+  /// Unknowns of one kind with the same determining equation.
   struct Unknowns {
     std::string quantity = {};  ///< "velocity", "deflection", "force", "position", "state"
-    std::string unit = {};      ///< "" of states, which may each have another
-    std::string equation = {};  ///< what determines them
+    std::string unit = {};      ///< "" for states, whose units may differ
+    std::string equation = {};  ///< the equation that determines them, in words
     bool differential = false;
-    bool of_nodes = false;  ///< `names` are nodes, else elements
+    bool of_nodes = false;  ///< `names` are nodes rather than elements
     std::vector<std::string> names = {};
   };
-  std::vector<Unknowns> unknowns = {};  ///< in the modes in which the run begins
+  std::vector<Unknowns> unknowns = {};  ///< in the initial modes
 
-  /// What is not simulated.
+  /// Something that is not simulated.
   struct Omission {
-    std::string reduction = {};  ///< its name, as after --keep; "" where that does not apply
-    std::string what = {};       ///< "position of", with `names` after it
+    std::string reduction = {};  ///< name of the reduction, as given to --keep; "" if it is none
+    std::string what = {};       ///< "position of", to be followed by `names`
     std::string reason = {};
     bool of_nodes = false;
     std::vector<std::string> names = {};
@@ -39,18 +39,18 @@ struct Explanation {
   std::vector<Omission> left_out = {};
 
   struct Structure {
-    int index_as_wired = 0;  ///< of the equations at nodes, as one would write them down
-    std::string because = {};     ///< why it is that
-    int index = 0;           ///< of the equations that are solved: 0 or 1
-    int differential = 0;    ///< number of unknowns that are integrated
-    int algebraic = 0;       ///< that follow from others
-    int loops = 0;           ///< deflections that depend on others through the wiring
-    int parts = 0;           ///< of the network: they share nothing but ground and given motions
-    int integrations = 1;    ///< so many of these parts, or groups of them, are integrated each with its own steps
+    int index_as_wired = 0;  ///< of the nodal equations as usually written
+    std::string because = {};     ///< reason for that index
+    int index = 0;           ///< of the equations actually solved: 0 or 1
+    int differential = 0;    ///< number of integrated unknowns
+    int algebraic = 0;       ///< number of other unknowns
+    int loops = 0;           ///< number of deflections given by others through loop equations
+    int parts = 0;           ///< of the network, which share nothing but ground and given motions
+    int integrations = 1;    ///< number of parts, or groups of parts, integrated with their own steps
   };
   Structure structure;
 
-  /// Elements that may switch, and how.
+  /// Elements that may switch, and their kinds of event.
   struct Events {
     std::string kinds = {};  ///< "stick, slip, reversal"
     std::vector<std::string> names = {};
@@ -59,15 +59,15 @@ struct Explanation {
 
   struct Cost {
     int unknowns = 0;
-    int entries = 0;            ///< of the Jacobian
+    int entries = 0;            ///< nonzero entries of the Jacobian
     bool sparse = false;        ///< KLU rather than dense linear algebra
-    double fastest_rate = 0;    ///< at which the network changes by itself at the start [1/s]
-    double fastest_drive = 0;   ///< largest angular frequency of the drives [rad/s]
-    long known_instants = 0;    ///< jumps and corners of signals, at each of which the integrator starts anew
-    // The run is begun to see how it goes; the rest is supposed to go on like that.
-    long tried_steps = 0;       ///< 0: it cannot be begun
-    double tried = 0;           ///< share of the run that these came to
-    double steps = 0;           ///< predicted
+    double fastest_rate = 0;    ///< fastest rate of the network's own motion at the start [1/s]
+    double fastest_drive = 0;   ///< largest angular frequency of the inputs [rad/s]
+    long known_instants = 0;    ///< jumps and corners of signals, at each of which the integrator restarts
+    // A trial of the first part of the run, from which the rest is extrapolated:
+    long tried_steps = 0;       ///< 0: the trial failed at once
+    double tried = 0;           ///< share of the run completed in the trial
+    double steps = 0;           ///< predicted for the whole run
     double seconds_a_step = 0;  ///< CPU time
     double seconds() const { return steps * seconds_a_step; }
   };

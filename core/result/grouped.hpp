@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-/// Lines of one kind, each with its names, in the order in which they come up.
+/// Lines with the same key merged into one that lists their names, in order of first appearance.
 template <class Line>
 class Grouped {
  public:

@@ -5,15 +5,15 @@
 
 namespace rheonet {
 
-/// Integrates the excerpts of a scene, each by itself, on as many threads as the settings say; rows and events are written when all
-/// have come to their end, or up to where the first had to end. Of several excerpts `state` and `profile` of the settings are not used. Throws
-/// SimulationError as `run` does.
+/// Integrates the excerpts of a scene separately, on as many threads as the settings allow. Rows and events are written when
+/// all have finished, up to the first failure if there is one. With several excerpts, `state` and `profile` of the settings
+/// are not used. Throws SimulationError like `run`.
 Summary run_in_parts(const Scene& scene, const Division& division, const RunSettings& settings);
 
-/// A scene in its parts, or as a whole where that is better.
+/// Integrates a scene in its parts, or as a whole where the division or the settings require it.
 Summary run_divided(const Scene& scene, const RunSettings& settings);
 
-/// One scene as a whole, whatever its parts.
+/// Integrates one scene as a whole, without dividing it into parts.
 Summary run_whole(const Scene& scene, const RunSettings& settings);
 
 }  // namespace rheonet

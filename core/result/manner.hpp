@@ -8,16 +8,16 @@
 
 namespace rheonet {
 
-/// How a scene is simulated.
+/// A way to simulate a scene.
 struct Manner {
   std::string name = {};          ///< "order up to 4"
-  int order = RunSettings{}.order;  ///< of the method, at most
+  int order = RunSettings{}.order;  ///< largest order of the integration method
   bool locate_events = true;      ///< see Integrator::Options
-  bool certified = false;         ///< run after run, until one is known to be as accurate as asked (certify.hpp)
-  std::vector<Scene> scene = {};  ///< one that is simulated in its place; none: itself
+  bool certified = false;         ///< repeated runs until one is shown to be accurate (certify.hpp)
+  std::vector<Scene> scene = {};  ///< at most one: a scene to simulate instead
 };
 
-/// Simulates a scene in a manner: as `run` and `run_to_memory`, but for `order`, which is the manner's.
+/// Simulates a scene in a manner, like `run` and `run_to_memory`; `order` is that of the manner.
 Summary run_in(const Manner& manner, const Scene& scene, const RunSettings& settings);
 Course run_to_memory_in(const Manner& manner, const Scene& scene, RunSettings settings);
 

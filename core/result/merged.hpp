@@ -7,7 +7,7 @@
 
 namespace rheonet {
 
-/// Runs the reduced scene of a merging by `go`, and makes of its rows those of the whole.
+/// Runs the reduced scene of a merging by `go`, and converts its rows to the records of the whole scene.
 Summary run_merged(const Scene& whole, const Merging& merging, const RunSettings& settings,
                    const std::function<Summary(const Scene&, const RunSettings&)>& go);
 

@@ -7,7 +7,7 @@
 
 namespace rheonet {
 
-/// What may happen in a network at once: of its laws, and of what drives it.
+/// Events possible in a network, from its laws and from discontinuities of its signals.
 struct PossibleEvents {
   std::vector<Explanation::Events> events = {};
   long known_instants = 0;  ///< jumps and corners of signals until the stop

@@ -6,11 +6,10 @@
 
 namespace rheonet {
 
-/// The usual manner, and all that cost or save something and make sense for the scene: lower orders; events that are not
-/// located, where there are any; reductions that are not made, where they make something smaller
-/// (core/network/reductions.hpp); and what components declare that stands in for them (core/network/alternatives.hpp), with
-/// velocities and displacements that are small shares of those in the run. The first is the usual one. Throws
-/// SimulationError where the scene cannot be simulated.
+/// The usual manner first, then all others that change cost or accuracy and make sense for the scene: lower orders; events
+/// not located, if there are any; reductions switched off, if they reduce the scene (core/network/reductions.hpp); and
+/// alternatives that components declare (core/network/alternatives.hpp), with velocities and displacements that are small
+/// shares of those in the run. Throws SimulationError if the scene cannot be simulated.
 std::vector<Manner> manners(const Scene& scene);
 
 }  // namespace rheonet

@@ -6,53 +6,53 @@
 
 namespace rheonet {
 
-/// A run that others are measured by: a much more accurate one, and what its rows do not show.
+/// A much more accurate run against which others are measured, with details between its rows.
 struct Yardstick {
-  /// An instant near a row at which a record may jump, and the records on both sides of it. A stretch between two events is
-  /// taken for one as well, if it is short beside those on both sides of it: a signal that goes over as if it jumped.
+  /// An event near a row at which records may jump, with the records on both sides. An interval between two events counts as
+  /// one such event if it is short compared with the intervals before and after it: a signal with a steep ramp instead of a
+  /// jump.
   struct Instant {
-    double time;                        ///< of a stretch that of its end
+    double time;                        ///< of an interval: its end
     std::vector<double> before, after;
-    double lasts = 0;                   ///< s
+    double lasts = 0;                   ///< length of the interval, 0 for a single event [s]
   };
   Course course;
-  std::vector<double> largest;    ///< magnitude of each record, between rows too
-  std::vector<Instant> instants;  ///< in order of time
+  std::vector<double> largest;    ///< magnitude of each record, including times between rows
+  std::vector<Instant> instants;  ///< sorted by time
 };
 
-/// Simulates, with settings of which `state` is taken. Instants are kept that are within `near` [s] of a row.
-/// Throws SimulationError.
+/// Simulates; `state` of the settings is replaced. Keeps the events within `near` [s] of a row. Throws SimulationError.
 Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings = {});
 
-/// The error of a record in a run, as the accuracy of a scene is defined: at a row the distance from the true value, or,
-/// where the record jumps no further away than `shift` [s], from its value on either side of the jump; where it takes some of
-/// that time for it, from its values on the way.
+/// The error of a record in a run, as the accuracy of a scene is defined: at a row, the distance from the true value. If the
+/// record jumps within `shift` [s] of the row, the distance from its value on either side of the jump counts if it is less;
+/// if the change takes part of that time, any value on the way is correct.
 struct RecordError {
-  /// A record of less than this share of the accuracy, of the largest of its kind, of which no digit is certain, is nothing
-  /// but the error of the others: it has no size of its own.
+  /// A record has no size of its own if its error exceeds half its size, and both are below this share of (accuracy x the
+  /// largest record with its unit): it consists of errors of the others. The error is then relative to that largest record.
   static constexpr double share_of_kind = 1e-4;
 
   double largest = 0;    ///< SI
-  double time = 0;       ///< of that [s]
+  double time = 0;       ///< time of the largest error [s]
   double scale = 0;      ///< largest magnitude of the record in the run, SI
-  double beyond = not_given;  ///< the first time at which it is more than `allowed` of the scale [s]; NaN if it never is
+  double beyond = not_given;  ///< first time at which the error exceeds `allowed` x scale [s]; NaN if it never does
 
   double relative() const { return scale > 0 ? largest / scale : 0; }
 };
 
-/// How to take a distance for an error.
+/// Parameters of the error measure.
 struct ErrorMeasure {
-  double allowed = 1e-6;  ///< relative
-  double shift = 0;       ///< s
-  double factor = 1;      ///< enlarges each distance, for what the yardstick itself may be wrong
+  double allowed = 1e-6;  ///< relative limit, for RecordError::beyond
+  double shift = 0;       ///< allowed displacement of a jump [s]
+  double factor = 1;      ///< multiplies each distance, to allow for the error of the yardstick
 };
 
-/// One for each record of the scene, though the runs may have more records behind these. Rows at times that only one of the runs has
-/// (events) are left out.
+/// The error of each record of the scene; the runs may have more records after these. Rows at times that only one of the
+/// runs has (events) are ignored.
 std::vector<RecordError> record_errors(const Scene& scene, const Course& course, const Yardstick& truth,
                                        const ErrorMeasure& measure);
 
-/// Position of the largest relative error; 0 if there is none.
+/// Index of the largest relative error; 0 if there is none.
 std::size_t worst_of(const std::vector<RecordError>& errors);
 
 }  // namespace rheonet
