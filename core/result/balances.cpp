@@ -18,13 +18,13 @@ namespace rheonet {
 
 namespace {
 
-// Roundings of the largest force at a node that the sum of its forces may be off by.
+// Round-off allowed in the sum of forces at a node, in units of the last place of the largest force there.
 constexpr double sum_grains = 16;
 
-/// Both ends of an element; of one that is `at` a node, that node twice.
+/// Both ends of an element. An `at` element has its node twice.
 std::pair<NodeId, NodeId> nodes_of(const SceneElement& element) { return {element.a, element.at ? element.a : element.b}; }
 
-/// Of each node whether nothing but forces decides how it moves: it has neither mass nor a motion, and is not ground.
+/// Flags the nodes whose motion follows from forces alone: without mass or motion, and not ground.
 std::vector<char> massless_nodes(const Scene& scene) {
   std::vector<char> massless(scene.nodes.size(), 1);
   massless[at(ground)] = 0;
@@ -35,7 +35,7 @@ std::vector<char> massless_nodes(const Scene& scene) {
   return massless;
 }
 
-/// The nodes that records have to do with: visit(record, its place, node).
+/// Calls visit(record, its index, node) for each node that a record refers to.
 template <class Visit>
 void visit_nodes(const Scene& scene, Visit visit) {
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
@@ -79,7 +79,7 @@ void Balances::find_nodes(const Scene& scene) {
     std::vector<std::size_t>& records = record.channel == Record::Channel::force ? node.forces : node.movements;
     if (records.empty() || records.back() != k) records.push_back(k);
   });
-  std::map<int, std::size_t> force_of;  // of an element: its record
+  std::map<int, std::size_t> force_of;  // index of an element to that of its record
   for (std::size_t k = 0; k < asked_; ++k) {
     const Record& record = scene.records[k];
     if (record.subject == Record::Subject::element && record.channel == Record::Channel::force) force_of.insert({record.index, k});
@@ -88,7 +88,7 @@ void Balances::find_nodes(const Scene& scene) {
     const SceneElement& element = scene.elements[e];
     const Component* component = law_of(scene, element).component;
     if (!component || component->role == Role::block || component->role == Role::nothing) continue;
-    // What is applied at a node pushes it; what an element carries holds its first end back.
+    // An applied force pushes its node; the force of any other element pulls its first end back.
     const double sign = component->role == Role::force ? -1 : 1;
     const auto meet = [&](NodeId id, double s) {
       const auto found = place.find(id);
@@ -114,7 +114,7 @@ std::optional<Imbalance> Balances::raise(const Course& course, double allowed, s
       for (const Term& term : node.terms) largest = std::max(largest, std::abs(row[term.record]));
     }
     const double rounding = sum_grains * std::numeric_limits<double>::epsilon() * largest;
-    // The largest imbalance, and when one is first more than a record allows.
+    // The largest imbalance, and the first time at which it exceeds the limit of each record.
     std::vector<double> first(node.forces.size() + node.movements.size(), not_given);
     const auto allows = [&](std::size_t i) {
       return i < node.forces.size() ? allowed * errors[node.forces[i]].scale : allowed * largest;

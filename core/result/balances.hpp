@@ -18,9 +18,8 @@ struct Imbalance {
   double time = 0;                    ///< of the row with the imbalance [s]
 };
 
-/// The balance of forces, as printed in rows, at each massless node that a record refers to: the forces of all elements
-/// there, drives included. Runs that share an error of a force cannot measure it by comparison; the imbalance at a node
-/// shows it.
+/// Checks the balance of the forces of all elements, drives included, at each massless node that a record refers to. Runs
+/// that share an error of a force cannot measure it by comparison; an imbalance reveals it.
 class Balances {
  public:
   explicit Balances(const Scene& scene);

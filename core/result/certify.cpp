@@ -25,12 +25,12 @@ namespace rheonet {
 namespace {
 
 constexpr double factor = Certificate::factor;
-// The tightest tolerance that leaves doubles some room: that of Scene::accuracy.
+// The tightest tolerance above round-off, as for Scene::accuracy.
 constexpr double tightest = 1e-12;
-// Of quotients of tolerances.
+// Relative round-off of ratios of tolerances.
 constexpr double rounding = 1e-9;
 
-/// A stream into memory.
+/// An output stream into memory.
 class Spool {
  public:
   Spool() : file_(open_memstream(&text_, &size_)) {
@@ -56,7 +56,7 @@ class Spool {
   std::FILE* file_;
 };
 
-/// Writes the first so many values of rows as they come.
+/// Writes the first columns of rows, the scene's own records, as they come.
 class FirstColumns {
  public:
   FirstColumns(const Scene& scene, std::FILE* file) : count_(scene.records.size()), csv_(file, "the results") {
@@ -78,16 +78,16 @@ class FirstColumns {
   bool begun_ = false;
 };
 
-/// A run to one tolerance, its output held back. Its records are the scene's, and behind them forces that have to balance.
+/// A run to one tolerance, with its output held back. Its records are the scene's, followed by forces to balance.
 struct Attempt {
   double tolerance = 0;
   Yardstick yardstick;
   Spool rows, events;
-  std::optional<Yardstick> other;  ///< the same by another order, where that is needed to measure others
-  std::exception_ptr failure;      ///< none if it has come to the end
+  std::optional<Yardstick> other;  ///< a run of another order, if round-off matters
+  std::exception_ptr failure;      ///< null if the run is complete
 
   void hand_over(const Scene& scene, const RunSettings& settings) {
-    // What cannot be written of the one must not cost the other.
+    // A failure to write the events must not cost the rows.
     try {
       events.copy_to(settings.events, "the events");
     } catch (const WriteError&) {
@@ -116,7 +116,7 @@ class Certification {
         measured = std::exchange(tighter, measuring_run(next));
         count(*tighter);
       } else if (tighter->tolerance > (1 + rounding) * tightest) {
-        // No room for one that is so much tighter than this; but for one that is than another.
+        // No tolerance left that is `factor` times tighter: measure a looser run by the tightest one.
         std::tie(measured, tighter) = both(factor * tightest);
       } else {
         break;
@@ -147,7 +147,7 @@ class Certification {
     return result;
   }
 
-  /// One that others are measured by.
+  /// A run that measures another one.
   std::shared_ptr<Attempt> measuring_run(double tolerance) const {
     if (tolerance > Certificate::rounding_shows * (1 + rounding)) return attempt(settings_, tolerance);
     auto beside = std::async(std::launch::async, [&] {
@@ -163,7 +163,7 @@ class Certification {
     return result;
   }
 
-  /// A run to this tolerance, and one that it is measured by, side by side.
+  /// A run to this tolerance, and the run that measures it, in parallel.
   std::pair<std::shared_ptr<Attempt>, std::shared_ptr<Attempt>> both(double tolerance) {
     RunSettings silent = settings_;
     silent.progress = {};
@@ -180,7 +180,7 @@ class Certification {
     if (done.other) result_.cpu_seconds += done.other->course.summary.cpu_seconds;
   }
 
-  /// Whether the run is as accurate as it should be.
+  /// Measures a run. Returns true if it is accurate enough.
   bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {
     const ErrorMeasure as_promised{
         .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - Certificate::own_error)};
@@ -194,8 +194,7 @@ class Certification {
     result_.holds = error.relative() <= scene_.accuracy;
     double until = not_given;
     for (const RecordError& e : errors) until = std::fmin(until, e.beyond);
-    // Where errors have grown as large as the records themselves, how large they are says nothing; for how long they are
-    // small does.
+    // Once errors are as large as the records, their size has no meaning; the time up to which they are small has.
     if (kept_ && !result_.holds && until <= result_.until) return false;
     kept_ = measured;
     result_.kept = result_.rounds.size() - 1;
@@ -205,7 +204,7 @@ class Certification {
     return result_.holds;
   }
 
-  /// Raises errors to what a third run says, whose distances `others` are.
+  /// Raises errors to the estimate from a third run, which is at the distances `others`.
   void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others) const {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       RecordError& error = errors[k];
@@ -218,7 +217,7 @@ class Certification {
     }
   }
 
-  /// What ended the run that should have measured.
+  /// Stores the error message of the run that should have measured.
   void say_why(const std::exception_ptr& failure) {
     if (settings_.interrupt && *settings_.interrupt) std::rethrow_exception(failure);
     try {
@@ -231,7 +230,7 @@ class Certification {
   const Scene& scene_;
   const RunSettings& settings_;
   const Balances balances_;
-  const double shift_;  ///< of a jump, as much as the accuracy allows [s]
+  const double shift_;  ///< displacement of a jump that the accuracy allows [s]
   std::shared_ptr<Attempt> kept_;
   Certificate result_;
 };

@@ -14,11 +14,10 @@ namespace rheonet {
 /// Estimated errors of a run.
 struct Certificate {
   /// Ratio of the tolerances of a run and of the run that measures it. Runs with similar tolerances share their error. Over
-  /// the scenes in netlists/ at accuracies from 1e-3 to 1e-8, a tolerance 10 times tighter leaves between 0.02 and 2.0 of
-  /// the error (median 0.14); one 100 times tighter leaves between 0.002 and 0.23 (median 0.02), for about twice the steps.
+  /// the scenes in netlists/ at accuracies from 1e-3 to 1e-8, a ratio of 10 leaves between 0.02 and 2.0 of the error (median
+  /// 0.14). A ratio of 100 leaves between 0.002 and 0.23 (median 0.02), for about twice the steps.
   static constexpr double factor = 100;
-  /// Upper bound of the measuring run's own error, as a share of the error that it measures: above the worst of these
-  /// (0.23).
+  /// Bound of the measuring run's own error, as a share of the error that it measures: 0.23 at worst (see `factor`).
   static constexpr double own_error = 0.25;
   /// At tolerances up to this one, round-off may dominate the error of a measuring run, and a tighter tolerance does not
   /// reduce it. A third run then measures too, to the same tolerance but with another order: other steps, formulas and

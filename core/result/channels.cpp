@@ -28,7 +28,7 @@ Ends ends_of(const Scene& scene, const Record& record) {
   return {scene.assemblies[at(record.index)].a, scene.assemblies[at(record.index)].b};
 }
 
-/// A spring and its slider in a state of their bundle, from the spring's end to the slider's.
+/// A spring and its slider in a state of their bundle; positive from the spring's end to the slider's.
 struct PairView {
   PairView(const Network& network, int k, const Dae::View& view)
       : pair(network.pairs[at(k)]),
@@ -57,8 +57,8 @@ bool own_displacement(const Network& network, int element) {
   return false;
 }
 
-/// Some massless node balances the force of a law with a memory: unknowns that lie on polynomials between steps leave it out of
-/// balance there.
+/// Some massless node balances the force of a law with a memory. Between steps the unknowns follow polynomials and violate
+/// that balance.
 bool bent(const Dae& dae) {
   const Structure& structure = dae.structure();
   const auto massless = [&](NodeId node) {
@@ -82,7 +82,7 @@ bool is_place(const Record& record) {
 std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records) {
   const Scene& scene = *network.scene;
   std::vector<Gauge> result(records.size());
-  // Of the ends of elements that have a displacement of their own; filled when it is first asked for.
+  // By the ends: elements with a displacement of their own; filled on first use.
   std::map<std::pair<NodeId, NodeId>, int> between;
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Record& record = records[k];
@@ -126,7 +126,7 @@ std::vector<char> needed_positions(const Network& network) {
   for (const Blocks::Sensor& sensor : network.blocks.sensors) {
     if (sensor.what == Blocks::Sensor::What::position) needed[at(sensor.index)] = 1;
   }
-  // Positions go over sliders that stick, so both ends must be known when they begin to.
+  // A slider that begins to stick takes the position of one end from the other: both must be known.
   if (std::find(needed.begin(), needed.end(), 1) == needed.end()) return needed;
   for (const Network::Slider& slider : network.sliders) needed[at(slider.branch.a)] = needed[at(slider.branch.b)] = 1;
   return needed;
@@ -164,7 +164,7 @@ double Channels::element_force(int element, const Dae::View& view) const {
   }
   switch (place.role) {
     case Role::deflection: {
-      // Round-off of the displacement times a stiffness of 1e12 N/m puts a force beyond its bound where the event is found.
+      // Round-off of the displacement times a stiffness of 1e12 N/m can lift the force above its bound at the event.
       std::size_t i = 0;
       const double bound = network.batch_of(place.index, i).steady(i).bound;
       return std::clamp(view.f[at(place.index)], -bound, bound);

@@ -34,7 +34,7 @@ struct Cubic {
 
   double operator()(double x) const { return c0 + x * (c1 + x * (c2 + x * c3)); }
 
-  /// Where it turns, in (-1, 1), in order.
+  /// Its turning points in (-1, 1), in order.
   std::vector<double> turning_points() const {
     const double root = c2 * c2 - 3 * c3 * c1;  // of 3 c3 x^2 + 2 c2 x + c1
     if (root < 0) return {};
@@ -46,16 +46,16 @@ struct Cubic {
   }
 };
 
-// Where the cubic is held against the record: where a quartic would be farthest from it, and beyond a node, because
-// what is odd about the middle, or is of both kinds and vanishes at one place, shows at the other.
+// Where the cubic is compared with the record: where a quartic is farthest from it, and beyond an inner node. A deviation
+// that is odd about the middle, or vanishes at one of the two places, shows at the other.
 constexpr std::array<double, 2> probes{0, 0.75};
 
-// So often a piece is halved in any case that the cubic is not near enough, and as long as a drive turns in it. Beyond that only
-// while halving halves what it is off: on a smooth record a 16th is left, of rounding all of it.
+// Number of halvings of an inaccurate piece without further conditions, or more while an input turns in it. After that a
+// piece is halved only if the last halving at least halved the deviation: a smooth record keeps a 16th of it, round-off all.
 constexpr int free_halvings = 4;
 
-// So many times as far as the samples of a piece are from each other a record does not go between them, where the piece is no
-// longer than half a period of the fastest drive. (What is integrated is smooth within a step.)
+// A record leaves the range of the samples of a piece by at most this multiple of the range, if the piece is no longer than
+// half a period of the fastest input. (Integrated unknowns are smooth within a step.)
 constexpr double much_farther = 4;
 constexpr double longest_turn = 3.14;
 
@@ -137,7 +137,7 @@ void Claims::end_piece(const State& state, Course& course, double to, double val
 
 void Claims::piece(double from, double to, const Read& read, int halvings, double parent) {
   if (!any_over_time_) {
-    // All claims are of values at one instant: they do not depend on what happens between two steps.
+    // All claims are about values at a given time, and do not depend on the course of a step.
     values_ = read(to);
     see(values_);
     for (State& state : claims_) {
@@ -191,8 +191,8 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
   }
 }
 
-/// Whether a figure may come of what lies between the samples of a piece: not an extreme, or a level that is crossed, that is much
-/// farther from all of them than they are from each other.
+/// Whether a figure may depend on values between the samples of a piece. It cannot if the present extreme, or the level, is
+/// much farther from all samples than these are from each other.
 bool Claims::may_matter(double middle, const Rows& rows) const {
   for (const State& state : claims_) {
     const Claim& claim = state.claim;
@@ -236,7 +236,7 @@ double Claims::off_cubic(double middle, const Rows& rows, double x, const std::v
 
 void Claims::look(State& state, Course& course, const Point& point, const Read& read) {
   const Claim& claim = state.claim;
-  // The first value is neither above nor below what is not given.
+  // The comparisons are false for NaN, so that the first value is always taken.
   if (!(point.value <= course.largest)) {
     course.largest = point.value;
     course.largest_at = point.t;
@@ -248,7 +248,7 @@ void Claims::look(State& state, Course& course, const Point& point, const Read& 
   if (claim.figure != Figure::crossing || !std::isnan(state.crossed)) return;
   const double side = side_of(point.value, claim.level);
   if (state.side != 0 && side != state.side) {
-    // Bisection: as many halvings as a double has bits.
+    // Bisection, with one halving for each bit of a double.
     double low = state.looked, high = point.t;
     for (int i = 0; i < 53 && low < high; ++i) {
       const double t = low + (high - low) / 2;

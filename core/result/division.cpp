@@ -19,16 +19,16 @@ namespace rheonet {
 
 namespace {
 
-/// What a part is like.
+/// Properties of a part that decide how it is integrated.
 struct Nature {
   bool asked = false;
-  bool may_fail = false;  ///< in a run that has begun: it has what gives way, or what may grow without bound
+  bool may_fail = false;  ///< during a run: through bounded forces, delays, blocks or nonlinear damping
   bool switches = false;  ///< has events of its own
-  bool delays = false;    ///< remembers what has been
-  double stiffness = 0, mass = 0;  ///< the largest stiffness and the least mass in it
-  double drive = 0;                ///< largest angular frequency of its drives [rad/s]
+  bool delays = false;    ///< needs a delay history
+  double stiffness = 0, mass = 0;  ///< largest stiffness and least mass in the part
+  double drive = 0;                ///< largest angular frequency of its inputs [rad/s]
 
-  /// About how fast it changes, as a decade of angular frequencies; what dies away is not counted.
+  /// Decade of its largest angular frequency, from stiffness and mass or inputs; decaying transients are ignored.
   int decade() const {
     const double own = stiffness > 0 && mass > 0 ? std::sqrt(stiffness / mass) : 0;
     const double fastest = std::max(own, drive);
@@ -52,7 +52,7 @@ class Divider {
   }
 
  private:
-  /// Blocks whose output comes to nothing that moves, is recorded or claimed.
+  /// Flags blocks whose output reaches no motion, force, record or claim.
   std::vector<char> idle_blocks() const {
     std::vector<int> needed;
     std::vector<char> idle(scene_.blocks.size(), 1);
@@ -82,7 +82,7 @@ class Divider {
     if (part >= 0 && other >= 0) joined_.join(part, other);
   }
 
-  /// A motion's force is what all parts at its node take together.
+  /// All parts at the node of a motion: they contribute to its force.
   std::vector<int> parts_at(NodeId node) {
     if (at_node_.empty()) {
       at_node_.resize(scene_.nodes.size());
@@ -133,7 +133,7 @@ class Divider {
     return found;
   }
 
-  /// Spring-slider pairs between the same two nodes are one element, with a closed form for all of them.
+  /// Joins parts that a bundle connects: spring-slider pairs between the same two nodes are one element with a closed form.
   void join_bundles() {
     std::vector<Reduced> laws;
     for (const SceneElement& element : scene_.elements) laws.push_back(law_of(scene_, element));
@@ -144,7 +144,7 @@ class Divider {
     }
   }
 
-  /// A claim is looked at within one part, and so is a difference between two nodes.
+  /// Joins the parts that one claim, or one record other than a force, refers to.
   void join_by_claims() {
     const auto join_all = [&](const std::vector<int>& parts) {
       for (const int part : parts) join(parts.front(), part);
@@ -205,7 +205,7 @@ class Divider {
       case Role::deflection: {
         const auto batch = law.component->deflection(one);
         nature.switches = nature.switches || batch->events(0) > 0;
-        // What gives way may be asked for more than it can take; what comes later may drive what it should damp.
+        // A bounded force may be overloaded. A delayed force may drive the motion that it should damp.
         nature.may_fail = nature.may_fail || batch->events(0) > 0 || batch->delay(0) > 0;
         nature.delays = nature.delays || batch->delay(0) > 0;
         break;
@@ -226,12 +226,12 @@ class Divider {
     }
   }
 
-  /// Which parts go together; false if there is nothing to gain.
+  /// Assigns parts to jobs. Returns false if a division gains nothing.
   bool number_jobs() {
     for (int part = 0; part < parts_.count; ++part) nature_[joined_.find(part)];
     if (nature_.empty() || (nature_.size() < 2 && !any_idle())) return false;
     look_at_elements();
-    // No error test looks at what is remembered where nothing has a mass: there the steps of other parts make it as accurate as it is.
+    // The error test does not cover the delay history of a part without mass: the steps of the other parts keep it accurate.
     if (std::any_of(nature_.begin(), nature_.end(), [](const auto& part) { return part.second.delays; })) return false;
     std::map<int, int> of_decade;
     for (const auto& [part, nature] : nature_) {
@@ -248,7 +248,7 @@ class Divider {
         job_[part] = found->second;
       }
     }
-    if (jobs_ == 0) {  // only given motions are recorded: something has to run
+    if (jobs_ == 0) {  // all records are of given motions, but something has to run
       job_[unasked_.front()] = jobs_++;
       unasked_.erase(unasked_.begin());
     }
@@ -280,7 +280,7 @@ class Divider {
   const std::vector<char> idle_;  ///< of each block; empty: all are kept
   const Parts parts_;
   Sets joined_;
-  std::map<int, Nature> nature_;  ///< of each part, by the one that stands for it
+  std::map<int, Nature> nature_;  ///< of each joined part, by its representative
   std::map<int, int> job_;
   std::vector<int> unasked_;
   std::vector<std::set<int>> at_node_;

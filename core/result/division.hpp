@@ -11,9 +11,8 @@ namespace rheonet {
 /// Some of the independent parts of a scene, as a scene of its own.
 struct Excerpt {
   Scene scene;
-  std::vector<std::size_t> records;  ///< index in the whole of each record; several excerpts may share a force, which is
-                                     ///< their sum
-  std::vector<std::size_t> claims;   ///< index in the whole of each claim
+  std::vector<std::size_t> records;  ///< of each record, its index in the whole; excerpts may share a summed force
+  std::vector<std::size_t> claims;   ///< of each claim, its index in the whole
 };
 
 /// A scene divided into its independent parts (core/network/parts.hpp), each integrated with its own steps. A part that

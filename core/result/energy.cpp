@@ -16,7 +16,7 @@ void EnergyAccount::attach(Dae& dae, Consistency& consistency) {
   needs_rates_ = dae.power_needs_rates();
   const Network& network = dae.network();
   const Structure& structure = dae.structure();
-  // What sticks to ground is given too, but there nothing happens.
+  // Nodes stuck to ground are known too, but at rest: nothing happens at them.
   const auto at_rest = [&](NodeId node) {
     return node < 0 || (structure.kind[at(structure.rigid[at(node)])] == Kind::known && structure.motion[at(structure.rigid[at(node)])] < 0);
   };
@@ -52,7 +52,7 @@ void EnergyAccount::begin(double t, const std::vector<double>& y, const std::vec
   largest_ = std::max(largest_, std::abs(stored_));
 }
 
-// Unknowns that no polynomial follows.
+// Some unknowns do not follow the integrator's polynomial between steps.
 bool EnergyAccount::solved_between_steps() const { return dae_->rough() || dae_->follows_time(); }
 
 EnergyAccount::Power EnergyAccount::power_at_end(const Integrator& integrator) {
@@ -61,7 +61,7 @@ EnergyAccount::Power EnergyAccount::power_at_end(const Integrator& integrator) {
   return {dae_->supplied_power(), dae_->dissipated_power()};
 }
 
-// Without need for them, rates are those of the end of the step.
+// Rates at time t if the power depends on them, otherwise those of the end of the step.
 EnergyAccount::Power EnergyAccount::power(const Integrator& integrator, double t) {
   integrator.interpolate(t, 0, y_);
   if (needs_rates_ || solved_between_steps()) integrator.interpolate(t, 1, yp_);
@@ -84,8 +84,9 @@ void EnergyAccount::remember(double t, const Power& power) {
   }
 }
 
-// Newton's polynomial through the ends of the last steps, by Gauss' rule of four points, which is exact for it. Its last term
-// is what one point less would make of it, far more than it is off itself: together no more than is allowed in the run.
+// Integrates Newton's polynomial through the last step ends by Gauss's four-point rule, which is exact for it. Its last
+// term, the difference to a polynomial with one point less, is an upper bound of the error; the sum over the run meets the
+// tolerance.
 std::optional<EnergyAccount::Power> EnergyAccount::from_past(double a, double b) const {
   if (known_ < remembered || adaptive_ || solved_between_steps()) return {};
   constexpr std::size_t points = 4;
@@ -133,7 +134,7 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
       std::max(std::abs(better.supplied - result.supplied), std::abs(better.dissipated - result.dissipated));
   largest_ = std::max({largest_, std::abs(sum_.supplied + better.supplied), std::abs(sum_.dissipated + better.dissipated)});
   constexpr int deepest = 14;
-  // The difference of the two rules overestimates the error of the better one by far.
+  // The difference of the two rules far exceeds the error of the better one.
   if (error <= tolerance_ * largest_ || depth >= deepest || half <= time_grain(b)) return better;
   const Power left = lobatto(integrator, a, middle, pa, pm, depth + 1);
   const Power right = lobatto(integrator, middle, b, pm, pb, depth + 1);

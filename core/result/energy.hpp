@@ -11,10 +11,10 @@
 namespace rheonet {
 
 /// The energy account of a run: power, integrated over each step. If the powers at the last seven step ends lie on a
-/// polynomial, the integral of the polynomial is used, without further evaluations. Otherwise the powers along the
-/// integrator's polynomial are integrated by the 4-point Lobatto rule, or by its adaptive 7-point Kronrod extension (Gander
-/// and Gautschi, BIT 40 (2000) 84) if an element is driven at all its ends, since steps may then be longer than its motion
-/// requires. Laws that know their heat in closed form provide it.
+/// polynomial, its integral is used, without further evaluations. Otherwise the 4-point Lobatto rule integrates the powers
+/// along the integrator's polynomial. An element driven at all its ends needs the adaptive 7-point Kronrod extension of that
+/// rule (Gander and Gautschi, BIT 40 (2000) 84), because its motion does not limit the steps. Laws that know their heat in
+/// closed form provide it.
 class EnergyAccount {
  public:
   /// `tolerance` is relative to the largest energy so far; `length` of the run [s].
@@ -51,10 +51,9 @@ class EnergyAccount {
   bool begun_ = false;
   Power sum_, last_;  ///< last_: power at the end of the last step, or at the last `begin`
   static constexpr std::size_t remembered = 7;
-  std::array<double, remembered> times_{};       ///< ends of steps since the last `begin`, the latest first
+  std::array<double, remembered> times_{};       ///< step ends since the last `begin`, latest first
   std::size_t known_ = 0;                        ///< number of valid entries
-  std::array<Power, remembered> differences_{};  ///< divided differences of the powers at the first one, two, ... of these
-                                                 ///< times
+  std::array<Power, remembered> differences_{};  ///< divided differences of the powers at the first 1, 2, ... of `times_`
   double heat_ = 0;    ///< heat of laws that know it, at the time of `last_`
   double stored_ = 0, stored_at_start_ = 0, largest_ = 0;
   std::vector<double> y_, yp_;

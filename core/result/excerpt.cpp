@@ -14,15 +14,15 @@ namespace rheonet {
 
 namespace {
 
-/// Indices into a scene, in its order, of the parts that an excerpt contains. Ground is always contained.
+/// Indices into a scene of the members of an excerpt, in the order of the scene. Ground is always contained.
 struct Taking {
   std::vector<int> nodes, elements, blocks, feeds;
-  /// For each assembly that a record, claim or block names: the terms of its force whose elements the excerpt contains.
+  /// For each recorded, claimed or sensed assembly: the terms of its force whose elements the excerpt contains.
   std::vector<std::pair<int, SceneAssembly::Term>> terms;
 };
 
-/// For each node, element, assembly and block of a scene its index in the excerpt; -1: not contained. Excerpts are made one
-/// after the other with the same arrays, and each clears only the entries that it has set.
+/// The index in the excerpt of each node, element, assembly and block of a scene; -1: not contained. The arrays are shared
+/// by successive excerpts, each of which resets only the entries that it has set.
 struct Numbers {
   explicit Numbers(const Scene& whole)
       : node(whole.nodes.size(), -1), element(whole.elements.size(), -1), assembly(whole.assemblies.size(), -1), block(whole.blocks.size(), -1) {}
@@ -58,7 +58,7 @@ class Taker {
 
   Scene& scene() { return scene_; }
 
-  /// What there is here of a record of the whole.
+  /// A record of the whole scene as a record of the excerpt; absent if the excerpt lacks its subject.
   std::optional<Record> taken(const Record& whole) {
     Record record = whole;
     record.index = number(whole);
@@ -151,10 +151,10 @@ class Taker {
   const Taking& taking_;
   Numbers& numbers_;
   Scene scene_;
-  std::vector<int> assemblies_;  ///< those that have been taken
+  std::vector<int> assemblies_;  ///< those that have been copied
 };
 
-/// The assemblies that anything asks for.
+/// Flags the assemblies that records, claims or blocks refer to.
 std::vector<char> asked_assemblies(const Scene& scene) {
   std::vector<char> asked(scene.assemblies.size(), 0);
   for (const std::vector<Record>* records : {&scene.records, &scene.claimed, &scene.sensed}) {
@@ -225,7 +225,7 @@ class Cutter {
     }
   }
 
-  /// A block may take in a quantity of a node that moves as it is given to: no element of its part need be there.
+  /// A block may sense a node with a given motion although no element of its part is there: copies the node and motion too.
   void find_jobs_of_sensed(const SceneBlock& block, int job) {
     for (const SceneBlock::Input& input : block.inputs) {
       if (input.from_block) continue;
@@ -247,7 +247,7 @@ class Cutter {
       for (const int job : jobs_of[k]) (jobs_[at(job)].taking.*list).push_back(static_cast<int>(k));
   }
 
-  /// A force may be a sum over jobs; all else is taken from the first job that has it.
+  /// A force may be a sum over jobs; other records come from the first job that contains their subject.
   static bool sums(const Record& record) { return record.channel == Record::Channel::force; }
 
   void deal_records() {
@@ -272,7 +272,7 @@ class Cutter {
     return both;
   }
 
-  /// The jobs that contain the subject of a record, or a part of its force. For ground, which all contain, the first job.
+  /// The jobs that contain the subject of a record, or a term of its force; for ground, which all contain, the first.
   std::set<int> jobs_of(const Record& record) const {
     switch (record.subject) {
       case Record::Subject::node:

@@ -8,8 +8,8 @@
 namespace rheonet {
 
 /// Divides a scene into `jobs` scenes; `job_of` gives the job of each part. A motion in no part goes to every job at its
-/// node. Another element in no part goes to the first job at its node, or to job 0 if there is none but `unasked` (-1: no
-/// such job). A block in no part goes nowhere. Each record or claim may need parts of one job only, except that a recorded
+/// node, another element in no part to the first of these. Job 0 is added if no job but `unasked` (-1: no such job) is at
+/// the node. A block in no part goes nowhere. Each record or claim may need parts of one job only, except that a recorded
 /// force is the sum of its terms in all jobs.
 std::vector<Excerpt> cut(const Scene& scene, const Parts& parts, const std::vector<int>& job_of, int jobs, int unasked);
 

@@ -32,7 +32,7 @@ namespace rheonet {
 
 namespace {
 
-// The run is begun, to see how it goes: for this time [s], and for a few steps in any case.
+// Duration of the trial run [s CPU time], and its least number of steps.
 constexpr double tried_seconds = 0.1;
 constexpr std::size_t least_steps = 4;
 
@@ -67,7 +67,7 @@ class Explainer {
   }
 
  private:
-  /// Looks at the equations of the start.
+  /// Examines the equations at the start.
   class Observed final : public Observer {
    public:
     explicit Observed(Explainer& explainer) : explainer_(explainer) {}
@@ -149,7 +149,7 @@ class Explainer {
     }
   }
 
-  /// What would be feedback if the scene did not leave it out.
+  /// Finds blocks that would be in feedback loops if the scene did not leave feedback out.
   void find_open_loops(Explanation::EffectFound& feedback) {
     Scene closed = scene_;
     const auto left_out = std::erase_if(closed.without, [](const EffectLeftOut& e) { return e.effect == Effect::feedback; });
@@ -259,7 +259,7 @@ class Explainer {
     result_.unknowns = unknowns.take();
   }
 
-  /// What follows from something else, and is no unknown.
+  /// Lists quantities that follow from others and are not unknowns.
   void find_followers(const Dae& dae) {
     const Structure& structure = dae.structure();
     const std::string& given = name_of(Reduction::given);
@@ -305,8 +305,8 @@ class Explainer {
     }
   }
 
-  /// The index of the equations as written at the nodes (Estevez Schwarz and Tischendorf, Int. J. Circ. Theor. Appl. 28 (2000)
-  /// 131), and of those that are solved.
+  /// Finds the index of the nodal equations (Estevez Schwarz and Tischendorf, Int. J. Circ. Theor. Appl. 28 (2000) 131), and
+  /// that of the equations actually solved.
   void find_structure(const Dae& dae) {
     const Structure& structure = dae.structure();
     Explanation::Structure& s = result_.structure;
@@ -342,7 +342,7 @@ class Explainer {
     cost.fastest_drive = dae.drive().fastest();
   }
 
-  /// Begins the run, and supposes that it goes on as in the second half of what has been tried.
+  /// Runs a trial, and extrapolates from the second half of its steps.
   void predict() {
     Explanation::Cost& cost = result_.cost;
     std::atomic<bool> enough = false;
@@ -372,11 +372,11 @@ class Explainer {
   const Scene& whole_;
   const std::optional<Reach> reach_;
   const Scene cut_out_;
-  const Scene& near_;      ///< what is reached of it before the stop
+  const Scene& near_;      ///< `whole_` within reach
   const Division asked_;
-  const Scene& unmerged_;  ///< what is asked for of it
+  const Scene& unmerged_;  ///< `near_` without unasked parts
   const std::optional<Merging> merging_;
-  const Scene& scene_;     ///< what is integrated
+  const Scene& scene_;     ///< the scene that is integrated
   const Network network_;
   Explanation result_;
   Grouped<Explanation::Omission> omissions_;

@@ -37,7 +37,7 @@ class Text {
   Text(const Text&) = delete;
   Text& operator=(const Text&) = delete;
   std::FILE* file() { return file_; }
-  /// Its lines, without the first.
+  /// Its lines, without the first one.
   std::vector<std::string> lines() {
     std::fflush(file_);
     std::vector<std::string> result;
@@ -55,15 +55,15 @@ class Text {
   std::FILE* file_;
 };
 
-/// What has come of an excerpt.
+/// Results of an excerpt.
 struct Outcome {
   std::vector<double> times;
   std::vector<std::vector<double>> rows;
   std::unique_ptr<Text> events;
   Summary summary;
   std::exception_ptr failure;
-  double reached = 0;   ///< the same, for this thread alone
-  double fraction = 0;  ///< of the run that is done
+  double reached = 0;   ///< fraction of the run done; for the thread of this excerpt alone
+  double fraction = 0;  ///< last fraction included in done_
 };
 
 class SideBySide {
@@ -74,7 +74,7 @@ class SideBySide {
   Summary go() {
     std::vector<std::string> notes;
     check_unasked(notes);
-    if (outcomes_.size() == 1) {  // all records and claims are its own, in their order
+    if (outcomes_.size() == 1) {  // it has all records and claims, in their order
       Summary sum = run_whole(division_.excerpts.front().scene, settings_);
       sum.notes.insert(sum.notes.begin(), notes.begin(), notes.end());
       return sum;
@@ -92,11 +92,11 @@ class SideBySide {
   }
 
  private:
-  /// Their structure and start are looked at all the same.
+  /// Checks structure and start of the parts that are not integrated.
   void check_unasked(std::vector<std::string>& notes) const {
     if (division_.left_out.empty()) return;
     for (const Excerpt& excerpt : division_.unasked) check(excerpt.scene);
-    if (!scene_.blocks.empty()) build_network(scene_);  // blocks that are left out may wait for each other
+    if (!scene_.blocks.empty()) build_network(scene_);  // ignored blocks may form an algebraic loop
     notes.push_back(fmt::format("not integrated, since nothing asks for what happens there: {}{}", listed(division_.left_out),
                                 settings_.account ? "; the energy account is without it" : ""));
   }
@@ -135,7 +135,7 @@ class SideBySide {
     }
   }
 
-  /// Whose rows end first.
+  /// The failed excerpt with the fewest rows.
   const Outcome* first_failed() const {
     const Outcome* first = nullptr;
     for (const Outcome& outcome : outcomes_) {
@@ -164,7 +164,8 @@ class SideBySide {
     csv.flush();
   }
 
-  /// In the order of time. What a motion does that several excerpts have is told once. Up to the end of what has been written.
+  /// Writes the events in the order of time, up to the first failure. An event of a motion that several excerpts share is
+  /// written once.
   void write_events(const Outcome* failed) const {
     if (!settings_.events) return;
     std::vector<std::pair<double, std::string>> lines;
@@ -199,7 +200,7 @@ class SideBySide {
       sum.residual_evaluations += s.residual_evaluations;
       sum.jacobian_evaluations += s.jacobian_evaluations;
       sum.restarts += s.restarts;
-      // A motion that several excerpts have switches in each.
+      // A motion that several excerpts share switches in each of them.
       for (const Summary::Switched& one : s.switched) switched[one.element] = std::max(switched[one.element], one.times);
       sum.supplied += s.supplied;
       sum.stored += s.stored;
@@ -229,7 +230,7 @@ class SideBySide {
   std::vector<Outcome> outcomes_;
   std::atomic<std::size_t> next_ = 0;
   std::mutex told_;
-  double done_ = 0;  ///< sum of the fractions that have been told
+  double done_ = 0;  ///< sum of the reported fractions
 };
 
 }  // namespace

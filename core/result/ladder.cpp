@@ -10,7 +10,7 @@ namespace rheonet {
 
 namespace {
 
-// A model that takes so many times the CPU time of the full one is run once: nobody asks for it to be faster.
+// A model that takes more than this multiple of the full model's CPU time is run once: its exact time is of no interest.
 constexpr double too_slow = 10;
 
 std::size_t furthest(const std::vector<Difference>& differences) {
@@ -75,7 +75,7 @@ class Climber {
     return rung;
   }
 
-  /// What cannot be left out comes last.
+  /// Sorts the single omissions by their effect on the records; those that failed come last.
   std::vector<const Rung*> by_contribution() const {
     std::vector<const Rung*> order;
     for (const Rung& rung : ladder_.each) order.push_back(&rung);
@@ -85,7 +85,7 @@ class Climber {
     return order;
   }
 
-  /// In turn: what disturbs the machine for a while disturbs all models.
+  /// Times all models in turn, so that disturbances of the machine affect all of them.
   void time_all() {
     std::vector<Rung*> rungs{&ladder_.full};
     for (auto* list : {&ladder_.each, &ladder_.steps}) {
@@ -113,7 +113,7 @@ class Climber {
   const LadderSettings& settings_;
   Course reference_;
   Ladder ladder_;
-  double done_ = 0;  ///< runs
+  double done_ = 0;  ///< number of runs done
 };
 
 }  // namespace

@@ -13,8 +13,7 @@ namespace rheonet {
 /// A scene without some of its effects, compared with the full model.
 struct Rung {
   std::vector<Effect> without;           ///< in the order of leaving out
-  std::string failure;                   ///< error message if it cannot be simulated, and the other members are void;
-                                         ///< otherwise ""
+  std::string failure;                   ///< error message; if it is not "", the other members are void
   std::vector<Difference> differences;   ///< of each record from the full model
   std::size_t worst = 0;                 ///< index of the largest relative difference
   long steps = 0;

@@ -8,7 +8,7 @@ namespace rheonet {
 
 namespace {
 
-/// Writes what the records of the whole are.
+/// Converts rows of the reduced scene to the records of the whole scene.
 class Whole {
  public:
   Whole(const Scene& scene, const Merging& merging, const RunSettings& settings)

@@ -11,7 +11,7 @@ namespace rheonet {
 
 namespace {
 
-// Known instants are counted up to here.
+// Counting of known discontinuities stops here.
 constexpr long most_instants = 1000000;
 
 class EventSearch {
@@ -50,7 +50,7 @@ class EventSearch {
     add(law.breakaway > law.coulomb ? "stick, slip, breakaway, reversal" : "stick, slip, reversal", e);
   }
 
-  /// Instants at which a signal jumps or has a corner are known; so many are counted.
+  /// Counts the jumps and corners of a signal, whose times are known.
   void add_breaks(const Signal& signal, int e, int block) {
     if (block >= 0) return;
     long count = 0;

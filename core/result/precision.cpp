@@ -15,9 +15,9 @@ namespace rheonet {
 
 namespace {
 
-// The tightest tolerances that leave doubles some room: that of Scene::accuracy, and what is tried where it fails.
+// The tightest tolerances above round-off: that of Scene::accuracy first, then fallbacks if it fails.
 constexpr double reference_tolerances[] = {1e-12, 1e-11, 1e-10};
-// Another order than that of the reference, which is 5 at most; one lower takes some four times the steps.
+// Differs from the order of the reference, at most 5. Order 3 would take about four times the steps.
 constexpr int check_order = 4;
 
 RunSettings settings_of(const Method& method, const PriceListSettings& settings) {
@@ -70,7 +70,7 @@ class Pricing {
     }
   }
 
-  /// Where there is one, it is what the record of the reference is.
+  /// Replaces the reference by the closed form of each record that has one.
   void use_closed_forms() {
     const Course computed = truth_.course;
     for (const ExactRecord& form : scene_.exact) {
@@ -101,7 +101,7 @@ class Pricing {
       const auto as_asked = record_errors(scene_, course, truth_, asked);
       result.meets = true;
       for (std::size_t k = 0; k < as_asked.size(); ++k) {
-        // What the reference cannot tell is not granted.
+        // An error below the doubt of the reference counts as large as the doubt: their sum must meet the accuracy.
         if (as_asked[k].relative() + list_.doubt[k].relative() > scene_.accuracy) result.meets = false;
       }
       result.summary = std::move(course.summary);
@@ -112,7 +112,7 @@ class Pricing {
     return result;
   }
 
-  /// Too slow to go on with its manner.
+  /// Too slow: the manner is abandoned.
   bool slow(const Price& price) {
     const double seconds = price.summary.cpu_seconds;
     if (price.method.manner == 0) slowest_ = std::max(slowest_, seconds);
@@ -136,8 +136,8 @@ class Pricing {
   const PriceListSettings& settings_;
   std::vector<double> tolerances_;
   Yardstick truth_;
-  double slowest_ = 0;  ///< CPU time of a run in the first of the manners [s]
-  double done_ = 0;     ///< runs
+  double slowest_ = 0;  ///< longest CPU time of a run in the first manner [s]
+  double done_ = 0;     ///< number of runs done
   PriceList list_;
 };
 

@@ -22,7 +22,7 @@ struct Method {
 /// Cost and accuracy of a method.
 struct Price {
   Method method;
-  std::string failure;              ///< error message if the simulation fails, and the other members are void; otherwise ""
+  std::string failure;              ///< error message; if it is not "", the other members are void
   std::vector<RecordError> errors;  ///< of each record; jumps may be displaced by tolerance x length of the run
   std::size_t worst = 0;            ///< index of the largest relative error
   bool meets = false;               ///< every record is as accurate as the scene asks

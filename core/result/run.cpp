@@ -29,8 +29,8 @@ namespace rheonet {
 
 namespace {
 
-/// Writes the rows: at output times by interpolation; where an event falls on one, the state just after it. Time counts
-/// from the start but for what is written.
+/// Writes the rows: interpolated at output times; the state just after an event that falls on one. Times count from the
+/// start except in the output.
 class Recorder final : public Observer {
  public:
   Recorder(const Network& network, const RunSettings& settings)
@@ -53,7 +53,7 @@ class Recorder final : public Observer {
 
   void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp,
              double heat) override {
-    // Only now is it known that the scene can be simulated at all.
+    // The first call: the scene can be simulated.
     if (unknowns_ < 0) {
       csv_.header(names_);
       events_.header({"element", "event", "direction"});
@@ -69,7 +69,7 @@ class Recorder final : public Observer {
       claimed_.attach(dae, consistency);
       claims_.begin(t, claimed_.read(t, y, yp), dae.drive().fastest());
     }
-    // At an output time its row is also the one after the event.
+    // A row at an output time also serves as the row after the event.
     bool written = false;
     for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack(); ++next_) {
       write(row_time(next_), channels_.read(t, y, yp));
@@ -77,7 +77,7 @@ class Recorder final : public Observer {
     }
     if (pending_event_ && !written) write(event_time(t), channels_.read(t, y, yp));
     pending_event_ = false;
-    // The next event, or the end, may come without a step.
+    // The next event, or the end, may follow without a step.
     last_ = nullptr;
     start_ = t;
     y_ = y;
@@ -92,7 +92,7 @@ class Recorder final : public Observer {
     }
     const double until = integrator.time() - slack();
     for (; next_ <= scene_.output_intervals && row_time(next_) < until; ++next_) {
-      // An output time may lie by its rounding before the step.
+      // By round-off, an output time may lie before the step.
       const double t = std::max(row_time(next_), integrator.previous_time());
       integrator.interpolate(t, 0, y_);
       integrator.interpolate(t, 1, yp_);
@@ -130,7 +130,7 @@ class Recorder final : public Observer {
   }
 
   void flush() {
-    // What cannot be written of the one must not cost the other.
+    // A failure to write the events must not cost the rows.
     try {
       events_.flush();
     } catch (const SimulationError&) {
@@ -153,11 +153,11 @@ class Recorder final : public Observer {
 
  private:
   double row_time(std::int64_t k) const {
-    // The last row stands at the stop itself, not at its rounding.
+    // The last row is at the stop, without round-off.
     const double t = static_cast<double>(k) * scene_.output_every;
     return std::abs(t - length_) <= slack() ? length_ : t;
   }
-  /// An event this close to an output time is at it.
+  /// An event this close to an output time coincides with it.
   double slack() const { return time_rounding * scene_.output_every; }
   double event_time(double t) const {
     const auto nearest = static_cast<std::int64_t>(std::round(t / scene_.output_every));
@@ -167,7 +167,7 @@ class Recorder final : public Observer {
 
   static double rate(const Integrator& integrator) { return 1 / (integrator.time() - integrator.previous_time()); }
 
-  /// Somebody wants to know the records at steps.
+  /// The records at steps are needed.
   bool between_rows() const { return scene_.output_events || state_; }
   void follow(double t, const std::vector<double>& values) {
     if (scene_.output_events) before_ = values;
@@ -200,23 +200,23 @@ class Recorder final : public Observer {
   CsvWriter csv_, events_;
   std::function<void(double, const std::string&, const char*, int)> event_;
   std::function<void(double, const EnergySoFar&)> account_;
-  bool tells_;  ///< of events
-  std::optional<EnergyAccount> energy_;  ///< if asked for
-  std::vector<long> switched_;  ///< how often, of each element
+  bool tells_;  ///< events are written
+  std::optional<EnergyAccount> energy_;  ///< if requested
+  std::vector<long> switched_;  ///< of each element: number of switches
   std::int64_t next_ = 0;
   bool pending_event_ = false;
-  int unknowns_ = -1;  ///< the most in any mode
-  const Integrator* last_ = nullptr;  ///< whose step was the last; none since the last start
-  double start_ = 0;                  ///< time of that [s]
+  int unknowns_ = -1;  ///< largest number in any mode
+  const Integrator* last_ = nullptr;  ///< integrator of the last step; null since the last start
+  double start_ = 0;                  ///< time of the last start [s]
   std::vector<double> y_, yp_, before_;
 };
 
-// So many values of rows are held in memory: half a gigabyte.
+// Largest number of values in rows held in memory: half a gigabyte.
 constexpr double most_held = 6e7;
-// What is missing of the energy may be so many times the accuracy asked for before it is told.
+// Defect of the energy account, in units of the requested accuracy, above which a note reports it.
 constexpr double loose_account = 10;
 
-/// The profile in the user's names.
+/// The profile by names of the scene's nodes and elements.
 std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene, const std::vector<Summary::Switched>& switched) {
   std::map<std::pair<bool, std::string>, Summary::Profiled> lines;
   const auto line = [&lines](bool node, const std::string& name) -> Summary::Profiled& {
@@ -250,7 +250,7 @@ Summary run_near(const Scene& scene, const RunSettings& settings) {
   return run_divided(scene, settings);
 }
 
-/// What nothing reaches is left out before anything else is looked at.
+/// Removes the part of the scene out of reach before all other reductions.
 Summary run_within_reach(const Scene& scene, const Reach& reach, const RunSettings& settings) {
   Summary summary = run_near(cut_out(scene, reach.node, reach.element), settings);
   summary.notes.push_back(fmt::format(
@@ -272,7 +272,7 @@ Summary run(const Scene& scene, const RunSettings& settings) {
 
 Summary run_divided(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
-  // Who looks between the rows, or asks for rows at events, looks at the whole at once. Rows of parts are held in memory.
+  // Callbacks between rows, and rows at events, need the whole scene in one integration. Rows of parts are held in memory.
   const bool whole = scene.output_events || settings.state || settings.event || settings.profile ||
                      static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > most_held;
   const Division division = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
@@ -351,7 +351,7 @@ Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& sett
 
 namespace {
 
-/// Looks at nothing.
+/// An observer that does nothing.
 class Blind final : public Observer {
   void begin(Dae&, Consistency&, double, const std::vector<double>&, const std::vector<double>&, double) override {}
   void step(const Integrator&) override {}

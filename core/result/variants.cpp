@@ -19,11 +19,11 @@ namespace rheonet {
 
 namespace {
 
-// Of an element's fastest motion: what is usually taken, and what is thought to be exact.
+// Transition velocities, as shares of an element's largest velocity: the customary value, and one regarded as exact.
 constexpr double regular_shares[] = {1e-2, 1e-4};
-// A glance tells how fast elements move.
+// Accuracy of the preliminary run that finds the largest velocities.
 constexpr double glance = 1e-3;
-// Of the way that an element goes at its fastest in the run.
+// Small displacement, as a share of the path at the transition velocity over the whole run.
 constexpr double share_of_way = 1e-4;
 
 const std::string& type_of(const SceneElement& element) { return components()[at(element.declaration)]->declaration.type; }
@@ -34,7 +34,7 @@ int index_of_type(const std::string& type) {
   return static_cast<int>(found - all.begin());
 }
 
-/// The fastest motion of each element that has alternatives [m/s]; and whether anything switches.
+/// The largest velocity of each element that has alternatives [m/s], and whether any event occurs.
 struct Glance {
   std::map<int, double> fastest;
   bool switches = false;
@@ -60,7 +60,7 @@ Glance look(const Scene& scene) {
   return result;
 }
 
-/// The scene with this alternative in place of every element that may have it and moves.
+/// Replaces every moving element of the alternative's type by the alternative.
 Scene with(const Scene& scene, const Alternative& alternative, double share, const std::map<int, double>& fastest) {
   Scene result = scene;
   for (const auto& [e, speed] : fastest) {
@@ -73,7 +73,7 @@ Scene with(const Scene& scene, const Alternative& alternative, double share, con
   return result;
 }
 
-/// The names of those that make something smaller.
+/// The names of the reductions that reduce this scene.
 std::vector<std::string> worthwhile_reductions(const Scene& scene) {
   const auto size = [](const Scene& of) {
     const Explanation explained = explain(of);

@@ -13,14 +13,15 @@ namespace {
 
 using Instants = std::vector<Yardstick::Instant>;
 
-// A jump explains a distance of up to so many times itself: from its other side the record may have gone on a little.
+// A jump explains a distance up to this multiple of its size, because the record may have moved on after it.
 constexpr double explained = 2;
-// Roundings of the largest value of its kind that a record may be off by: it may be a difference of such values.
+// Round-off of a record, in units of the last place of the largest record with its unit: it may be a difference of such
+// values.
 constexpr double record_grains = 16;
-// What is over within this share of the time to the events before and after is as good as a jump.
+// An interval shorter than this share of the intervals before and after it is treated as a jump.
 constexpr double share_of_stretches = 1e-2;
 
-/// Gathers what makes a yardstick of a run.
+/// Collects the yardstick during a run.
 class Watch {
  public:
   Watch(const Scene& scene, double near, Yardstick& result) : scene_(scene), near_(near), result_(result), event_(scene.start) {
@@ -46,7 +47,7 @@ class Watch {
   }
 
  private:
-  /// From the last event to this one, at t, with the records last seen.
+  /// Ends the interval from the last event to the event at t, with the records last seen.
   void pass(double t) {
     const double stretch = t - event_;
     take_passage(stretch);
@@ -54,7 +55,7 @@ class Watch {
     before_event_ = stretch;
     event_ = t;
   }
-  /// What may have been one is, if it was short beside the stretch that came after it too.
+  /// Accepts the candidate interval if it is also short compared with the interval that followed.
   void take_passage(double next) {
     if (!passage_.empty() && passage_.front().lasts <= share_of_stretches * next) result_.instants.push_back(std::move(passage_.front()));
     passage_.clear();
@@ -74,13 +75,13 @@ class Watch {
   Yardstick& result_;
   double last_time_ = not_given;
   std::vector<double> last_;
-  double event_;                  ///< the last one, or the start [s]
-  double before_event_ = 0;       ///< the time to the one before that [s]
+  double event_;                  ///< the last event, or the start [s]
+  double before_event_ = 0;       ///< length of the interval before that [s]
   std::vector<double> at_event_;  ///< records just after the last event
-  Instants passage_;              ///< one that may be as good as a jump, or none
+  Instants passage_;              ///< a candidate for a steep change, or none
 };
 
-/// Distance of a value from what a record is at t, one-sided at its jumps.
+/// Distance of a value from a record at t; near a jump, from the nearer side.
 double distance(double value, double truth, std::size_t column, double t, const Instants& instants, double shift) {
   double result = std::abs(value - truth);
   const auto first = std::lower_bound(instants.begin(), instants.end(), t - shift,
@@ -94,7 +95,7 @@ double distance(double value, double truth, std::size_t column, double t, const 
   return result;
 }
 
-/// The rows that two runs have at the same times, the last of those at one time: visit(row of a, row of b).
+/// Calls visit(row of a, row of b) for the times that both runs have rows at, with the last row at each time.
 template <class Visit>
 void visit_common(const Course& a, const Course& b, Visit visit) {
   const auto last_at_its_time = [](const Course& c, std::size_t row) {
@@ -111,7 +112,7 @@ void visit_common(const Course& a, const Course& b, Visit visit) {
   }
 }
 
-/// Of each record the largest value of any that has its unit.
+/// Of each record, the largest value of any record with its unit.
 std::vector<double> largest_of_kind(const Scene& scene, const std::vector<double>& largest) {
   std::map<std::string, double> of_unit;
   for (std::size_t k = 0; k < scene.records.size(); ++k) {

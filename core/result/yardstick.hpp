@@ -8,9 +8,8 @@ namespace rheonet {
 
 /// A much more accurate run against which others are measured, with details between its rows.
 struct Yardstick {
-  /// An event near a row at which records may jump, with the records on both sides. An interval between two events counts as
-  /// one such event if it is short compared with the intervals before and after it: a signal with a steep ramp instead of a
-  /// jump.
+  /// An event near a row, with the records on both sides, which may jump. An interval between two events counts as one such
+  /// event if it is short compared with the intervals before and after it: a steep ramp of a signal, say.
   struct Instant {
     double time;                        ///< of an interval: its end
     std::vector<double> before, after;
@@ -24,9 +23,9 @@ struct Yardstick {
 /// Simulates; `state` of the settings is replaced. Keeps the events within `near` [s] of a row. Throws SimulationError.
 Yardstick run_as_yardstick(const Scene& scene, double near, RunSettings settings = {});
 
-/// The error of a record in a run, as the accuracy of a scene is defined: at a row, the distance from the true value. If the
-/// record jumps within `shift` [s] of the row, the distance from its value on either side of the jump counts if it is less;
-/// if the change takes part of that time, any value on the way is correct.
+/// The error of a record in a run, as the accuracy of a scene is defined: at a row, the distance from the true value. Near a
+/// jump, within `shift` [s] of the row, the value on either side of the jump counts as true. During a steep change within
+/// that time, every value on the way counts as true.
 struct RecordError {
   /// A record has no size of its own if its error exceeds half its size, and both are below this share of (accuracy x the
   /// largest record with its unit): it consists of errors of the others. The error is then relative to that largest record.
