@@ -6,8 +6,8 @@
 
 namespace rheonet {
 
-/// Evaluates `[check]`: comparisons between parameters, each with a name. One that does not hold is a warning, or an
-/// error if it says so, with its message and the values that were compared.
+/// Evaluates `[check]`: named comparisons between parameters. A comparison that does not hold gives a warning, or an error
+/// if its entry says so, with the entry's message and the values compared.
 void evaluate_checks(const TomlValue& checks, const Environment& environment, Mistakes& mistakes);
 
 }  // namespace rheonet

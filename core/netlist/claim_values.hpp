@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-/// The times and levels of claims and measures of a scene's records. What `name` calls and is none is a mistake, and not_given.
+/// Evaluates times and levels of claims and measures. An invalid value is reported under `name` and becomes not_given.
 class ClaimValues {
  public:
   ClaimValues(const Environment& environment, Context& context, const Scene& scene)
@@ -16,9 +16,9 @@ class ClaimValues {
 
   /// A time of the run [s].
   double time(const TomlValue& source, const std::string& name) const;
-  /// A mistake if it is not within the run.
+  /// Reports a mistake if `t` lies outside the run.
   void check_in_run(const TomlValue& source, const std::string& name, double t) const;
-  /// Finite, in SI, of the unit of `expected`.
+  /// A finite level in SI; it must have the unit of `expected`.
   double level(const TomlValue& source, const std::string& name, const Number& expected) const;
 
  private:
@@ -27,7 +27,7 @@ class ClaimValues {
   const Scene& scene_;
 };
 
-/// Index into Scene::claimed, where each record stands once.
+/// Index of the record in Scene::claimed, which holds each record once; the record is added if it is not there yet.
 int claimed_index(const Record& record, Scene& scene);
 
 }  // namespace rheonet

@@ -8,13 +8,13 @@
 
 namespace rheonet {
 
-/// What all parts of the reader share while they read one scene.
+/// State that all parts of the reader share while they read one scene.
 struct Context {
   Declarations declarations;
   Domain domain = Domain::translation;
   Files& files;
   Mistakes& mistakes;
-  bool models_missing = false;  ///< an included file could not be read: types may be unknown for that reason
+  bool models_missing = false;  ///< an included file could not be read, which may be why a type is unknown
 };
 
 }  // namespace rheonet

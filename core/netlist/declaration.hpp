@@ -14,8 +14,8 @@
 
 namespace rheonet {
 
-/// What an element's parameter is, as data: parsing, checking, error texts, the printed reference and the JSON Schema
-/// are all made from this.
+/// Describes a parameter of an element as data. Parsing, checking, error texts, the printed reference and the JSON Schema
+/// are all derived from it.
 struct Parameter {
   enum class Kind {
     value,    ///< a number with a dimension
@@ -23,10 +23,11 @@ struct Parameter {
     initial,  ///< an initial value (`f0`, `d0`): optional, absent means "not given"
   };
 
-  /// What its unit is: of a block's parameters it may go with what the block is connected to.
+  /// How the unit of a parameter is determined. The unit of a block's parameter may depend on what the block is connected
+  /// to.
   enum class Unit {
     quantity,  ///< that of `quantity`
-    own,       ///< any; a factor of the unit of the block's output
+    own,       ///< any unit; a factor of the unit of the block's output
     input,     ///< that of the block's inputs
     output,    ///< that of the block's output
   };
@@ -35,57 +36,57 @@ struct Parameter {
   Quantity quantity = Quantity::number;
   Unit unit = Unit::quantity;
   Kind kind = Kind::value;
-  std::optional<double> fallback = {};  ///< absent: the user must give it (an `initial` is always optional)
+  std::optional<double> fallback = {};  ///< absent: the user must give the value (an `initial` is always optional)
   double lower = 0;                ///< inclusive, unless lower_open
   bool lower_open = true;
-  double upper = std::numeric_limits<double>::infinity();  ///< inclusive if finite; values are finite in any case ...
-  bool may_be_infinite = false;                            ///< ... unless the law has a limit there: "inf" is accepted
-  std::string flow_index = {};        ///< for damping: the parameter whose value is the n in N*(s/m)^n; "" means n = 1
-  std::string same_as = {};           ///< if not given: the value of this other parameter (`breakaway` = `coulomb`)
-  bool opposite = false;              ///< if not given: that value with the other sign (`lower` = -`upper`)
-  bool from_block = false;            ///< of a signal: the output of a block may be given in its place
-  std::string rotational_name = {};   ///< its name in a rotational scene, if another (`inertia` for `mass`)
+  double upper = std::numeric_limits<double>::infinity();  ///< inclusive if finite; values are finite ...
+  bool may_be_infinite = false;                            ///< ... unless the law has a limit at infinity: then "inf" is accepted
+  std::string flow_index = {};        ///< for damping: the parameter that holds n in N*(s/m)^n; "" means n = 1
+  std::string same_as = {};           ///< the parameter whose value is used if none is given (`breakaway` = `coulomb`)
+  bool opposite = false;              ///< the value of `same_as` is negated (`lower` = -`upper`)
+  bool from_block = false;            ///< of a signal: the output of a block may be given instead
+  std::string rotational_name = {};   ///< name in a rotational scene, if different (`inertia` for `mass`)
   std::string symbol = {};            ///< as in the law
   std::string description = {};
 
   const std::string& name_in(Domain domain) const {
     return domain == Domain::rotation && !rotational_name.empty() ? rotational_name : name;
   }
-  /// It makes a node move: a signal that says the node's position, or its velocity.
+  /// Whether the parameter prescribes a node's motion: a signal for its position or its velocity.
   bool prescribes(Quantity motion) const { return kind == Kind::signal && quantity == motion; }
   bool prescribes_motion() const { return prescribes(Quantity::position) || prescribes(Quantity::velocity); }
 };
 
-/// What is wrong with values that are each within their bounds.
+/// A rule violated by values that are each within their bounds.
 struct Misfit {
-  std::string parameter;  ///< the one to blame
-  std::string what;       ///< after its name: "is less than ..."
+  std::string parameter;  ///< the parameter named in the message
+  std::string what;       ///< text after its name: "is less than ..."
 };
 
-/// An effect that an element brings while `parameter` is finite and above 0, and the value of that in its absence; without
-/// one the element cannot do without it while it has all its others.
+/// An effect that an element has while `parameter` is finite and above 0. `absent` is the value of `parameter` that leaves
+/// the effect out; without it, only an Absence can leave the effect out.
 struct Brought {
   Effect effect;
   std::string parameter;
   std::optional<double> absent = {};
 };
 
-/// Values of further parameters where all of these effects are left out, or those of them that the element brings.
+/// Values of further parameters, used when all of `effects` that the element has are left out.
 struct Absence {
   std::vector<Effect> effects;
   std::vector<std::pair<std::string, double>> values;
 };
 
-/// What an element type is, as data. Values given by a netlist are stored in the order of `parameters`.
+/// Describes an element type as data. The values of an element are stored in the order of `parameters`.
 struct Declaration {
   enum class Ports {
     between,
     at,
     at_or_between,
-    block,  ///< no node: a block, which makes a signal of its inputs
+    block,  ///< no node: a block computes a signal from its inputs
   };
-  /// What a block takes in, all in one unit; the unit of its output is that, times those of its own parameters, times s if
-  /// it integrates.
+  /// The inputs of a block, all in one unit. The output unit is that unit, times the block's `own` units, times s if the
+  /// block integrates.
   struct Inputs {
     std::size_t least = 1, most = 1;
     bool integrates = false;
@@ -97,14 +98,14 @@ struct Declaration {
   Inputs inputs = {};  ///< of a block
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)
-  std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< of the values of an element
-  std::vector<Brought> effects = {};   ///< those that can be left out of a scene
-  std::vector<Absence> absences = {};  ///< tried in order, after the values of each effect by itself
+  std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< checks the values of an element together
+  std::vector<Brought> effects = {};   ///< effects that a scene can leave out
+  std::vector<Absence> absences = {};  ///< tried in order, after the `absent` value of each single effect
   std::string summary = {};  ///< one line
   std::string law = {};      ///< as a textbook prints it
-  std::string equation = {};  ///< the law as TeX sets it
+  std::string equation = {};  ///< the law in TeX
   std::string source = {};   ///< citation
-  std::string notes = {};    ///< sign, range of validity, what is stored and what is dissipated
+  std::string notes = {};    ///< sign, range of validity, stored and dissipated energy
 
   bool prescribes_motion() const {
     return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.prescribes_motion(); });

@@ -5,13 +5,15 @@
 
 namespace rheonet {
 
-/// What must come before what.
+/// A topological order of items that use each other, and the cycles that prevent one.
 struct DependencyOrder {
-  std::vector<std::size_t> order;  ///< each after all that it uses; those on or above a cycle are left out
-  std::vector<std::vector<std::size_t>> cycles;  ///< each as the list of those on it, the first not repeated at the end
+  std::vector<std::size_t> order;  ///< each item after all items that it uses; items on a cycle, or using one on a cycle,
+                                   ///< are left out
+  std::vector<std::vector<std::size_t>> cycles;  ///< each lists the items on the cycle; the first is not repeated at the end
 };
 
-/// `uses[i]` are those that i uses. Takes time in proportion to their number, and no stack, however long the chains.
+/// Sorts items topologically; `uses[i]` lists the items that item i uses. Takes linear time and does not recurse, so that
+/// long chains cannot exhaust the stack.
 DependencyOrder dependency_order(const std::vector<std::vector<std::size_t>>& uses);
 
 }  // namespace rheonet

@@ -17,7 +17,7 @@ struct TomlValue {
   enum class Kind { string, number, boolean, array, table, date };
 
   Kind kind = Kind::table;
-  Spot spot;         ///< of its first character; of a string, of the opening quote
+  Spot spot;         ///< first character; of a string, the opening quote
   std::string text;  ///< of a string
   double number = 0;
   bool boolean = false;
@@ -27,7 +27,7 @@ struct TomlValue {
   bool is_table() const { return kind == Kind::table; }
   bool is_string() const { return kind == Kind::string; }
   bool is_array() const { return kind == Kind::array; }
-  /// nullptr if there is none. Takes time in proportion to the size of the table.
+  /// The entry named `key`, nullptr if absent. Takes time linear in the size of the table.
   const TomlEntry* find(std::string_view key) const;
   TomlEntry* find(std::string_view key);
 };
@@ -38,13 +38,13 @@ struct TomlEntry {
   TomlValue value;
 };
 
-/// What was found, for messages: "a string", "the number 3", ...
+/// The kind of a value, for messages: "a string", "the number 3", ...
 std::string describe(const TomlValue& value);
 
-/// Parses sources.files[file]. A syntax error is a mistake, and the result is absent.
+/// Parses sources.files[file]. Reports a syntax error as a mistake; the result is then absent.
 std::optional<TomlValue> parse_toml(int file, const Sources& sources, Mistakes& mistakes);
 
-/// Parses one value, `text`, that stands at `spot` on the command line; absent if it is none.
+/// Parses `text` as one value, located at `spot` on the command line; absent if `text` is no TOML value.
 std::optional<TomlValue> parse_toml_value(std::string_view text, Spot spot);
 
 }  // namespace rheonet

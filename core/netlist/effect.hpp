@@ -6,25 +6,25 @@
 
 namespace rheonet {
 
-/// What a scene may do with or without. Which parameters of an element bring which is declared by the element
-/// (declaration.hpp); feedback is brought by blocks that act on what they take in.
+/// Physical effects that a scene may leave out. Each element declares which of its parameters bring which effect
+/// (declaration.hpp). Blocks bring feedback when they act on quantities that they measure.
 enum class Effect { inertia, elasticity, viscosity, dry_friction, delay, feedback };
 
-/// All of them, in the order in which they are listed.
+/// All effects, in the order in which messages list them.
 const std::vector<Effect>& effects();
-/// As a netlist names it: `dry_friction`.
+/// The effect as written in a netlist: `dry_friction`.
 const std::string& name_of(Effect effect);
-/// The same for a text: "dry friction".
+/// The effect in running text: "dry friction".
 std::string in_words(Effect effect);
-/// Blanks and hyphens count as underscores.
+/// The effect with this name; absent if there is none. Blanks and hyphens count as underscores.
 std::optional<Effect> find_effect(std::string name);
 
-/// An effect that is left out: everywhere, or of what an element's path or that of an assembly or instance names.
+/// An effect that is left out everywhere, or of one element, assembly or instance.
 struct EffectLeftOut {
   Effect effect;
-  std::string of = {};  ///< "": everywhere
+  std::string of = {};  ///< path of the element, assembly or instance; "" means everywhere
 
-  /// The element of this path is concerned.
+  /// Whether the effect is left out of the element with this path.
   bool concerns(const std::string& element) const;
   /// "inertia", "elasticity of `oil`".
   std::string in_words() const;

@@ -10,7 +10,7 @@
 
 namespace rheonet {
 
-/// Reads `[exact]`: closed forms of records as expressions over the parameters and the time `t`. After the records.
+/// Reads `[exact]`: closed forms of records, as expressions of the parameters and the time `t`. Needs the records resolved.
 void read_exact(const TomlValue& exact, const Environment& environment, const std::set<std::string>& doubtful,
                 Context& context, Scene& scene);
 

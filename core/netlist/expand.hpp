@@ -13,29 +13,29 @@
 
 namespace rheonet {
 
-/// Makes the elements, nodes and assemblies of a scene from plans: values are evaluated, groups, models and repeats
-/// resolved.
+/// Makes the elements, nodes and assemblies of a scene from plans: evaluates values and resolves groups, models and
+/// repeats.
 class Expander {
  public:
   Expander(Context& context, Planner& planner, Scene& scene) : context_(context), planner_(planner), scene_(scene) {}
 
-  /// Expands all entries of the scene's own `elements`. Overrides are those whose path begins with an element.
+  /// Expands all entries of the scene's own `elements`. `overrides` are those whose path begins with an element.
   void run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides);
-  /// The entries of `elements` that nothing, or only a part, came of: something is wrong with them.
+  /// Entries of `elements` with mistakes, which gave no elements or only a part of them.
   const std::set<std::string>& failed() const { return failed_; }
-  /// What the wires name that have been met.
+  /// The wires met so far, not yet connected.
   const LooseEnds& loose_ends() const { return loose_; }
 
  private:
   using Terms = std::vector<SceneAssembly::Term>;
   using Ends = std::span<const NodeId>;
 
-  /// What is around an entry.
+  /// The context in which an entry is expanded.
   struct Surroundings {
-    Scope* scope;  ///< where its nodes are named; nullptr within a group
+    Scope* scope;  ///< scope that names its nodes; nullptr within a group
     const Environment& environment;
-    const ActiveOverrides& overrides;  ///< those that concern the entry
-    int depth;                         ///< levels of groups and models that it is in
+    const ActiveOverrides& overrides;  ///< those that apply to the entry
+    int depth;                         ///< number of groups and models around it
     Terms* force;                      ///< receives the forces of the elements at its first end, if not nullptr
   };
   /// An assembly whose inner nodes are being made.
@@ -43,14 +43,14 @@ class Expander {
     const std::string& path;
     int joints = 0;
   };
-  /// The nodes of a scope, by index; made when they are first named.
+  /// The nodes of a scope, by index; each is made when it is first named.
   struct Locals {
     Scope& scope;
     const std::string& prefix;
     std::vector<NodeId> ids;
   };
 
-  // Each returns false if something is wrong with what it expands.
+  // Each returns false if the entry that it expands has a mistake.
   bool entries(Locals& locals, const std::string& prefix, const Environment& environment,
                const ActiveOverrides& overrides, int depth);
   bool entry(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
@@ -65,7 +65,7 @@ class Expander {
   bool element_values(const Plan& plan, const Environment& environment, SceneElement& element);
   Shared<double> shared_values(int declaration);
   bool element_signals(const Plan& plan, const Environment& environment, SceneElement& element);
-  /// What is peculiar to the element made last: the inputs and units of a block, what feeds a source.
+  /// Records the wires of the element made last: inputs and units of a block, the feed of a source.
   void wire(const Plan& plan, const Environment& environment, int element);
   std::string path_of(const Wire& wire) const;
   bool instance_parameters(const Plan& plan, const Environment& around, Environment& inside);
@@ -76,11 +76,11 @@ class Expander {
   NodeId new_node(std::string name, Spot spot);
   NodeId node(Locals& locals, int index);
 
-  /// The plan with the overrides that change its own keys applied; `deeper` receives those that concern what is in it.
+  /// The plan with the overrides of its own keys applied; `deeper` receives the overrides of entries inside it.
   const Plan& overridden(const Plan& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
                          ActiveOverrides& deeper);
 
-  /// More than a machine of today can simulate, and what takes a few GB to hold.
+  /// More than today's machines can simulate; that many elements take a few GB.
   static constexpr std::size_t most_elements = 5'000'000;
 
   Context& context_;
@@ -88,19 +88,19 @@ class Expander {
   Scene& scene_;
   std::deque<TomlValue> patched_values_;
   std::deque<Plan> patched_plans_;
-  std::vector<double> values_;        ///< of the element that is being made
-  std::vector<Shared<double>> made_;  ///< of each declaration: those of the last element
+  std::vector<double> values_;        ///< of the element being made
+  std::vector<Shared<double>> made_;  ///< for each declaration, the values of its last element
   std::set<std::string> failed_;
   LooseEnds loose_;
-  /// The instance that is being expanded: where its wires lead.
+  /// The instance being expanded, to resolve its wires.
   struct Inside {
-    std::string path;                                  ///< "" at the top
-    std::unordered_map<std::string, std::string> ports;  ///< and the scene's name of each
+    std::string path;                                  ///< path of the instance; "" at the top level
+    std::unordered_map<std::string, std::string> ports;  ///< ports of the model, with their names in the scene
   };
   Inside inside_;
-  std::unordered_map<NodeId, std::string> port_names_;  ///< of what stands for a first port
-  NodeId next_port_ = -1;  ///< stands for the first port of an instance while it is expanded
-  bool stopped_ = false;   ///< there are too many elements
+  std::unordered_map<NodeId, std::string> port_names_;  ///< of the node ids that stand for first ports
+  NodeId next_port_ = -1;  ///< next id to stand for the first port of an instance during its expansion
+  bool stopped_ = false;   ///< the limit of elements is exceeded
 };
 
 }  // namespace rheonet

@@ -9,8 +9,8 @@
 
 namespace rheonet {
 
-/// Reads `[expect]`: for each record one claim or several on its course through the run, which must lie in [simulate].
-/// What begins with a name in `doubtful` is not reported as unknown.
+/// Reads `[expect]`: one or more claims on the course of each record; their times must lie within the run. Names that begin
+/// with one in `doubtful` are not reported as unknown.
 void read_claims(const TomlValue& expect, const Environment& environment, const std::set<std::string>& doubtful,
                  Context& context, Scene& scene);
 

@@ -10,22 +10,22 @@
 
 namespace rheonet {
 
-/// A value with its dimension, in SI. A plain number has no unit: it is taken as SI whatever quantity it is used for. The
-/// result of an expression is plain if all its parameters are.
+/// A value with its dimension, in SI. A plain number has no unit: it is taken as SI for any quantity. The result of an
+/// expression is plain if all its parameters are.
 struct Number {
   double value = 0;
   Dimension dimension;
   bool plain = true;
   double radian = 0;      ///< exponent of rad, as in Unit
-  double hertz = 0;       ///< exponent of cycles: of Hz, as in Unit, and what comes of it: omega/(2*pi) counts cycles
-  double pi = 0;          ///< exponent of pi, as long as it may be a number or the conversion of cycles (counting.hpp)
-  double typed_time = 0;  ///< the part of the exponent of s that comes of times typed as such: 1/T of a time T is a frequency
+  double hertz = 0;       ///< exponent of cycles: of Hz, as in Unit, and of expressions that count cycles, such as omega/(2*pi)
+  double pi = 0;          ///< exponent of pi while it may be a number or the conversion of cycles (counting.hpp)
+  double typed_time = 0;  ///< part of the exponent of s that stems from typed times: 1/T of a time T is a frequency
 };
 
-/// So much of a unit. The inverse of a unit of time other than s counts cycles, as Hz does: 600 1/min are 10 Hz.
+/// `value` times `unit`. The inverse of a unit of time other than s counts cycles, as Hz does: 600 1/min are 10 Hz.
 Number number_in(double value, const Unit& unit);
 
-/// Names that an expression may use, innermost first; `outer` is searched for those not found.
+/// Names that an expression may use. Names not found here are searched for in `outer`.
 struct Environment {
   std::map<std::string, Number, std::less<>> names;
   const Environment* outer = nullptr;
@@ -33,19 +33,18 @@ struct Environment {
   const Number* find(std::string_view name) const;
 };
 
-/// Evaluates "2*B", "sqrt(k*m)", `a > b ? a : b`, ...; `pi` is known, and the functions of functions.hpp. The value is
+/// Evaluates "2*B", "sqrt(k*m)", `a > b ? a : b`, ...; `pi` and the functions of functions.hpp are known. The value is
 /// finite, unless a parameter is infinite. The dimension of the result follows from those of the parameters: adding metres
-/// to seconds or Hz to rad/s, or the sine of a length, is an error. Of `a > b ? x : y` only what is chosen is looked at.
+/// to seconds or Hz to rad/s, or the sine of a length, is an error. Only the chosen branch of `a > b ? x : y` is evaluated.
 /// Unknown names are errors with the nearest name as hint.
 std::variant<Number, TextError> evaluate_expression(std::string_view text, const Environment& environment);
 
-/// A value as a string: "10", "2 in*ozf" (a number, a space, a unit), "inf" (plain), or an expression.
+/// Evaluates a value given as a string: "10", "2 in*ozf" (a number, a space, a unit), "inf" (plain), or an expression.
 std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment);
 
-/// The SI value of `number` as `quantity`, or what is wrong with its dimension: "expected a torsional stiffness (N*m/rad),
-/// found a length (m)". An angular velocity (rad/s, rpm) that is used as a frequency is divided by 2 pi. 1/s from an
-/// expression is no frequency, cycles are no angle and Hz no angular velocity: whether cycles or radians are meant is not
-/// guessed.
+/// The SI value of `number` as `quantity`, or a dimension error: "expected a torsional stiffness (N*m/rad), found a length
+/// (m)". An angular velocity (rad/s, rpm) used as a frequency is divided by 2 pi. Where cycles or radians may be meant, the
+/// result is an error: 1/s from an expression is no frequency, cycles are no angle and Hz is no angular velocity.
 std::variant<double, TextError> as_quantity(const Number& number, Quantity quantity, Domain domain,
                                             double flow_index = 1);
 

@@ -11,9 +11,9 @@
 
 namespace rheonet {
 
-/// An expression as instructions for a stack of values, in the order in which they are carried out.
+/// An expression compiled to instructions for a stack machine, in the order of execution.
 struct ExpressionCode {
-  /// A part of the text, in bytes.
+  /// A range of the text, in bytes.
   struct Part {
     std::size_t begin = 0;
     std::size_t end = 0;
@@ -25,13 +25,13 @@ struct ExpressionCode {
   struct Instruction {
     Op op;
     double number = 0;                             ///< of `number`
-    std::size_t index = 0;                         ///< of the variable; where to jump; the first of the arguments
+    std::size_t index = 0;                         ///< of the variable; target of a jump; position of a call's first argument
     std::size_t count = 0;                         ///< of the arguments
     const ExpressionFunction* function = nullptr;  ///< of `call`
-    Part left = {}, right = {};                    ///< what it joins, for messages: of a sum the first term and the next
+    Part left = {}, right = {};                    ///< operands, for messages: of a sum the first term and the next
     Part whole = {};
   };
-  /// A name that is no call of a function, with the place of its first use.
+  /// A name that is no function call, with the place of its first use.
   struct Variable {
     std::string name;
     std::size_t at;
@@ -41,10 +41,10 @@ struct ExpressionCode {
   std::vector<Variable> variables;
   std::vector<Instruction> instructions;
   std::vector<Part> arguments;     ///< of all calls
-  std::optional<TextError> error;  ///< of syntax; a name that nobody knows is the better explanation, if there is one
+  std::optional<TextError> error;  ///< syntax error; an unknown name is the better explanation, if there is one
 };
 
-/// Throws TextError for what is no expression whatever its names mean.
+/// Compiles an expression. Throws TextError if the text is no expression, whatever its names mean.
 ExpressionCode compile_expression(std::string_view text);
 
 }  // namespace rheonet

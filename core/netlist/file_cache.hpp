@@ -8,14 +8,14 @@
 
 namespace rheonet {
 
-/// The text of a file; absent if it cannot be read, `why` then says why.
+/// The text of a file; absent if it cannot be read; `why` then gives the reason.
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& why);
 
-/// The files of a scene that is read many times: each is read from disk once, so that all readings are of one state of
-/// it, whatever is written to it meanwhile. Threads may share it.
+/// Caches the files of a scene that is read many times. Each file is read from disk once, so that every reading sees the
+/// same version even if the file changes meanwhile. Thread-safe.
 class FileCache {
  public:
-  /// As read_text. A file that cannot be read is tried again.
+  /// As read_text. A failed reading is not cached.
   std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why);
 
  private:

@@ -14,41 +14,42 @@ namespace rheonet {
 
 class FileOffer;
 
-/// The files of a scene: where each was found, and where those that it names are looked for (beside it and below, then
-/// in the library; never anywhere else).
+/// The files of a scene. A file is searched for in the folder of the file that names it and below, then in the library, and
+/// nowhere else.
 class Files {
  public:
   Files(Sources& sources, std::vector<std::filesystem::path> library, FileCache* cache, std::vector<const FileOffer*> offers)
       : sources_(sources), library_(std::move(library)), cache_(cache), offers_(std::move(offers)) {}
 
-  /// The text of a file; absent if it cannot be read, `why` then says why.
+  /// The text of a file; absent if it cannot be read; `why` then gives the reason.
   std::optional<std::string> text_of(const std::filesystem::path& file, std::string& why) const;
 
-  /// Takes a file's text in; `folder` is where it stands. Its number in Sources.
+  /// Adds a file's text to Sources and returns its number there; `folder` is the folder of the file.
   int add(std::filesystem::path shown, std::string text, std::filesystem::path folder,
           Sources::Role role = Sources::Role::scene);
 
   struct Found {
-    std::filesystem::path shown;      ///< what messages call it
-    std::filesystem::path canonical;  ///< tells whether two are the same file
-    std::optional<std::string> text = {};  ///< of one that is offered
-    std::size_t offer = 0;                 ///< which offers it
+    std::filesystem::path shown;      ///< name in messages
+    std::filesystem::path canonical;  ///< equal for two paths of the same file
+    std::optional<std::string> text = {};  ///< of an offered file
+    std::size_t offer = 0;                 ///< index of the offer that has it
   };
-  /// Looks for the file that the string `name` names, in what file `from` may use. None, or one outside, is a mistake.
+  /// Finds the file that the string `name` names in file `from`. A file that is absent or outside the allowed folders is a
+  /// mistake.
   std::optional<Found> find(const TomlValue& name, int from, Mistakes& mistakes) const;
 
-  /// Reads a file whole and takes it in; a mistake at `spot` if that fails.
+  /// Reads a whole file and adds it; a failure is a mistake at `spot`.
   std::optional<int> read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes);
 
   const Sources& sources() const { return sources_; }
   const std::string& text(int file) const { return sources_.files[static_cast<std::size_t>(file)].text; }
-  /// What messages call a file.
+  /// Name of a file in messages.
   std::string shown(int file) const {
     return file == Spot::command_line ? "the command line" : sources_.files[static_cast<std::size_t>(file)].path.string();
   }
 
  private:
-  /// Where a file of Sources stands.
+  /// Location of a file of Sources.
   struct Place {
     std::filesystem::path folder;
     std::size_t offer = 0;

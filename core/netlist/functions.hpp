@@ -5,7 +5,7 @@
 
 namespace rheonet {
 
-/// How the dimension of a function's value follows from those of its arguments.
+/// How the dimension of a function's value follows from the dimensions of its arguments.
 enum class FunctionRule {
   of_angle,      ///< an angle or a pure number -> a pure number
   gives_angle,   ///< a pure number -> an angle
@@ -21,7 +21,7 @@ enum class FunctionRule {
 struct ExpressionFunction {
   std::string_view name;
   int least_arguments;
-  int most_arguments;  ///< -1 without a limit
+  int most_arguments;  ///< -1: no limit
   FunctionRule rule;
   double (*value)(std::span<const double> arguments);
   std::string_view arguments;  ///< as the reference prints them: "x", "a, b, ..."
@@ -30,10 +30,10 @@ struct ExpressionFunction {
   double example_value;
 };
 
-/// All of them. `log` is not one: half of the users take it for the natural logarithm, the other half for the decimal one.
+/// All functions. `log` is missing on purpose: some users mean the natural logarithm, others the decimal one.
 std::span<const ExpressionFunction> expression_functions();
 
-/// Null if there is none of this name.
+/// The function with this name, nullptr if there is none.
 const ExpressionFunction* find_function(std::string_view name);
 
 /// The rule in words: "a pure number -> an angle".

@@ -5,14 +5,14 @@
 
 namespace rheonet {
 
-/// Names the unnamed members of an assembly by type and number, counted through it from 1 (`spring1`, `spring2`), also
-/// those in unnamed groups. A name that stands twice, or is that of one of its inner nodes (`node1`), is a mistake.
+/// Names the unnamed members of an assembly by type and number, counted through the assembly from 1 (`spring1`, `spring2`),
+/// including members of unnamed groups. A duplicate name, or the name of an inner node (`node1`), is a mistake.
 void name_members(Plan& assembly, Mistakes& mistakes);
 
-/// Whether a member has a level of its own in paths; an unnamed group has none.
+/// Whether a member forms a level of its own in paths; an unnamed group does not.
 bool has_level(const Plan& member);
 
-/// Mistakes where an element between nodes is called as a node of its scope: `x.velocity` would have two meanings.
+/// Reports elements between nodes that share their name with a node of the scope: `x.velocity` would be ambiguous.
 void check_names(const Scope& scope, Mistakes& mistakes);
 
 }  // namespace rheonet

@@ -13,8 +13,8 @@ struct IncludedFile {
   TomlValue document;
 };
 
-/// Reads the files that `include` of a scene names, and those that they include, each once: those that others need come
-/// first. A circle is a mistake. `main` is the canonical path of the scene, empty if it has none.
+/// Reads the files that the scene names in `include`, and the files that those include, each once; a file comes after all
+/// files that it includes. A cycle is a mistake. `main` is the canonical path of the scene, empty if it has none.
 std::deque<IncludedFile> read_includes(const TomlValue& document, const std::filesystem::path& main, Context& context);
 
 }  // namespace rheonet

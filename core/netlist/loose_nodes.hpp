@@ -7,8 +7,8 @@
 
 namespace rheonet {
 
-/// Warnings of nodes that the scene itself names and at which a single element ends: it carries no force, and mostly the
-/// name is mistyped. Also of nodes that would be `ground` but for capital letters.
+/// Warns of nodes named by the scene itself at which only one element ends: the element carries no force, and the name is
+/// often mistyped. Also warns of nodes that differ from `ground` only in case.
 std::vector<Diagnostic> loose_nodes(const Scene& scene);
 
 }  // namespace rheonet

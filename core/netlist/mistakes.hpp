@@ -13,27 +13,27 @@ namespace rheonet {
 
 struct TomlValue;
 
-/// Ends the reading of a scene: the errors so far are more than anyone reads.
+/// Thrown to end the reading of a scene that has more errors than anyone reads.
 struct TooManyMistakes {};
 
-/// Collects the mistakes of a scene while it is read. One that is met again (in each member of a `repeat`, in each
-/// instance of a model) counts once.
+/// Collects the mistakes of a scene while it is read. A mistake that repeats (in each member of a `repeat`, in each
+/// instance of a model) is listed once.
 class Mistakes {
  public:
   explicit Mistakes(const Sources& sources) : sources_(sources) {}
 
-  /// Throws TooManyMistakes where it is one too many.
+  /// Throws TooManyMistakes once the limit of listed errors is exceeded.
   void error(Spot spot, std::string message, std::string hint = {});
   void warning(Spot spot, std::string message, std::string hint = {});
-  /// Number of errors so far: a reader that wants to know whether a part was sound compares before and after.
+  /// Number of errors so far. A reader compares the number before and after a part to see whether that part is sound.
   std::size_t errors() const { return errors_; }
   const std::vector<Diagnostic>& all() const { return all_; }
 
-  /// The place of character `offset` of the string `value`, whatever its quotes and escapes.
+  /// The place of character `offset` of the string `value`; quotes and escapes are taken into account.
   Spot inside(const TomlValue& value, std::size_t offset) const;
 
-  /// While it lives, messages end in "(in `path`)": which instance or member it is that a place in a model or in a
-  /// `repeat` is wrong for. `path` must live as long.
+  /// During its lifetime messages end in "(in `path`)", the instance or member for which a place in a model or `repeat` is
+  /// wrong. `path` must outlive it.
   class Within {
    public:
     Within(Mistakes& mistakes, const std::string& path) : mistakes_(mistakes), before_(mistakes.path_) {
@@ -48,8 +48,8 @@ class Mistakes {
     const std::string* before_;
   };
 
-  /// The mistakes in the order of files and lines, those of the command line last; then, if there are more of them, that it
-  /// is so.
+  /// The mistakes in the order of files and lines, those of the command line last; then a note if more were found than are
+  /// listed.
   std::vector<Diagnostic> sorted() const;
 
  private:
@@ -58,18 +58,18 @@ class Mistakes {
   const Sources& sources_;
   std::vector<Diagnostic> all_;
   std::set<std::tuple<int, int, int, std::string>> seen_;
-  std::size_t errors_ = 0;  ///< those that are met again too
+  std::size_t errors_ = 0;  ///< repeated errors included
   std::size_t different_errors_ = 0, different_warnings_ = 0;
   const std::string* path_ = nullptr;
 };
 
-/// Whether `a` comes before `b` as a reader meets them: files in order, the command line last.
+/// Whether `a` comes before `b` in the order of reading: files in their order, the command line last.
 bool comes_before(const Spot& a, const Spot& b);
 
-/// "`a`, `b` or `c`": how messages list names.
+/// "`a`, `b` or `c`": a list of names in a message.
 std::string list_names(const std::vector<std::string>& names, std::string_view last_word = "or");
 
-/// "did you mean `name`?", or else `otherwise`.
+/// "did you mean `name`?" with the nearest known name, or `otherwise` if none is near.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known, std::string otherwise = {});
 
 }  // namespace rheonet

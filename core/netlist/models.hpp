@@ -4,11 +4,11 @@
 
 namespace rheonet {
 
-/// Takes the models of a `[models]` table in: their names, ports and parameters. `environment` holds the [parameters]
-/// of their file, and must outlive them.
+/// Adds the models of a `[models]` table: names, ports and parameters. `environment` holds the [parameters] of their file,
+/// and must outlive the models.
 void declare_models(const TomlValue& table, const Environment& environment, Context& context, Models& models);
 
-/// Makes plans of the elements of all models, once all are declared. A model that contains itself is a mistake.
+/// Plans the elements of all models; call it once all models are declared. A model that contains itself is a mistake.
 void plan_models(Context& context, Models& models);
 
 }  // namespace rheonet

@@ -18,7 +18,7 @@ struct Override {
   TomlValue value;
 };
 
-/// An override on its way down to what it changes: the next part of its path is `depth`.
+/// An override on its way down to its target; `depth` is the index of the next part of its path.
 struct ActiveOverride {
   const Override* override = nullptr;
   std::size_t depth = 0;
@@ -29,16 +29,16 @@ struct ActiveOverride {
 };
 using ActiveOverrides = std::vector<ActiveOverride>;
 
-/// Reads the overrides, taking their text into sources.command_line: the last ones after what is in `origins`, the others
-/// after "--set ". The value is a TOML value if it can be read as one, else a string. The path is split at dots; a part with
-/// a dot in it stands in quotes.
+/// Reads the overrides and adds their texts to sources.command_line. The last texts are prefixed by `origins`, all others
+/// by "--set ". The value is a TOML value if it parses as one, else a string. The path is split at dots; a part that
+/// contains a dot stands in quotes.
 std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources, Mistakes& mistakes);
 
-/// The path of an override up to where it has come: "bingham.k1".
+/// The part of an override's path that is resolved so far: "bingham.k1".
 std::string path_to(const ActiveOverride& active);
 
-/// Sets in `table` what the rest of the override's path names, adding keys that are not there. A part that would have
-/// to be a table and is none is a mistake.
+/// Sets the value named by the rest of the override's path in `table`, adding missing keys. A part of the path that is
+/// present but no table is a mistake.
 void apply(const ActiveOverride& active, TomlValue& table, Mistakes& mistakes);
 
 }  // namespace rheonet

@@ -7,24 +7,24 @@
 
 namespace rheonet {
 
-/// One of the named values of a [parameters] table or of a model.
+/// A named value of a [parameters] table or of a model.
 struct NamedFormula {
   std::string name;
-  Spot spot;        ///< of its name
-  Formula formula;  ///< not given: comes from each instance of the model
+  Spot spot;        ///< place of its name
+  Formula formula;  ///< not given: each instance of the model supplies the value
 };
 
-/// Reads a table of named values, not yet evaluated.
+/// Reads a table of named values without evaluating them.
 std::vector<NamedFormula> read_named_formulas(const TomlValue& table, Mistakes& mistakes);
 
-/// The order in which they can be evaluated, each after those that it uses: indices. A cycle is a mistake that lists
-/// it; those on it, and those that use them, are left out.
+/// Indices of the formulas in an order in which they can be evaluated, each after the formulas that it uses. A cycle is a
+/// mistake; formulas on a cycle, or using one on a cycle, are left out.
 std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formulas, Mistakes& mistakes);
 
-/// Stands for a value that is mistaken: what uses it is not evaluated, and not reported again.
+/// Marks an invalid value: formulas that use it are not evaluated, and give no further mistake.
 Number mistaken_number();
 
-/// The values of a [parameters] table.
+/// Evaluates a [parameters] table.
 Environment evaluate_parameters(const std::vector<NamedFormula>& formulas, Mistakes& mistakes);
 
 }  // namespace rheonet

@@ -16,12 +16,12 @@ namespace rheonet {
 
 struct Model;
 
-/// An input of a block, or what takes the place of a signal, as it is written: `controller`, `-drum.velocity`.
+/// An input of a block, or the block that feeds a signal, as written: `controller`, `-drum.velocity`.
 struct Wire {
   const TomlValue* source = nullptr;  ///< a string
   std::string path;                   ///< without the sign
   double sign = 1;
-  int parameter = -1;  ///< index into Declaration::parameters of the signal that it takes the place of
+  int parameter = -1;  ///< index into Declaration::parameters of the signal that is fed
 };
 
 /// `repeat = { count, as, arrange }` of an entry.
@@ -31,14 +31,14 @@ struct Repeat {
   bool series = true;
 };
 
-/// One entry of an `elements` table, or one member of `series` or `parallel`: its structure is checked and its types
-/// are known, its values are not evaluated. Made once, however many elements come of it.
+/// One entry of an `elements` table, or one member of `series` or `parallel`. Its structure is checked and its types are
+/// resolved; its values are not evaluated yet. One plan serves all elements made from it.
 struct Plan {
   enum class Kind { element, series, parallel, instance };
 
   Kind kind = Kind::element;
-  bool sound = false;  ///< false: something is wrong with it, nothing comes of it
-  bool in_model = false;  ///< stands in a model: that has no domain of its own
+  bool sound = false;  ///< false: it has a mistake; no elements are made
+  bool in_model = false;  ///< stands in a model, which has no domain of its own
   std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
   Spot spot;           ///< of its name, or of its table
   const TomlValue* source = nullptr;
@@ -47,12 +47,13 @@ struct Plan {
 
   int declaration = 0;          ///< of an element
   bool at = false;              ///< of an element
-  std::vector<Formula> values;  ///< of an element: of each declared parameter; of an instance: of each of the model's
-  std::vector<SignalPlan> signals;  ///< of an element, for each of signal_parameters
+  std::vector<Formula> values;  ///< of an element: one for each declared parameter; of an instance: one for each parameter
+                                ///< of the model
+  std::vector<SignalPlan> signals;  ///< of an element, one for each of signal_parameters
   std::vector<int> signal_parameters;
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
   std::vector<Wire> inputs;  ///< of a block
-  std::vector<Wire> feeds;   ///< signals that are the output of a block
+  std::vector<Wire> feeds;   ///< signals fed by the output of a block
 
   std::vector<Plan> members;  ///< of a group
   Model* model = nullptr;     ///< of an instance
@@ -64,16 +65,16 @@ struct Scope {
     std::string name;
     Spot spot;
   };
-  static constexpr int ground = -1;  ///< stands for it among indices into `nodes`
+  static constexpr int ground = -1;  ///< stands for the ground among indices into `nodes`
   std::vector<Node> nodes;  ///< a model's ports come first
   std::unordered_map<std::string, int> node_index;
   std::vector<Plan> entries;
 
   std::unordered_map<std::string, std::size_t> entry_index;
 
-  /// Index of the node `name`, or `ground`.
+  /// Index of the node `name`, or `ground`; adds the node if it is new.
   int node(const std::string& name, Spot spot);
-  /// The entry `name`, nullptr if there is none.
+  /// The entry `name`, nullptr if absent.
   const Plan* find(const std::string& name) const;
 };
 
@@ -84,11 +85,11 @@ struct Model {
   const TomlValue* source = nullptr;
   std::vector<std::string> ports;
   std::vector<NamedFormula> parameters;
-  std::vector<std::size_t> order;  ///< in which the parameters can be evaluated
+  std::vector<std::size_t> order;  ///< order in which the parameters can be evaluated
   Scope scope;
-  std::vector<Number> defaults;              ///< of the parameters; NaN where there is none, or none that is known
+  std::vector<Number> defaults;              ///< of the parameters; NaN if absent or invalid
   const Environment* environment = nullptr;  ///< the [parameters] of its file
-  double least_elements = 0;                 ///< that an instance makes: each `repeat` counted once
+  double least_elements = 0;                 ///< lower bound of the elements of an instance: each `repeat` counts once
   bool sound = false;
 };
 
@@ -99,9 +100,9 @@ class Planner {
  public:
   Planner(Context& context, const Models& models) : context_(context), models_(models) {}
 
-  /// All entries of an `elements` table. Ports are in `scope` already.
+  /// Reads all entries of an `elements` table. `scope` already contains the ports.
   void read_elements(const TomlValue& table, Scope& scope, bool in_model = false);
-  /// One entry. `scope` is where its nodes are named; nullptr for a member of a group, which names none.
+  /// Reads one entry. `scope` names its nodes; nullptr for a member of a group, which names no nodes.
   Plan read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope, bool in_model);
 
  private:

@@ -5,26 +5,26 @@
 
 namespace rheonet {
 
-/// `[plot]`: what is drawn of a scene where nobody says otherwise.
+/// `[plot]`: the default plot of a scene.
 struct PlotTable {
   struct Curve { std::string x, y; };  ///< paths of records; `x` may be "time"
-  std::vector<Curve> curves;           ///< none: every record over time
-  std::vector<std::string> units;      ///< for the axes that have their dimension
+  std::vector<Curve> curves;           ///< empty: every record over time
+  std::vector<std::string> units;      ///< each applies to the axes of its dimension
   std::string log;                     ///< logarithmic axes: "", "x", "y" or "xy"
 
-  /// The paths of the curves but "time", each once.
+  /// The records on the axes of all curves, each once; "time" is left out.
   std::vector<std::string> records() const;
 };
 
-/// `[demo]`: what a scene is to teach.
+/// `[demo]`: the lesson that a scene teaches.
 struct Demo {
-  /// Between which values a parameter of the scene is worth moving.
+  /// Range in which a parameter of the scene is worth varying.
   struct Slider {
     std::string parameter;
-    std::string unit;              ///< as the file has it; "" for a number
+    std::string unit;              ///< as in the file; "" for a number
     double least = 0, most = 0;    ///< in that unit
     double step = 0;               ///< in that unit; 0: any
-    bool logarithmic = false;      ///< from a positive value to one that is at least `decades_apart` times as large
+    bool logarithmic = false;      ///< the range is positive and spans at least a factor of `decades_apart`
   };
   static constexpr double decades_apart = 20;
 
@@ -32,7 +32,7 @@ struct Demo {
   std::vector<Slider> sliders;             ///< in the order of the file
 };
 
-/// What a scene says of how it is shown; nothing of it changes what comes out.
+/// How a scene is displayed; does not affect its results.
 struct Presentation {
   PlotTable plot;
   Demo demo;

@@ -11,7 +11,7 @@
 
 namespace rheonet {
 
-/// Reads `[plot]`: which curves, in which units. `scene` has its elements and nodes.
+/// Reads `[plot]`: curves and their units. `scene` already has its elements and nodes.
 PlotTable read_plot_table(const TomlValue& plot, const std::set<std::string>& doubtful, Context& context,
                           const Scene& scene);
 

@@ -11,30 +11,30 @@
 
 namespace rheonet {
 
-/// What a channel of a node, element or assembly measures. (Outputs of blocks have units of their own: `unit_of`.)
+/// The quantity measured by a channel of a node, element or assembly. (Outputs of blocks have their own units: `unit_of`.)
 Quantity quantity_of(Record::Channel channel);
 
-/// One of a unit, plain if it is open; and the unit of a number.
+/// The number 1 in a unit (plain if the unit is open), and the unit of a number.
 Number one_of(const BlockUnit& unit);
 BlockUnit unit_of(const Number& number);
 
-/// All there is to record of a scene, in the order of its file.
+/// All records that the scene can provide, in the order of its file.
 std::vector<Record> every_record(const Scene& scene);
 
-/// Finds the quantities that `simulate.record` names (`k1.force`), or all there are if it is not given. What begins
-/// with a name in `doubtful` (something is wrong with it) is not reported as unknown.
+/// Finds the records named by `simulate.record` (`k1.force`); takes all records if it is not given. Names that begin with
+/// one in `doubtful` (it has a mistake) are not reported as unknown.
 void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene);
 
-/// Records that the command line asks for, after those of the file.
+/// Adds the records of the command line after those of the file.
 void add_records(const std::vector<std::string>& paths, const std::set<std::string>& doubtful, Context& context,
                  Sources& sources, Scene& scene);
 
-/// The records of these paths, each a string with its place; absent where that is a mistake.
+/// The records at these paths, each a string with its place; absent for a path that is a mistake.
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
                                                 const Scene& scene);
 
-/// Initial values from `[nodes]`.
+/// Reads initial values from `[nodes]`.
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,
                          Context& context, Scene& scene);
 

@@ -24,18 +24,18 @@ inline constexpr NodeId ground = 0;
 /// Marks an initial value or parameter that the user did not give.
 inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
-/// What is not given is the same as what is not given.
+/// Whether two lists of values are equal; two values not_given count as equal.
 bool same_values(std::span<const double> one, std::span<const double> other);
 
-/// Times this close together, as a fraction of an output interval, are one: that far rounding may put a row beyond the
-/// stop, or an event beside a row.
+/// Times closer than this fraction of an output interval count as equal: round-off may put a row beyond the stop, or an
+/// event next to a row.
 inline constexpr double time_rounding = 1e-9;
 
 struct SceneNode {
   std::string name;             ///< its path: `drum`, `pivot.mid`, `bingham.node1`
   double position = not_given;  ///< m | rad
   double velocity = not_given;  ///< m/s | rad/s
-  Spot spot;                    ///< where it is first named; of its `[nodes]` entry if it has one
+  Spot spot;                    ///< where it is first named, or its `[nodes]` entry if it has one
 };
 
 struct SceneElement {
@@ -45,14 +45,14 @@ struct SceneElement {
   NodeId b = ground;   ///< ground for an element `at` one node
   bool at = false;     ///< written with `at`
   Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent initial values
-  std::bitset<32> given;        ///< of each declared parameter: the netlist gives it this value, not its default
-  Shared<Signal> signals;       ///< the signals, in order of declaration, of the parameters in signal_parameters
+  std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
+  Shared<Signal> signals;       ///< signals of the parameters in signal_parameters, in order of declaration
   Shared<int> signal_parameters;  ///< indices into Declaration::parameters
   Spot spot;           ///< of its name
 };
 
-/// A composed element (series, parallel, repeat, an instance of a model with two ports). Its force is the signed sum of
-/// the forces of the elements that touch its first node from inside.
+/// A composed element (series, parallel, repeat, an instance of a model with two ports). Its force is the signed sum of the
+/// forces of its elements that end at its first node.
 struct SceneAssembly {
   struct Term { int element; int sign; };
   std::string name;
@@ -62,14 +62,14 @@ struct SceneAssembly {
   Spot spot;
 };
 
-/// What a block puts out is in this unit; `open` if nothing says in which one: it is taken in SI whatever it is for.
+/// Unit of a block's output. If nothing determines the unit it is `open`: the output is then taken as SI for any quantity.
 struct BlockUnit {
   Dimension dimension;
-  double radian = 0;  ///< the exponent of rad that came with it, for messages
+  double radian = 0;  ///< exponent of rad, for messages
   bool open = true;
 };
 
-/// An element that makes a signal of others: its name, declaration and values are those of the element.
+/// An element that computes a signal from others; name, declaration and values are stored in the element.
 struct SceneBlock {
   struct Input {
     bool from_block;  ///< the output of another block; else a quantity of the network
@@ -81,7 +81,7 @@ struct SceneBlock {
   BlockUnit unit;
 };
 
-/// The signal of an element is the output of a block, times `sign`.
+/// The signal of `element` is the output of `block`, times `sign`.
 struct SceneFeed { int element, block; double sign; };
 
 struct Record {
@@ -94,34 +94,34 @@ struct Record {
 };
 
 
-/// A claim of `[expect]`: a figure of a record's course through the run, and between which values it should lie. A
-/// measure is one that claims nothing: only what the figure is is asked for.
+/// A claim of `[expect]`: bounds on a figure of a record's course through the run. A measure is a claim without bounds:
+/// only the figure itself is reported.
 struct Claim {
   enum class Figure { at, final, max, min, mean, rms, crossing, time_of_max, time_of_min };
   Figure figure = Figure::final;
   int record = 0;              ///< into Scene::claimed
   int per = -1;                ///< into Scene::claimed: the figure is divided by the same figure of this record
-  double time = not_given;     ///< s: when, of Figure::at
-  double level = not_given;    ///< that is crossed, in the record's unit
-  double from = 0, to = 0;     ///< s: the part of the run that is looked at
-  double least = 0, most = 0;  ///< claimed, SI; of a crossing its time [s]
+  double time = not_given;     ///< time of Figure::at [s]
+  double level = not_given;    ///< level of Figure::crossing, in the record's unit
+  double from = 0, to = 0;     ///< part of the run that is evaluated [s]
+  double least = 0, most = 0;  ///< bounds, SI; for a crossing, of its time [s]
   double within = not_given;   ///< tolerance on both sides; if not given, the accuracy of the run, as a fraction
-  bool fraction = false;       ///< `within` is a fraction: of the largest magnitude that the record has in the run; of
-                               ///< the run's length for a crossing; of the claimed ratio
+  bool fraction = false;       ///< `within` is relative: to the record's largest magnitude in the run, to the run's length
+                               ///< (crossing), or to the claimed ratio
   Spot spot;                   ///< of the claimed value
 };
 
-/// Whether a figure is the time of something.
+/// Whether the figure is a time.
 bool is_time(Claim::Figure figure);
 
-/// What a record is by a closed form, of `[exact]`.
+/// Closed form of a record, from `[exact]`.
 struct ExactRecord {
   int record = 0;                               ///< into Scene::records
-  std::function<double(double t)> value = {};  ///< SI, at a time of the scene; NaN where the form has no finite value
+  std::function<double(double t)> value = {};  ///< SI, at a time of the scene; NaN if the form has no finite value
   Spot spot;
 };
 
-/// A netlist, checked and flattened: every value in SI, every reference resolved; models, series, parallel, repeat gone.
+/// A netlist, checked and flattened: values are in SI, references resolved; models, series, parallel and repeat expanded.
 struct Scene {
   std::string title;
   Domain domain = Domain::translation;
@@ -129,22 +129,22 @@ struct Scene {
   std::vector<SceneElement> elements;    ///< in the order of the file
   std::vector<SceneAssembly> assemblies;
   std::vector<SceneBlock> blocks;        ///< in the order of the file
-  std::vector<Record> sensed;            ///< what blocks take in of the network
+  std::vector<Record> sensed;            ///< quantities of the network that blocks use as inputs
   std::vector<SceneFeed> feeds;
-  std::vector<Record> records;           ///< in the order asked for; everything, in the order of the file, if not asked
+  std::vector<Record> records;           ///< in the order asked for; if not asked for: all, in the order of the file
 
-  std::vector<Record> claimed;  ///< what claims are about, each once
+  std::vector<Record> claimed;  ///< records that claims refer to, each once
   std::vector<Claim> claims;    ///< of `[expect]`, in the order of the file
 
   std::vector<ExactRecord> exact;
 
   std::vector<EffectLeftOut> without;  ///< effects that are left out
-  std::vector<std::string> keep;       ///< names of reductions that are not made: core/network/reductions.hpp
+  std::vector<std::string> keep;       ///< names of reductions that are not applied: core/network/reductions.hpp
 
   enum class StartFrom {
     given,   ///< the start values of nodes and elements
     rest,    ///< at rest, all forces balanced
-    steady,  ///< in steady motion under the drives as they are at the start
+    steady,  ///< in steady motion under the inputs at the start
   };
   StartFrom start_from = StartFrom::given;
   double start = 0;         ///< s
@@ -155,8 +155,8 @@ struct Scene {
   bool output_events = false;  ///< also a pair of rows at every event
 };
 
-/// What a record measures, and the SI unit of it as a user would type it ("1" for a number). A block may put out a quantity
-/// that has no name here, or one that nothing is known of.
+/// The unit and quantity of a record, and its SI unit as a user would type it ("1" for a number). The output of a block may
+/// be a quantity without a name here, or one of unknown unit.
 BlockUnit unit_of(const Scene& scene, const Record& record);
 std::optional<Quantity> quantity_of(const Scene& scene, const Record& record);
 std::string unit_text(const Scene& scene, const Record& record);

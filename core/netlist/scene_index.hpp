@@ -9,30 +9,30 @@
 
 namespace rheonet {
 
-/// Finds nodes, elements and assemblies of a scene by their paths. A scene of millions is gone through once for all
-/// names that are looked for, instead of being indexed.
+/// Finds nodes, elements and assemblies of a scene by their paths. One pass over the scene finds all wanted names; an index
+/// of a scene with millions of elements would cost more.
 class SceneIndex {
  public:
   struct Found {
     int node = -1;
     int element = -1;
     int assembly = -1;
-    int block = -1;  ///< that the element is
+    int block = -1;  ///< the block of this element
 
     bool any() const { return node >= 0 || element >= 0 || assembly >= 0; }
   };
 
   SceneIndex(const Scene& scene, const std::vector<std::string>& wanted);
 
-  /// One of the wanted names.
+  /// `name` must be one of the wanted names.
   Found find(const std::string& name) const { return found_.at(name); }
 
  private:
   std::unordered_map<std::string, Found> found_;
 };
 
-/// Paths of a scene, to choose a nearest one from: of all nodes, and of everything else too if `all`. The first ones of
-/// a scene of very many.
+/// Paths of a scene among which the nearest name is searched for: of all nodes, and of everything else if `all`. Of a very
+/// large scene only the first paths.
 std::vector<std::string> known_paths(const Scene& scene, bool all);
 
 }  // namespace rheonet

@@ -8,8 +8,8 @@
 
 namespace rheonet {
 
-/// A list that is kept once by all copies of it, until one of them is changed. What is made by `repeat` mostly has the same
-/// values a million times.
+/// A list shared by all its copies until one of them is changed (copy on write): the elements made by a `repeat` often have
+/// the same values a million times.
 template <class T>
 class Shared {
  public:
@@ -32,7 +32,7 @@ class Shared {
   const T& front() const { return items().front(); }
   const T& back() const { return items().back(); }
 
-  /// For changes: from here on this copy has a list of its own.
+  /// The list, for changes: from now on this copy has a list of its own.
   std::vector<T>& own() {
     if (!kept_ || kept_.use_count() > 1) kept_ = std::make_shared<std::vector<T>>(items());
     return *kept_;
@@ -41,7 +41,7 @@ class Shared {
   friend bool operator==(const Shared& one, const Shared& other) { return one.items() == other.items(); }
 
  private:
-  std::shared_ptr<std::vector<T>> kept_;  ///< none: no item
+  std::shared_ptr<std::vector<T>> kept_;  ///< nullptr: no items
 };
 
 }  // namespace rheonet

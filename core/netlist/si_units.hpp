@@ -8,12 +8,12 @@
 
 namespace rheonet {
 
-/// The units that mechanics is mostly written in, by their symbols (m, mm, kg, N, MPa, Hz, rad ...); null if it is another one.
-/// UDUNITS-2 says the same of them, but its database takes longer to read than a small scene to simulate.
+/// The unit with this symbol if it is common in mechanics (m, mm, kg, N, MPa, Hz, rad ...); nullptr otherwise. UDUNITS-2
+/// gives the same values, but takes longer to read its database than a small scene takes to simulate.
 const Unit* si_unit(std::string_view symbol);
 
-/// The units that the reference lists: those in use, and those that UDUNITS-2 does not know. All others that it knows are accepted
-/// as well.
+/// The units listed in the reference: the common ones, and those unknown to UDUNITS-2. All other units of UDUNITS-2 are
+/// accepted too.
 std::vector<std::string> listed_units();
 
 }  // namespace rheonet

@@ -15,16 +15,16 @@
 
 namespace rheonet {
 
-/// A signal as the file gives it: its shape is known, its numbers are evaluated where their names are known.
+/// A signal as given by the file: its shape is known; its numbers are evaluated in an environment.
 class SignalPlan {
  public:
-  /// `name` is what messages call it: "velocity". Without a quantity any unit will do, as long as there is only one.
+  /// `name` is used in messages: "velocity". Without a quantity any unit is accepted, but all values must share it.
   SignalPlan(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context);
 
-  /// The signal where `environment` holds; absent if anything in it is a mistake.
+  /// The signal in `environment`; absent if anything in it is a mistake.
   std::optional<Signal> evaluate(const Environment& environment, Context& context) const;
 
-  /// In which unit it was at the last evaluation.
+  /// Unit of the signal at the last evaluation.
   const BlockUnit& unit() const { return unit_; }
 
   /// `step`, `ramp`, ...
@@ -39,24 +39,24 @@ class SignalPlan {
   };
 
   static const std::array<std::string, key_count>& key_names();
-  /// The entry that says the shape; nullptr, with a message, if not one does.
+  /// The entry that determines the shape; nullptr, with a mistake, unless exactly one does.
   const TomlEntry* find_shape(const TomlValue& source, Mistakes& mistakes) const;
   void read_table_signal(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
   void read_columns(const TomlEntry& columns, Mistakes& mistakes);
   /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
   std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
-  /// `hint`, or what mends a unit that `formula` and the amplitude have both.
+  /// A remedy if both `formula` and the amplitude have a unit, else `hint`.
   std::string hint_for(const Formula& formula, const Environment& environment, Context& context,
                        std::string hint) const;
   /// Whether the main value is an expression of the time, which is a mistake.
   bool is_of_time(const Environment& environment, Context& context) const;
-  /// Whether it is a name alone, and that of no parameter: it may be meant for a block, which is a mistake.
+  /// Whether the main value is a single unknown name; it may be meant for a block, which is a mistake.
   bool is_unknown_name(const Environment& environment, Context& context) const;
   const TableFile* table_file(Context& context) const;
   std::optional<Number> times_amplitude(Number number, const Environment& environment, Context& context) const;
   std::optional<double> value_of(Key key, const Environment& environment, Context& context, double otherwise) const;
-  /// The value of a signal, in SI, if its unit is the one that it has to have.
+  /// The value of a signal in SI; absent, with a mistake, if its unit is not the required one.
   std::optional<double> in_unit(const Number& number, const Formula& formula, const Environment& environment,
                                 Context& context) const;
   std::optional<Signal> make(const Environment& environment, Context& context) const;
@@ -66,13 +66,13 @@ class SignalPlan {
   std::optional<Quantity> quantity_;
   Shape shape_ = Shape::constant;
   bool sound_ = true;
-  bool constant_ = true;  ///< no name in it: one evaluation serves all elements
+  bool constant_ = true;  ///< contains no names: one evaluation serves all elements
   Formula main_;
   std::array<Formula, key_count> keys_;
   std::vector<Point> points_;
   std::optional<TomlValue> file_name_;  ///< of a CSV file with the points
-  std::vector<TomlValue> columns_;      ///< names of those of the times and the values; empty: the file has two
-  /// What is in it, nullptr if it is mistaken. Read when it is needed: an override may take its place.
+  std::vector<TomlValue> columns_;      ///< names of the columns of times and values; empty: the file has two columns
+  /// Contents of the file, nullptr if it has a mistake. Read when first needed, because an override may replace the file.
   mutable std::optional<std::shared_ptr<const TableFile>> file_;
   mutable std::optional<Signal> made_;
   mutable BlockUnit unit_;

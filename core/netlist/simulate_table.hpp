@@ -7,11 +7,11 @@
 
 namespace rheonet {
 
-/// Reads `[simulate]` but for `record`, the entry of which it returns (nullptr if not given).
+/// Reads `[simulate]` except `record`, whose entry is returned (nullptr if absent).
 const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& environment, Context& context,
                                Scene& scene);
 
-/// Sets the accuracy of the command line.
+/// Applies the accuracy given on the command line.
 void override_accuracy(double accuracy, Context& context, Sources& sources, Scene& scene);
 
 }  // namespace rheonet

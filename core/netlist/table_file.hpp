@@ -9,17 +9,17 @@
 
 namespace rheonet {
 
-/// The points of a signal as a CSV file gives them.
+/// The points of a signal from a CSV file.
 struct TableFile {
   std::vector<std::pair<double, double>> points;  ///< time [s], value
-  Number unit;                                    ///< of the values: 1 of it; plain if the file says none
+  Number unit;                                    ///< 1 in the unit of the values; plain if the file gives none
 };
 
-/// Reads the points (time, value) of a signal from a CSV file: two columns of numbers, in quotes or not, split by commas,
-/// semicolons, tabs or spaces; the first row may be a header, whose fields may end with a unit in brackets ("t [ms]");
-/// empty lines and lines that begin with `#` are left out. `name` is the string that names the file; `columns`, if any, are the names
-/// of two of its columns, as its first row has them without their units. The first ten
-/// mistakes are reported with their lines in the CSV file, of others how many there are.
+/// Reads the points (time, value) of a signal from a CSV file: two columns of numbers, optionally quoted, separated by
+/// commas, semicolons, tabs or spaces. The first row may be a header, whose fields may end with a unit in brackets ("t
+/// [ms]"). Empty lines and lines that begin with `#` are skipped. The string `name` names the file; `columns`, if not
+/// empty, names two of its columns as in the header, without units. The first ten mistakes are reported with their lines,
+/// further ones by their number.
 std::optional<TableFile> read_table_file(const TomlValue& name, const std::vector<TomlValue>& columns, Context& context);
 
 }  // namespace rheonet

@@ -7,8 +7,8 @@
 
 namespace rheonet {
 
-/// A time to twice the digits of a double: t + rest [s], where |rest| is at most half a unit in the last place of t. A double
-/// alone rounds the end of a pulse of 1e-12 s at 0.5 s by 1e-16 s, and its impulse by 1e-4 of it.
+/// A time in double-double precision: t + rest [s], |rest| at most half a unit in the last place of t. A single double
+/// would round the end of a pulse of 1e-12 s at 0.5 s by 1e-16 s, which changes its impulse by 1e-4 (relative).
 struct TimePoint {
   double t = 0, rest = 0;
 
@@ -24,7 +24,7 @@ struct TimePoint {
     const TimePoint sum(t, length);
     return {sum.t, sum.rest + rest};
   }
-  /// How long it is since `then` [s].
+  /// Time elapsed since `then` [s].
   double since(const TimePoint& then) const { return (t - then.t) + (rest - then.rest); }
   auto operator<=>(const TimePoint&) const = default;
 };
@@ -32,10 +32,10 @@ struct TimePoint {
 /// The end of signal.piece(t), not rounded to a double.
 TimePoint exact_end(const Signal& signal, double t);
 
-// Of a piece between and at such times, where `rest` counts to first order: its square is below all rounding.
+// A piece between and at such times. `rest` counts to first order: its square is below round-off.
 
 inline double value(const Piece& piece, TimePoint t) { return piece.value(t.t) + piece.rate(t.t) * t.rest; }
-/// Value at `to` less that at `from`. A ramp may be far from 0 by then, which the difference of two values would round.
+/// Value at `to` less value at `from`. On a ramp far from 0, the difference of two values would lose digits.
 double change(const Piece& piece, TimePoint from, TimePoint to);
 inline double integral(const Piece& piece, TimePoint from, TimePoint to) {
   return piece.integral(from.t, to.t) + (piece.value(to.t) * to.rest - piece.value(from.t) * from.rest);

@@ -11,28 +11,28 @@
 
 namespace rheonet {
 
-/// A value as the file gives it (a number, a quantity, an expression), to be evaluated where its names are known. It
-/// refers to its TomlValue, which must outlive it.
+/// A value as given by the file (a number, a quantity, an expression), to be evaluated in an environment. It refers to its
+/// TomlValue, which must outlive it.
 class Formula {
  public:
-  /// Not given.
+  /// A value that is not given.
   Formula() = default;
-  /// Anything but a number or a string is a mistake. `name` is what messages call the value: "`stiffness`".
+  /// Anything but a number or a string is a mistake. `name` is used in messages: "`stiffness`".
   Formula(const TomlValue& source, std::string name, Mistakes& mistakes);
 
   bool given() const { return source_ != nullptr; }
   const TomlValue& source() const { return *source_; }
   const std::string& name() const { return name_; }
-  /// The identifiers in it; empty for a number and a quantity.
+  /// The identifiers in the value; empty for a number and a quantity.
   const std::vector<std::string>& identifiers() const { return identifiers_; }
 
-  /// The value where `environment` holds; absent if that is a mistake. Evaluated anew only if one of its names has
-  /// another value than the last time, so that asking for each of a million elements costs little.
+  /// The value in `environment`; absent, with a mistake, if it cannot be evaluated. The result is cached until one of its
+  /// names changes its value, so that evaluation for a million elements costs little.
   std::optional<Number> evaluate(const Environment& environment, Mistakes& mistakes) const;
-  /// The value in SI, if it has the dimension of `quantity`. It may be infinite, but is never NaN.
+  /// The value in SI; a mistake if it has not the dimension of `quantity`. It may be infinite, but is never NaN.
   std::optional<double> evaluate(const Environment& environment, Quantity quantity, Domain domain, Mistakes& mistakes,
                                  double flow_index = 1) const;
-  /// The same, and finite.
+  /// The same; an infinite value is a mistake.
   std::optional<double> evaluate_finite(const Environment& environment, Quantity quantity, Domain domain,
                                         Mistakes& mistakes) const;
 
@@ -47,10 +47,10 @@ class Formula {
 /// The identifiers of an expression, each once, in alphabetical order; none if the text is a quantity.
 std::vector<std::string> identifiers_of(std::string_view text);
 
-/// A number as messages show it: "5000000", "0.1".
+/// A number as shown in messages: "5000000", "0.1".
 std::string number_text(double value);
 
-/// Whether `value` is within the bounds of `parameter`; a mistake if not. `name` is what the domain calls it.
+/// Whether `value` is within the bounds of `parameter`; a mistake if not.
 bool check_bounds(double value, const Parameter& parameter, const Formula& formula, Domain domain, double flow_index,
                   Mistakes& mistakes);
 

@@ -11,22 +11,22 @@
 
 namespace rheonet {
 
-/// The inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` where it takes several.
+/// Reads the inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` for several.
 std::vector<Wire> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, Keys& keys,
                               Mistakes& mistakes);
 
-/// `{ block = "controller" }` in place of a signal; nullptr if it is none.
+/// The `block` entry of `{ block = "controller" }` given in place of a signal; nullptr if the signal is none.
 const TomlEntry* find_feed(const TomlValue& signal);
-/// That, for the signal `parameter` of `declaration`; absent if there is something wrong with it.
+/// Reads the feed of the signal `parameter` of `declaration`; absent if it has a mistake.
 std::optional<Wire> read_feed(const TomlEntry& feed, const TomlValue& signal, const Declaration& declaration,
                               std::size_t parameter, Context& context);
 
-/// What is known of the wires of a scene while its elements are made: they name what may come later.
+/// A wire met while elements are made. It is connected afterwards, because it may name an element that comes later.
 struct LooseEnd {
   const Wire* wire;
-  std::string path;     ///< in the scene
-  std::string within;   ///< the instance or member that it is in, for messages; "" if none
-  int block = -1;       ///< that takes it in; -1: it feeds the element
+  std::string path;     ///< path in the scene
+  std::string within;   ///< instance or member around it, for messages; "" if none
+  int block = -1;       ///< block that has it as input; -1: it feeds the element
   int element = -1;
 };
 /// The unit of a parameter of a block.
@@ -41,7 +41,7 @@ struct LooseEnds {
   std::vector<OwnUnit> units;
 };
 
-/// Finds what the wires come from, and checks that their units fit. `doubtful` is what something is wrong with already.
+/// Finds the sources of the wires, and checks that their units fit. `doubtful` are names that already have a mistake.
 void connect(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene);
 
 }  // namespace rheonet
