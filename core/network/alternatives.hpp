@@ -13,8 +13,7 @@ struct Alternative {
   std::string type = {};     ///< the component that declares it
   std::string name = {};     ///< label of the alternative, such as "smoothed"
   std::string becomes = {};  ///< type of the component that replaces the element
-  /// Parameters of the replacement, from those of the element and a velocity [m/s] and a displacement [m] that are small for
-  /// it.
+  /// Its parameters, from those of the element, a small velocity `speed` [m/s] and a small displacement `length` [m].
   std::function<std::vector<double>(std::span<const double>, double speed, double length)> values = {};
 };
 

@@ -84,8 +84,7 @@ class DeflectionBatch {
 
   /// Slope df/dp at deflection p at the beginning of a motion in `direction`; 0 for rest.
   virtual double slope(std::size_t i, double p, int direction) const = 0;
-  /// Slope with which the force leaves its bound once the deflection stops growing; 0 if it is not at a bound or cannot
-  /// leave.
+  /// Slope with which the force leaves its bound when the deflection stops growing; 0 if it does not leave.
   virtual double release_slope(std::size_t i, double p) const = 0;
   /// Force after the deflection has gone from p to p + step along the law, and its slope there. The memory stays.
   virtual double force_along(std::size_t i, double p, double step, double& slope) const = 0;

@@ -130,7 +130,7 @@ class FreeEndSearch {
     return force != 0;
   }
 
-  /// Keeps all nodes of a connected part, in which any start displacement may be other than 0, in the network.
+  /// Removes a whole connected part from the free ends if anything in it may start at a displacement other than 0.
   void let_stressed_go() {
     Sets together(held_.size());
     std::vector<std::size_t> displaced;

@@ -8,9 +8,8 @@
 
 namespace rheonet {
 
-/// Springs in series with sliders, side by side between the same two ends: each pair is a stop operator (L. Prandtl,
-/// ZAMM 8 (1928) 85; also called Jenkins's element), all of them an Iwan bundle (W. D. Iwan, J. Appl. Mech. 34 (1967)
-/// 612).
+/// Springs in series with sliders, in parallel between the same two ends: each pair is a stop operator (L. Prandtl, ZAMM 8
+/// (1928) 85; also called Jenkins's element), all of them an Iwan bundle (W. D. Iwan, J. Appl. Mech. 34 (1967) 612).
 ///
 /// From a reversal at p_ref, where pair i has the force f_i, a motion in direction s = +-1 gives with x = s (p - p_ref)
 ///
@@ -64,11 +63,10 @@ class Iwan {
   double total_force() const { return total_force_; }
 
   double pair_force(std::size_t pair, double p) const;
-  /// Sets the displacements at which the spring is free of force and of the slider [m]. For the output alone: the force does
-  /// not depend on them.
+  /// Sets the displacement at which the spring is free of force, and that of the slider [m]. They affect output alone, not
+  /// the force.
   void place(std::size_t pair, double rest, double slide);
-  /// The ends have moved without a law: at deflection p the displacement of spring and slider together is now
-  /// `displacement`.
+  /// The ends have moved without a law: at p, spring and slider together now have the displacement `displacement`.
   void follow(double p, double displacement);
   /// Displacements of its spring and of its slider. The displacement of a sticking slider is constant to the last digit.
   double stretch(std::size_t pair, double p) const {

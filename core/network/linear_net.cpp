@@ -37,7 +37,7 @@ LinearNet::Key LinearNet::key(std::size_t id) const {
   return static_cast<Key>(low) << 32 | static_cast<Key>(high);
 }
 
-/// Merges an element with any element in parallel, as often as there is one.
+/// Merges an element with those in parallel until none is left.
 void LinearNet::put(std::size_t id) {
   if (alone_[home_[id]]) return;
   auto& between = between_[kind_[home_[id]] - 1];

@@ -58,8 +58,7 @@ struct Network {
   std::vector<Pair> pairs;
   IwanBatch* bundles = nullptr;  ///< nullptr if there are none
   int first_bundle = 0;          ///< branch of the first one
-  std::vector<NodeId> scene_node;  ///< the scene's number of each node of the network; it has no nodes between spring and
-                                   ///< slider of a pair
+  std::vector<NodeId> scene_node;  ///< the scene's number of each node; nodes inside pairs are excluded
   /// Of each node of the scene: its number here (for a free end, that of the node on which it hangs), or -1 - k between
   /// spring and slider of pair k.
   std::vector<int> node_of;

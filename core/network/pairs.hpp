@@ -24,9 +24,9 @@ struct Pair {
   double sign = 1;        ///< of the force from the spring's end to the slider's, if the bundle's force is positive
 };
 
-/// The pairs of a scene. The node between must have no mass, motion, third element or given velocity, and the slider must
-/// slip at its breakaway force. If an end has neither mass nor motion, given start values may also constrain its neighbours:
-/// a pair is then accepted only without given values, and if its slider holds the initial force.
+/// The pairs of a scene. The node between must have no mass, motion, third element or given velocity. The slider's breakaway
+/// force must equal its sliding force. If an end has neither mass nor motion, given start values may also constrain its
+/// neighbours: a pair is then accepted only without given values, and if its slider holds the initial force.
 std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& laws);
 
 }  // namespace rheonet

@@ -14,7 +14,7 @@ namespace rheonet {
 
 namespace {
 
-// The share e (see the header): far below the accuracy of an answer, and e^2 is still far above underflow.
+// The share e (see the header): e^2, the share of the reaction, is far below round-off and far above underflow.
 constexpr double share = 1e-12;
 // Smallest share of nodes out of reach for which a scene is cut.
 constexpr double worth_a_cut = 0.1;

@@ -19,8 +19,8 @@ namespace rheonet {
 ///
 /// Then w^d times any velocity, and r w^d times any displacement, grow no faster than exp(r t), because the largest of these
 /// obey v' <= a v + b x and x' <= v. With w^d = exp(r (stop - start))/e, no mass beyond moves faster than the share e of the
-/// largest velocity of the rest (or of r times its largest displacement), and its reaction is that share of a share. The w
-/// with the smallest d is used.
+/// largest velocity of the rest (or of r times its largest displacement), and its reaction is a share e^2. The w with the
+/// smallest d is used.
 struct Reach {
   std::vector<char> node, element;  ///< of each node and element of the scene: disturbances can reach it
   std::size_t beyond = 0;           ///< number of elements out of reach

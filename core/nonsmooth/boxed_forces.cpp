@@ -157,10 +157,9 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
   return failed_node_ < 0;
 }
 
-/// Newton's direction for the present active set. Branches within their boxes connect nodes into parts. First, the parts
-/// without a held node move as a whole, as if the branches between them were within their boxes, until all parts balance;
-/// then the nodes within the parts move. The direction is scaled to a length of about 1, because products of forces might
-/// overflow.
+/// Newton's direction for the present active set. Branches within their boxes connect nodes into parts. Parts without a held
+/// node move first, each as a whole, as if the branches between them were within their boxes. Once all parts balance, nodes
+/// within parts move. Scaled to a length of about 1, because products of forces might overflow.
 void BoxedForces::find_direction() {
   const int nodes = static_cast<int>(held_.size());
   Sets parts(held_.size() + 1);  // the last member stands for held nodes

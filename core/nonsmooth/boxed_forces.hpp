@@ -59,8 +59,7 @@ class BoxedForces {
   std::unique_ptr<Factors> factors_;  ///< of the Laplacian of all branches
   std::vector<double> difference_;    ///< of each branch: phi_a - phi_b; stored apart because phi has larger round-off
   std::vector<double> phi_, direction_, along_;  ///< `along_`: of each branch, the difference of `direction_`
-  std::vector<double> left_, magnitude_;         ///< of each node: force out of balance, and sum of magnitudes of the terms
-                                                 ///< [N]
+  std::vector<double> left_, magnitude_;         ///< of each node: force out of balance, sum of magnitudes [N]
   std::vector<int> terms_;                       ///< of each node: number of terms
   std::vector<char> held_;  ///< of each node: its balance follows from the balances of other nodes
   std::vector<char> open_;  ///< of each branch: it is in no overloaded cut

@@ -18,8 +18,8 @@ struct Imbalance {
   double time = 0;                    ///< of the row with the imbalance [s]
 };
 
-/// Checks the balance of the forces of all elements, drives included, at each massless node that a record refers to. Runs
-/// that share an error of a force cannot measure it by comparison; an imbalance reveals it.
+/// Checks the balance of all forces, applied ones included, at each massless node that a record refers to. Runs that share
+/// an error of a force cannot measure it by comparison; an imbalance reveals it.
 class Balances {
  public:
   explicit Balances(const Scene& scene);

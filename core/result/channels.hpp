@@ -14,7 +14,7 @@ struct Gauge { int element = -1; double sign = 1; };
 /// The gauge of each record.
 std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records);
 
-/// For each node whether its position is needed to answer the scene's records and claims.
+/// For each node, whether a record, claim or block needs its position.
 std::vector<char> needed_positions(const Network& network);
 
 /// Evaluates records of a scene from states of its DAE.

@@ -47,7 +47,7 @@ struct Cubic {
 };
 
 // Where the cubic is compared with the record: where a quartic is farthest from it, and beyond an inner node. A deviation
-// that is odd about the middle, or vanishes at one of the two places, shows at the other.
+// that vanishes at one of the two places, such as an odd one at 0, shows at the other.
 constexpr std::array<double, 2> probes{0, 0.75};
 
 // Number of halvings of an inaccurate piece without further conditions, or more while an input turns in it. After that a

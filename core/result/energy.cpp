@@ -85,8 +85,7 @@ void EnergyAccount::remember(double t, const Power& power) {
 }
 
 // Integrates Newton's polynomial through the last step ends by Gauss's four-point rule, which is exact for it. Its last
-// term, the difference to a polynomial with one point less, is an upper bound of the error; the sum over the run meets the
-// tolerance.
+// term, the difference to a polynomial with one point less, bounds the error. Over the run it may sum to the tolerance.
 std::optional<EnergyAccount::Power> EnergyAccount::from_past(double a, double b) const {
   if (known_ < remembered || adaptive_ || solved_between_steps()) return {};
   constexpr std::size_t points = 4;

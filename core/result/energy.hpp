@@ -39,7 +39,7 @@ class EnergyAccount {
   Power power_at_end(const Integrator& integrator);
   Power power(const Integrator& integrator, double t);
   void remember(double t, const Power& power);
-  /// The integral over a step from the powers at step ends; absent if these are too few or not smooth enough.
+  /// The integral over a step from the powers at step ends; absent if they are too few or not smooth enough.
   std::optional<Power> from_past(double a, double b) const;
   Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
 

@@ -164,8 +164,7 @@ class SideBySide {
     csv.flush();
   }
 
-  /// Writes the events in the order of time, up to the first failure. An event of a motion that several excerpts share is
-  /// written once.
+  /// Writes the events sorted by time, up to the first failure. An event that several excerpts report is written once.
   void write_events(const Outcome* failed) const {
     if (!settings_.events) return;
     std::vector<std::pair<double, std::string>> lines;

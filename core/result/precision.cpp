@@ -101,7 +101,7 @@ class Pricing {
       const auto as_asked = record_errors(scene_, course, truth_, asked);
       result.meets = true;
       for (std::size_t k = 0; k < as_asked.size(); ++k) {
-        // An error below the doubt of the reference counts as large as the doubt: their sum must meet the accuracy.
+        // The uncertainty of the reference counts as an additional error.
         if (as_asked[k].relative() + list_.doubt[k].relative() > scene_.accuracy) result.meets = false;
       }
       result.summary = std::move(course.summary);

@@ -48,7 +48,7 @@ struct PriceListSettings {
 /// The cost of accuracy in a scene.
 struct PriceList {
   Method reference, check;          ///< the reference run that measures errors, and the run that checks it
-  std::vector<RecordError> doubt;   ///< of each record, difference of these two; 0 for one with a closed form
+  std::vector<RecordError> doubt;   ///< uncertainty: of each record, difference of these two; 0 with a closed form
   std::vector<RecordError> off;     ///< of each closed form in the scene, deviation of the reference from it
   std::vector<Price> prices;        ///< by manner in the given order, then from the loosest tolerance to the tightest
   std::vector<std::string> manners; ///< their names

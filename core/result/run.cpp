@@ -53,7 +53,7 @@ class Recorder final : public Observer {
 
   void begin(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp,
              double heat) override {
-    // The first call: the scene can be simulated.
+    // Write the headers only now that the scene is known to start.
     if (unknowns_ < 0) {
       csv_.header(names_);
       events_.header({"element", "event", "direction"});
@@ -167,7 +167,7 @@ class Recorder final : public Observer {
 
   static double rate(const Integrator& integrator) { return 1 / (integrator.time() - integrator.previous_time()); }
 
-  /// The records at steps are needed.
+  /// Whether anything needs the records at steps.
   bool between_rows() const { return scene_.output_events || state_; }
   void follow(double t, const std::vector<double>& values) {
     if (scene_.output_events) before_ = values;

@@ -15,8 +15,7 @@ using Instants = std::vector<Yardstick::Instant>;
 
 // A jump explains a distance up to this multiple of its size, because the record may have moved on after it.
 constexpr double explained = 2;
-// Round-off of a record, in units of the last place of the largest record with its unit: it may be a difference of such
-// values.
+// Round-off of a record, in units of the last place of the largest one with its unit: it may be a difference of two such.
 constexpr double record_grains = 16;
 // An interval shorter than this share of the intervals before and after it is treated as a jump.
 constexpr double share_of_stretches = 1e-2;
@@ -112,7 +111,7 @@ void visit_common(const Course& a, const Course& b, Visit visit) {
   }
 }
 
-/// Of each record, the largest value of any record with its unit.
+/// The largest value of any record with the same unit, for each record.
 std::vector<double> largest_of_kind(const Scene& scene, const std::vector<double>& largest) {
   std::map<std::string, double> of_unit;
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
