@@ -12,50 +12,50 @@
 
 namespace rheonet {
 
-/// The blocks of a network at work: from what is known at an instant (functions of time, states, what sensors tell, the
-/// past) to what each block puts out.
+/// The blocks of a network in operation: computes the output of each block from the functions of time, the states, the sensor
+/// values and the past.
 ///
-/// A limiter goes over from one side of its bounds to the other at events; in between it stays on its side, beyond the
-/// bound too, so that what it puts out is smooth.
+/// At an event a limiter switches between following its input and holding a bound. Between events it keeps its side, beyond the
+/// bound too, so that its output stays smooth.
 class BlockSignals {
  public:
-  /// `classified` says which nodes have a velocity or position of their own, whatever the modes. Throws SimulationError
-  /// where a force would follow from itself at one instant.
+  /// `classified` says which nodes have a velocity or position of their own in every mode. Throws SimulationError if a force
+  /// would depend on itself at the same time (an algebraic loop).
   BlockSignals(const Network& network, const Structure& classified);
 
   bool any() const { return !blocks_->blocks.empty(); }
   const Blocks& blocks() const { return *blocks_; }
 
   // --- The past.
-  /// Delays of blocks [s], and how far back the longest way through several of them reaches [s].
+  /// Delays of the blocks [s], and the largest sum of delays in series, which is how far back the past is needed [s].
   const std::vector<double>& delays() const { return delays_; }
   double reach() const { return reach_; }
   std::size_t channels() const { return channel_count_; }
-  /// What the channels of the past hold now, where nodes have these velocities [m/s] and accelerations [m/s^2], the latter
-  /// as far as masses have them.
+  /// Present values of the channels of the past, given the velocities [m/s] and accelerations [m/s^2] of the nodes. Only the
+  /// accelerations of masses are used.
   const std::vector<Past::Known>& remembered(const std::vector<double>& velocity, const std::vector<double>& acceleration);
-  /// The longest step [s]: no delay is shorter that takes in what moves freely and that a prescribed motion follows from,
-  /// as its acceleration must be known beforehand; nor one that takes in what no mass keeps from jumping.
+  /// Longest step of the integrator [s]. Delays of blocks that drive a prescribed motion by more than time limit it, as they
+  /// must know the acceleration beforehand. So does a share of each delay whose input can jump for want of a mass.
   double longest_step() const { return longest_step_; }
 
   // --- Functions of time.
-  /// Generators go over to the stretches that begin at t. Returns when the next of them ends [s].
+  /// Generators switch to the pieces of their signals that begin at t. Returns the end of the piece that ends first [s].
   TimePoint enter(TimePoint t);
-  /// A prescribed motion goes along `piece` from t on: its velocity, or position; `position` is where it is then [m].
+  /// From t on a prescribed motion follows `piece`: its position or its velocity. `position` is where it is at t [m].
   void follow(int motion, double t, const Piece& piece, bool by_position, double position);
   struct Generator { int element; const Signal* signal; const Piece* piece; };
   std::vector<Generator> generators() const;
-  /// What generators and delays put out at t, and what sensors tell of prescribed motions, with rates.
+  /// Evaluates the outputs of generators and delays at t, and the sensor values of prescribed motions, with rates.
   void evaluate_time(TimePoint t, const Past& past);
-  /// What delays shorter than the time since the last step put out follows from the present too: anew, with the states
-  /// and what sensors tell now. After `evaluate_time`, with the same `past`.
+  /// Evaluates anew the delays shorter than the time since the last step, whose outputs depend on the present states and sensor
+  /// values too. Call after `evaluate_time`, with the same `past`.
   void look_back(const Past& past);
 
-  /// Whether a delay puts out something else just after t than just before, of functions of time alone: these nothing
-  /// smoothes on their way.
+  /// Whether the output of a delay, or its rate, is discontinuous at t. Considers delays of functions of time alone: no state
+  /// smooths such a discontinuity on its way.
   bool breaks(double t, const Past& past) const;
 
-  // --- The rest of what is known, with rates.
+  // --- States and sensor values, with rates.
   std::vector<Dual> state;   ///< of each block with a state, in the order of the blocks
   std::vector<Dual> sensed;  ///< of each sensor
   int state_of(int block) const { return state_of_[at(block)]; }
@@ -63,21 +63,21 @@ class BlockSignals {
   int block_of_state(std::size_t state) const { return state_blocks_[state]; }
   double initial(std::size_t k) const { return blocks_->blocks[at(state_blocks_[k])].law.initial; }
 
-  /// All outputs. With `sides` limiters stay on the side that they are on; else they limit.
+  /// Evaluates all outputs. With `sides` each limiter keeps its side; otherwise it limits its input.
   void run(bool sides);
   Dual out(int block) const { return out_[at(block)]; }
   /// Rate of a state [unit/s].
   double rate(std::size_t k) const;
 
-  // --- Derivatives of outputs and of rates of states by states and sensors: numbers of states first, then of sensors.
+  // --- Derivatives of outputs and of rates of states by atoms: the states first, then the sensor values.
   std::size_t atoms() const { return state.size() + sensed.size(); }
   double slope(int block, std::size_t atom) const { return slope_[at(block) * atoms() + atom]; }
   double rate_slope(std::size_t k, std::size_t atom) const { return rate_slope_[k * atoms() + atom]; }
-  /// Brings them up to date with what delays look back to in `past`.
+  /// Recomputes them if the derivatives of delayed outputs by the present atoms have changed.
   void update_slopes(const Past& past);
-  /// Whether an output can depend on an atom at all, at the same instant.
+  /// Whether an output can depend on an atom at the same time.
   bool depends(int block, std::size_t atom) const { return depends_[at(block) * atoms() + atom] != 0; }
-  /// The same of an output, or of the rate of a state, through delays shorter than a step as well.
+  /// The same for an output, or for the rate of a state, through delays shorter than a step as well.
   bool couples(int block, std::size_t atom) const { return couples_[at(block) * atoms() + atom] != 0; }
   bool couples(int block) const {
     for (std::size_t atom = 0; atom < atoms(); ++atom) {
@@ -87,19 +87,19 @@ class BlockSignals {
   }
   bool rate_couples(std::size_t k, std::size_t atom) const { return rate_couples_[k * atoms() + atom] != 0; }
 
-  // --- Limiters. Each bound that is finite has an event.
+  // --- Limiters. Each finite bound has an event.
   struct Limit { int block; bool upper; };
   const std::vector<Limit>& limits() const { return limits_; }
-  /// Positive as long as the limiter stays on its side [unit of the output].
+  /// Guard: positive while the limiter keeps its side [unit of the output].
   double event_function(std::size_t limit) const;
-  /// These limits have been reached or left: the limiters go over, whatever rounding says.
+  /// The guards of these limits have fired: the next `choose` switches these limiters, whatever round-off says of their inputs.
   void fire(const std::vector<int>& limits);
-  /// Limiters go to the sides that their inputs are on now, after `run(false)`.
+  /// After `run(false)`: each limiter takes the side on which its input is now, except for those that have fired.
   void choose();
   int side(int block) const { return side_[at(block)]; }
 
-  /// States that stay as they are under the generators as they are. Throws SimulationError where there are none, or where
-  /// they depend on how the network moves.
+  /// Sets the states to their equilibrium under the present outputs of the generators. Throws SimulationError if there is none,
+  /// or if it depends on how the network moves.
   void settle();
 
  private:
@@ -119,12 +119,12 @@ class BlockSignals {
   void find_longest_step(const Network& network, const Structure& classified);
   Dual input(const Blocks::Block& block) const;
   Dual limited(const Blocks::Block& block, Dual v) const;
-  /// A look back from `now` [s]. Derivatives are by time or, if it is not -1, by an atom as it is now.
+  /// Evaluation of the past as seen from `now` [s]. Derivatives are by time or, unless it is -1, by the atom as it is now.
   struct Look {
     const Past& past;
     double now, aside;
     int atom = -1;
-    bool present = false;  ///< something that was found follows from the present
+    bool present = false;  ///< the value found depends on the present
     Dual seen(double value, double rate) const { return atom < 0 ? Dual(value, rate) : Dual(value); }
   };
   Dual earlier(int block, double t, Look& look) const;
@@ -137,13 +137,13 @@ class BlockSignals {
 
   const Network* network_;
   const Blocks* blocks_;
-  std::vector<char> heavy_;  ///< of each sensor: it tells the velocity of a mass
+  std::vector<char> heavy_;  ///< of each sensor: it measures the velocity of a mass
   std::vector<int> state_of_;      ///< of each block, -1
   std::vector<int> state_blocks_;
   std::vector<double> delays_;
   double reach_ = 0, longest_step_ = std::numeric_limits<double>::infinity();
-  std::vector<std::deque<Stretch>> generated_;  ///< of each block: the stretches of a generator, as far back as reach_
-  std::vector<std::deque<Stretch>> moved_;      ///< of each sensor: those of a prescribed motion
+  std::vector<std::deque<Stretch>> generated_;  ///< of each block: pieces of a generator's signal, as far back as reach_
+  std::vector<std::deque<Stretch>> moved_;      ///< of each sensor: pieces of a prescribed motion
   std::vector<int> state_channel_, sensor_channel_;
   std::size_t channel_count_ = 0;
   std::vector<Past::Known> remembered_;
@@ -154,11 +154,11 @@ class BlockSignals {
   std::vector<Fired> fired_;
   std::vector<double> slope_, rate_slope_, delay_slope_;
   std::vector<char> depends_, couples_, rate_couples_;
-  std::vector<char> present_;       ///< of each delay: it follows from the present too
+  std::vector<char> present_;       ///< of each block: a delay that depends on the present too
   struct Pair { std::size_t delay, atom; };
-  std::vector<Pair> pairs_;         ///< delays, and what they may follow from at present
-  double now_ = 0, aside_ = 0;      ///< the time of the last `evaluate_time`, and the side of it that was meant [s]
-  std::vector<double> before_run_;  ///< what each block has put out before the run, if that began in a steady state
+  std::vector<Pair> pairs_;         ///< delays, and the atoms that they may depend on at present
+  double now_ = 0, aside_ = 0;      ///< time of the last `evaluate_time`, and offset to the side of it that was meant [s]
+  std::vector<double> before_run_;  ///< output of each block before the run, if that began in a steady state
 };
 
 }  // namespace rheonet

@@ -7,33 +7,32 @@
 
 namespace rheonet {
 
-/// What is to be known of a state before an integrator may start from it: values that satisfy every algebraic equation, and
-/// their derivatives.
+/// Consistent states, from which an integrator may start: values that satisfy every algebraic equation, and their derivatives.
 class Consistency {
  public:
   explicit Consistency(Dae& dae);
 
-  /// Solves the algebraic equations; integrals keep their values. Throws SimulationError.
+  /// Solves the algebraic equations; the integrals of the differential ones keep their values. Throws SimulationError.
   void project(double t, std::vector<double>& y);
 
-  /// Brings a state between two steps of the integrator, which is exact to its tolerance only, onto the equations:
-  /// F(t, y, y') = 0 with y' changed by `rate` times the change of y (the inverse of the step). What a steep law makes of
-  /// a velocity within the tolerance would else be no force at all.
-  /// Returns the last change, as a share of the unknown that changed most: more than rounding where it did not get there.
+  /// Moves a state between two steps, which the integrator interpolates to its tolerance only, onto the equations: F(t, y, y')
+  /// = 0, where y' changes by `rate` (the inverse of the step) times the change of y. Without this the force of a steep law
+  /// would be meaningless at a velocity that is exact to the tolerance only. Returns the last relative change of the unknown
+  /// that changed most: above round-off if the iteration did not converge.
   double collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp);
 
   /// y' of every unknown, algebraic ones too, from the equations and their derivatives in time. Throws SimulationError.
   void derivative(double t, const std::vector<double>& y, std::vector<double>& yp);
 
-  /// Second derivatives by a difference over `dt`.
+  /// Second derivatives by a difference quotient over `dt` [s].
   void second_derivative(double t, double dt, const std::vector<double>& y, const std::vector<double>& yp,
                          std::vector<double>& ypp);
 
-  /// Estimate of the fastest rate at which the network itself changes near a state, like omega of an oscillator or 1/T of
-  /// a lag [1/s]; 0 if nothing changes. What is 0 is judged by what it comes to `within` a time [s].
+  /// Estimate of the fastest rate at which the network itself changes near a state, like omega of an oscillator or 1/T of a lag
+  /// [1/s]; 0 if nothing changes. The scale of a quantity that is 0 now is its change `within` a time [s].
   double fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp);
 
-  /// Gives work space back until it is needed again: while the integrator is at work it is as much as that has itself.
+  /// Frees work space until it is needed again: it is as large as the integrator's own.
   void rest();
 
  private:

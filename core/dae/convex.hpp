@@ -12,55 +12,55 @@ namespace rheonet {
 ///
 ///     inertia_n u_n + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
 ///
-/// where u is the change of x from what it starts from. That is the minimum of a convex function, found by Newton's method
-/// on an active set with exact line search. A branch whose law jumps at 0 joins its ends while its force stays within the
-/// jump. The change of a heavy node may be far below the rounding of x, and its force not below that of others: so they are
-/// kept apart. The same holds for w = x_a - x_b of a branch: steps add to it, so that a small w keeps all its digits. x stands for
-/// velocities, or for displacements: see instant.cpp and jump.cpp.
+/// where u is the change of x from its start value. This x minimises a convex function; Newton's method on an active set, with
+/// exact line search, finds it. A branch whose law jumps at 0 sticks (joins its ends) while its force stays within the jump.
+/// Increments u are stored apart from x: the increment of a heavy node can be below one ulp of x while its inertial force still
+/// matters. Likewise steps add to w = x_a - x_b of a branch, so that a small w keeps all its digits. x is a velocity in
+/// onset.cpp, a displacement in jump.cpp.
 class ConvexNetwork {
  public:
   struct Law {
-    double low = 0, high = 0;          ///< force at w = 0 lies between them
+    double low = 0, high = 0;          ///< bounds of the force at w = 0
     double backward = 0, forward = 0;  ///< slopes for w < 0 and w > 0
-    double rounding = 0;               ///< what the force is known to
-    bool of_change = false;            ///< w is the change alone, not counted from 0
-    /// If given: force and slope for w != 0, in place of low + backward w and high + forward w.
+    double rounding = 0;               ///< a magnitude: the force is known to its round-off
+    bool of_change = false;            ///< w is counted from the start values, not from 0
+    /// If set: force and slope for w != 0, in place of low + backward w and high + forward w.
     std::function<double(double w, double& slope)> beyond = {};
   };
 
   explicit ConvexNetwork(int nodes);
-  /// What the node starts from: 0 unless said.
+  /// Start value of the node: 0 by default.
   void start(int node, double value) { origin_[at(node)] = base_[at(node)] = value; }
-  /// The change of the node is given.
+  /// Prescribes the change of the node.
   void fix(int node, double change);
   void load(int node, double applied) { applied_[at(node)] += applied; }
   void set_inertia(int node, double inertia) { inertia_[at(node)] = inertia; }
   /// Returns the index of the branch.
   int add(int a, int b, Law law);
-  /// A guess that only saves time: the branch, whose law jumps, had its ends apart before, to this side.
+  /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
   enum class Outcome {
     solved,
-    unbounded,  ///< nothing balances what is applied, however large x
-    undecided,  ///< rounding stands in the way
+    unbounded,  ///< no x balances the applied forces, however large
+    undecided,  ///< round-off prevents a decision
   };
   Outcome solve();
 
   double value(int node) const { return base_[at(node)] + u_[at(node)]; }
   double difference(int a, int b) const;
-  /// Of a branch, after `solve`.
+  /// Force of a branch, after `solve`.
   double force(int branch) const;
   struct Bounds { double low, high; };
-  /// Between which the force of a branch lies as long as it joins its ends.
+  /// Bounds of the force of a branch while it joins its ends.
   Bounds bounds(int branch) const { return {branches_[at(branch)].law.low, branches_[at(branch)].law.high}; }
-  /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound where others keep its ends together.
+  /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound if only others keep its ends together.
   int direction(int branch) const;
-  /// After `solve`: branches that join their ends hold these nodes together.
+  /// After `solve`: sticking branches join these nodes.
   bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
-  /// That `solve` took.
+  /// Iterations of the last `solve`.
   std::size_t rounds() const { return rounds_; }
-  /// Nodes that ran away, if the outcome is `unbounded`.
+  /// Nodes that run away, if the outcome is `unbounded`.
   const std::vector<int>& runaways() const { return runaways_; }
 
  private:
@@ -68,14 +68,14 @@ class ConvexNetwork {
     int a, b;
     Law law;
     bool jumps;           ///< low < high; never a law of the change
-    double weak = 0;      ///< slope that decides among equals, where there is no other
+    double weak = 0;      ///< regularising slope, where the law is flat: makes the answer unique
     double w = 0;         ///< argument of the law
     bool stuck = false;
-    bool apart = false;  ///< before the last step
-    int side = 1;  ///< where it is free and w is 0
+    bool apart = false;  ///< w != 0 before the last step
+    int side = 1;  ///< the bound at which the force is while the branch slips and w is 0
     int before = 0;  ///< see was_apart; 0: no guess
   };
-  /// As the nodes have it.
+  /// Argument of the law, from the values of the nodes.
   double nodal_difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }
@@ -99,17 +99,17 @@ class ConvexNetwork {
   double power() const;
   void find_bond_forces();
 
-  std::vector<double> origin_;    ///< what x starts from
-  std::vector<double> base_, u_;  ///< x = base + u; base is the origin of the node, or of the heavy one that it goes with
+  std::vector<double> origin_;    ///< start value of x
+  std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows
   std::vector<double> inertia_, applied_;
   std::vector<char> fixed_;
   std::vector<Branch> branches_;
-  std::vector<int> cluster_;  ///< of each node: the cluster that sticking branches make
+  std::vector<int> cluster_;  ///< of each node: its cluster, the nodes that sticking branches join
   std::vector<int> head_;     ///< of each cluster: its fixed or heaviest node
   std::vector<int> column_;   ///< of each cluster: its unknown, -1 if it holds a fixed node
   int columns_ = 0;
-  std::vector<int> released_;  ///< at the last release, the worst first
-  int full_steps_ = 0;  ///< in a row
+  std::vector<int> released_;  ///< branches of the last release, the worst first
+  int full_steps_ = 0;  ///< full Newton steps in a row
   std::size_t rounds_ = 0;
   std::vector<int> runaways_;
   std::vector<double> bond_force_;  ///< of each branch that sticks

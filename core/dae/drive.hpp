@@ -15,80 +15,80 @@
 
 namespace rheonet {
 
-/// Everything that is a given function of time: prescribed motions and applied forces, each on the smooth stretch of its
-/// signal that holds now. A force or velocity that a block gives follows from more than that: see `sense`.
+/// All given functions of time: prescribed motions and applied forces, each on the smooth piece of its signal that holds now. A
+/// force or velocity given by a block depends on more than time: see `sense`.
 class Drive {
  public:
   /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
   Drive(const Network& network, const Structure& classified, double start, const std::vector<double>& positions);
 
-  /// Goes over to the stretches that begin at t. The positions of velocity-driven nodes go on without a jump.
+  /// Selects the pieces of the signals that begin at t. The positions of velocity-driven nodes continue without a jump.
   void enter(double t);
-  /// The next instant at which a signal or one of its derivatives jumps, or such an instant comes through a delay; infinite
-  /// if none does.
+  /// Time of the next discontinuity of a signal or of one of its derivatives, or of its arrival through a delay [s]; infinite
+  /// if there is none.
   double next_break() const { return std::min(next_break_.t, past_.next_break()); }
-  /// The same without what comes through delays.
+  /// The same without arrivals through delays.
   double next_signal_break() const { return next_break_.t; }
-  /// `t` to all digits that are known of it, if it is the next break.
+  /// `t` to all known digits, if it is the next discontinuity.
   TimePoint exact_break(double t) const { return t == next_break_.t ? next_break_ : TimePoint(t); }
-  /// From here on its double stands for this time, until there is another one. Whether that changes anything.
+  /// From now on the double nearest to t stands for the exact time t. Returns whether that changes anything.
   bool refine(TimePoint t);
-  /// What a double stands for.
+  /// The exact time that a double stands for.
   TimePoint exact(double t) const { return t == exact_.t ? exact_ : TimePoint(t); }
-  /// What breaks at t = next_break(), to be asked before `enter`: whether the signal of this element itself jumps there or
-  /// only a derivative, and to which side it or its slope goes (0: neither).
+  /// The signals that are discontinuous at t = next_break(); call before `enter`. `jumps`: the signal itself jumps, not only a
+  /// derivative. `direction`: sign of the jump of the signal or of its slope (0: neither jumps).
   struct Break { int element; bool jumps; int direction; };
   std::vector<Break> breaks(double t) const;
-  /// Position steps at the last `enter` (at the start: from before the run), for each motion.
+  /// Steps of position at the last `enter` (at the start: from before the run), for each motion.
   const std::vector<double>& steps() const { return steps_; }
 
-  /// Evaluates all at time t (remembered: a second call at the same t costs nothing).
+  /// Evaluates everything at time t; a second call at the same t costs nothing.
   void evaluate(double t);
 
-  /// How far motion number `m` of the network goes from the last `enter` or `mark` until t, without steps [m]: to the digits of
-  /// that way, wherever it is by then.
+  /// Displacement of motion number `m` of the network from the last `enter` or `mark` until t, without steps [m]. Its round-off
+  /// is relative to this displacement, not to the position.
   double way(int m, double t) const;
 
-  /// Gives blocks the state of the network at t; limiters go to where that puts them. From there on `evaluate` looks ahead:
-  /// what is no function of time alone goes on at its present rate (velocities stay). Without blocks just `evaluate`.
+  /// Gives blocks the state of the network at t; limiters take the sides that fit it. Afterwards `evaluate` extrapolates states
+  /// and sensor values at their present rates (velocities stay). Without blocks just `evaluate`.
   void sense(double t, const State& state);
   BlockSignals& blocks() { return blocks_; }
   const BlockSignals& blocks() const { return blocks_; }
-  /// Forces, velocities and their rates from what the blocks put out now.
+  /// Takes the forces, the velocities and their rates from the present outputs of the blocks.
   void apply_blocks();
-  /// The state of blocks that do not change, for a start at t from rest or in steady motion.
+  /// Sets the blocks' states to their equilibrium, for a start at t from rest or in steady motion.
   void settle_blocks(double t, State& state);
-  /// What has been at t, for what comes later: after a break, and after each step, with blocks evaluated there.
+  /// Stores the present in the delay history: call after a discontinuity and after each step, with blocks evaluated at t.
   void remember(double t, const std::vector<double>& velocity, const std::vector<double>& acceleration) {
     past_.remember(t, velocity, blocks_.remembered(velocity, acceleration));
     time_ = std::numeric_limits<double>::quiet_NaN();
   }
-  /// What blocks put out that follows from the past and the present: see BlockSignals::look_back.
+  /// Outputs of delays that depend on the past and the present: see BlockSignals::look_back.
   void look_back() { blocks_.look_back(past_); }
 
-  /// What delayed branches feel. An event at t is a break of it too.
+  /// The delay history. `mark`: an event at t is a discontinuity of it too.
   Past& past() { return past_; }
   const Past& past() const { return past_; }
   void mark(double t) { mark(t, true); }
 
   // For each motion:
-  std::vector<double> position;  ///< of one that a block gives nothing is known here
-  std::vector<double> velocity, acceleration;  ///< as for forces: of what a block gives the rate may be partial
+  std::vector<double> position;  ///< undefined for a motion by a block
+  std::vector<double> velocity, acceleration;  ///< the acceleration by a block may be partial, as for forces
   // For each force:
-  std::vector<double> force, force_rate;  ///< of one that a block gives the rate is partial, at constant unknowns
-  // For each delayed branch of `past`: what it feels is `felt` and `felt_now` times the velocity that its free ends have now.
+  std::vector<double> force, force_rate;  ///< the rate of a force by a block is partial, at constant unknowns
+  // For each delayed branch of `past`: it feels `felt` plus `felt_now` times the present velocity of its free ends [m/s].
   std::vector<double> felt, felt_now;
 
-  /// The next instant after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its
-  /// sign (-1: ground); infinite if there is none. No crossing is missed, however short the time to the next one.
-  /// Remembered: asked again before that instant, with the same `limit`, it costs nothing.
+  /// First time after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its sign (-1:
+  /// ground) [s]; infinite if there is none. No crossing is missed, however close the next one is. The result is cached: a call
+  /// before that time, with the same `limit`, costs nothing.
   double next_reversal(int a, int b, double t, double limit);
 
-  /// About the largest force [N] and velocity [m/s] that the present stretches come to.
+  /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.
   struct Reach { double force = 0, velocity = 0; };
   Reach reach() const;
 
-  /// Largest angular frequency of the present stretches [rad/s]: 0 if nothing oscillates.
+  /// Largest angular frequency of the present pieces [rad/s]: 0 if nothing oscillates.
   double fastest() const;
 
  private:
@@ -108,7 +108,7 @@ class Drive {
   void sense_network(const State& state);
   const Network* network_;
   TimePoint sensed_at_;                  ///< s
-  std::vector<Dual> base_;               ///< states and what sensors told then, with their rates
+  std::vector<Dual> base_;               ///< states and sensor values at that time, with their rates
   struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
   Flow flow(int a, int b, double t, double limit) const;
   double search_reversal(int a, int b, double t, double limit, double grain) const;
@@ -116,7 +116,7 @@ class Drive {
 
   std::vector<Motion> motions_;
   std::vector<Force> forces_;
-  std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present stretches
+  std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present pieces
   std::vector<double> steps_;
   TimePoint next_break_;  ///< of the signals
   TimePoint exact_;       ///< see refine
@@ -124,7 +124,7 @@ class Drive {
   double stop_;            ///< of the run [s]
   bool moves_by_blocks_;
   BlockSignals blocks_;
-  Past past_;  ///< after blocks_, which says what it remembers
+  Past past_;  ///< after blocks_, which gives its channels
   double time_;
 };
 

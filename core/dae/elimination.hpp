@@ -16,11 +16,11 @@ class Elimination {
 
   /// Factorises the matrix with these values, in the order of the pattern. False if it is singular.
   [[nodiscard]] bool factorise(const std::vector<double>& values);
-  /// The right side of a row as it is eliminated: against the largest entry of the row.
+  /// The right side of a row as it is eliminated: divided by the largest entry of the row.
   double scaled(int row, double right) const;
   /// Solves A x = b with the matrix last factorised; x takes the place of b.
   void solve(std::vector<double>& b) const;
-  /// Gives the memory of large factors back until the next matrix.
+  /// Frees the memory of large factors until the next matrix.
   void release();
 
  private:

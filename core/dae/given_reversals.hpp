@@ -8,14 +8,14 @@
 
 namespace rheonet {
 
-/// Reversals of laws with a memory, and of sliders, between nodes that are both prescribed: known beforehand, so that no
-/// step can miss them.
+/// Reversals of laws with a memory, and of sliders, between two prescribed nodes: known beforehand, so that no step can miss
+/// them.
 class GivenReversals {
  public:
   /// `classified` is the network's structure with every slider slipping. The drive must outlive this.
   GivenReversals(const Network& network, const Structure& classified, Drive& drive);
 
-  /// The first after t [s]; infinite if there is none before `limit`.
+  /// Time of the first reversal after t [s]; infinite if there is none before `limit`.
   double next(double t, double limit) const;
 
  private:

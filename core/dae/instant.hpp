@@ -12,79 +12,79 @@
 
 namespace rheonet {
 
-/// What happens within one instant: steps of the drive, jumps of what has no inertia, and what begins to move, in which
-/// direction. Both questions are convex problems over all elements at once (see convex.hpp): no mode is guessed.
+/// Resolves an event: steps of the inputs, jumps of massless nodes, and mode selection (which elements begin to move, in which
+/// direction). Jumps and modes are convex problems over all elements at once (see convex.hpp): no mode is guessed.
 class Instant {
  public:
   /// `classified` is the network's structure with every slider slipping. All must outlive this.
   Instant(const Network& network, const Structure& classified, Drive& drive);
 
   struct Change {
-    double heat = 0;                 ///< turned into heat within the instant [J]
-    std::vector<std::string> notes;  ///< impulses
-    std::vector<Standing> standing;  ///< deflection branches that both directions hold at rest
+    double heat = 0;                 ///< turned into heat at the event [J]
+    std::vector<std::string> notes;  ///< messages on impulses
+    std::vector<Standing> standing;  ///< deflection branches in a Filippov sliding mode at rest
   };
-  /// What has come to an event.
+  /// Elements whose guards have fired.
   struct Fired {
     std::vector<int> sliders;
-    std::vector<int> starts;  ///< deflection branches that stood and begin to move in their law's direction
-    std::vector<int> turns;   ///< deflection branches that have stopped: they stand, or go on in their law's direction
-    std::vector<int> rests;   ///< deflection branches that stood beside a slider at its bound, which sticks now
+    std::vector<int> starts;  ///< deflection branches held at rest that begin to move in their law's direction
+    std::vector<int> turns;   ///< deflection branches that have stopped: they rest, or go on in their law's direction
+    std::vector<int> rests;   ///< deflection branches held at rest in parallel with a slider at its bound, which sticks now
   };
-  /// Takes the state over the instant t, just after Drive::enter if `stepped`, and finds the modes that hold from there on.
-  /// `force` are the forces of the sliders before, `fired` those whose event it is; `horizon` is a time until something is
-  /// known to happen. Throws SimulationError where nothing balances the forces.
+  /// Takes the state across the event at t, just after Drive::enter if `stepped`, and selects the modes that hold afterwards.
+  /// `force` holds the forces of the sliders before it, `fired` the elements whose guards fired, `horizon` the time to the next
+  /// known discontinuity [s]. Throws SimulationError if nothing balances the forces.
   Change cross(double t, double horizon, bool stepped, const Fired& fired, State& state, Modes& modes,
                std::vector<double>& force);
 
-  /// Throws SimulationError, with names and the time t, if the loads at `then` are more than the laws can take, whatever
-  /// moves.
+  /// Throws SimulationError, with names and the time t, if the loads at the later time `then` exceed the forces that the laws
+  /// can take, whatever moves.
   void check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const;
 
  private:
-  /// Of each node the forces on it: `rounding` is what that of velocities leaves of them [N].
+  /// For each node: the sum of the forces, the sum of their magnitudes, and their error due to the round-off of velocities [N].
   struct Nodal { std::vector<double> sum, magnitude, rounding; };
   double time_ahead(double t, double horizon, const State& state) const;
-  /// Where steps of positions take known and viscous nodes, and the momentum that they give to masses.
+  /// `dx`: steps of known and viscous nodes due to steps of positions. `position_steps` also gives masses their momentum.
   Structure take_along(double t, std::vector<double>& dx) const;
   void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes);
-  /// Of forces: what is out by more of them is no error of the integrator's steps.
+  /// An imbalance above this share of the forces is no error of the integrator's steps.
   static constexpr double largest_error = 1e-3;
-  /// The displacements within the instant, on the way to the balance of the forces under the drive last evaluated.
+  /// The displacements at the event until the forces balance under the inputs last evaluated.
   struct Jump {
     ConvexNetwork problem;
     ConvexNetwork::Outcome outcome;
     std::vector<int> slider_branch;  ///< of each slider; -1 for one that cannot move
   };
-  /// Nothing if there is nothing to balance. With `along` laws go on, or a little back, as they go at present.
+  /// Empty if everything balances. With `along` each law keeps the slope of its present direction on both sides.
   std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force, bool along = false) const;
-  /// Takes the state there; true if anything moved.
+  /// Applies the jump to the state; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
-  /// The same where no more than errors of the integrator's steps is out of balance: friction that gives way by them does
-  /// not turn. False if that does not balance.
+  /// The same if the imbalance is no more than an error of the integrator's steps: friction that gives way to it does not
+  /// reverse. Returns false if the forces do not balance that way.
   bool settle_errors(double t, State& state, std::vector<double>& force) const;
   double farthest(const Jump& jump) const;
-  /// How far a jump takes a node [m].
+  /// Displacement of a node in a jump [m].
   double moved(const Jump& jump, NodeId node) const { return jump.problem.value(slot(speaker(node))); }
-  /// Keeps up the positions.
+  /// Updates the positions.
   void displace(double t, const Jump& jump, State& state) const;
-  /// Whether there are any.
+  /// Applies the steps that arrive through delays; returns whether there are any.
   bool take_delayed_steps(double t, State& state, Change& change);
   [[noreturn]] void report_unbalanced(double t) const;
   [[noreturn]] void report_hidden_shares(double t) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   double given_velocity(NodeId node) const;
-  /// Throws SimulationError where rigid links join what moves at different velocities.
+  /// Throws SimulationError if rigid links join nodes that move at different velocities.
   void refuse_torn_links(double t) const;
   struct Parting { double t, of_a, of_b; };  ///< s, and velocities [m/s]
   std::optional<Parting> parting(double t, NodeId a, NodeId b) const;
   std::string moved_node(NodeId node, const std::string& how) const;
   [[noreturn]] void refuse_tearing_step(double t, NodeId first, NodeId node, double by) const;
-  /// The modes; returns the sliders that break away under a force above their own of sliding.
+  /// Selects the modes; returns the sliders that break away under a force above their sliding force.
   std::vector<int> onset(double t, double ahead, const Fired& fired, State& state, Modes& modes,
                          std::vector<double>& force, Change& change);
-  /// The convex problem that decides, and what it is made from.
+  /// The convex problem of mode selection, and its data.
   struct Onset;
   Onset look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
                    const Nodal& now);
@@ -98,16 +98,16 @@ class Instant {
   void add_sliders(Onset& onset) const;
   static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest);
-  /// Sliders that slip no way: what stands beside them takes up all that they cannot.
+  /// Sets sliders at their bound to slip at velocity 0 where friction in parallel takes the rest of the load. Returns them.
   std::vector<int> let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
                             const std::vector<int>& side, const std::vector<double>& at_rest, const Fired& fired,
                             Modes& modes, Change& change) const;
-  /// The nodes of a group move as one within an instant, its first speaks for all: its dashpots take no impulse.
+  /// The nodes of a group move as one at an event, as dashpots take no impulse: the first node represents them.
   NodeId speaker(NodeId node) const {
     const int g = structure_.group[static_cast<std::size_t>(node)];
     return g < 0 ? node : structure_.groups[static_cast<std::size_t>(g)].nodes.front();
   }
-  /// Within an instant nothing moves it against the other end.
+  /// At an event nothing moves these nodes against each other.
   bool carried(NodeId a, NodeId b) const {
     return a == b || (structure_.group[static_cast<std::size_t>(a)] < 0 && structure_.group[static_cast<std::size_t>(b)] < 0);
   }
@@ -117,14 +117,14 @@ class Instant {
   static bool relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i,
                                  double p);
   double delayed_slope(int branch, const State& state) const;
-  /// A branch that cannot stand has turned.
+  /// A branch that cannot be held at rest has reversed.
   bool reversed(const Fired& fired, int branch) const;
   void take_directions(const Onset& onset, const State& state, Change& change);
   bool same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const;
   std::vector<NodeId> given_in(Sets& sets) const;
   void keep_slipping(std::vector<double>& force);
   void take_back_excess(const Modes& modes, std::vector<double>& force);
-  /// What the slope of a law makes of its deflection [N]: its force is known to a rounding of this.
+  /// Slope of a law times its deflection [N]: its force has the round-off of this product.
   static double force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p);
   Nodal together(const Nodal& single) const;
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
@@ -140,18 +140,18 @@ class Instant {
   std::vector<double> pushes(const State& state) const;
   std::vector<char> pushed_away(const std::vector<double>& push, int side, double share) const;
   std::vector<char> carried(const std::vector<int>& runaways) const;
-  /// `runaways`: slots of nodes that a convex problem leaves without a bound; told where the loads do not tell better.
+  /// `runaways`: slots of nodes that a convex problem leaves without a bound; named only if the loads do not show the overload.
   [[noreturn]] void report_runaway(double t, const std::vector<int>& runaways, const State& state) const;
 
   const Network& network_;
   const Structure& structure_;
   Drive& drive_;
-  bool stepped_ = false;      ///< the forces of the sliders are those before a step of the drive
-  std::vector<char> broken_;           ///< of each slider: its bounds are those of sliding
-  std::vector<char> impulse_told_;     ///< of each element: that a step of a position gives it an impulse
-  std::vector<signed char> slipping_;  ///< the direction in which it slips already
-  std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this instant
-  std::vector<double> slack_;          ///< of each node: by so much its forces need not balance [N]
+  bool stepped_ = false;      ///< the forces of the sliders are those before a step of the inputs
+  std::vector<char> broken_;           ///< of each slider: its bounds are its sliding force
+  std::vector<char> impulse_told_;     ///< of each element: a message has reported its impulse at a step of position
+  std::vector<signed char> slipping_;  ///< of each slider: the direction in which it slips already
+  std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this event
+  std::vector<double> slack_;          ///< of each node: imbalance that is accepted [N]
 };
 
 }  // namespace rheonet

@@ -15,12 +15,12 @@ struct Pattern {
 /// Collects entries in any order, then numbers them by columns.
 class PatternBuilder {
  public:
-  /// A ticket for entry (row, column).
+  /// Reserves the entry (row, column) and returns its ticket.
   int ticket(int row, int column) {
     places_.push_back({row, column});
     return static_cast<int>(places_.size()) - 1;
   }
-  /// The pattern, and for each ticket its entry in it: tickets for the same place get the same one.
+  /// The pattern, and for each ticket its entry in it: tickets for the same place get the same entry.
   Pattern build(int size, std::vector<int>& entry_of_ticket) const;
 
  private:

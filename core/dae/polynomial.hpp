@@ -4,11 +4,11 @@
 
 namespace rheonet {
 
-/// How many points determine a step of the integrator: its order is 5 at most.
+/// Number of points that determine a step of the integrator: its order is at most 5.
 inline constexpr std::size_t step_points = 6;
 
-/// The value at x of the polynomial through `count` points (t[k], v[k]) at different t, by Newton's divided differences,
-/// which take the place of v. With Duals it comes with its derivative by what x and the points depend on.
+/// The value at x of the polynomial through `count` points (t[k], v[k]) at different t, by Newton's divided differences, which
+/// overwrite v. With Duals the result carries its derivative.
 template <class T>
 T interpolate(const T* t, T* v, std::size_t count, T x) {
   for (std::size_t order = 1; order < count; ++order) {

@@ -7,10 +7,10 @@
 
 namespace rheonet {
 
-/// How the position of a node is found. Either from that of its parent, through a deflection that is an unknown anyway,
-/// x = x_parent + sign (p + offset), or along a slider that sticks, by what has been between them since it does; or its
-/// distance from the parent is integrated, x = x_parent + y: that distance may be small where both move far. The parent of
-/// what is near nothing is ground.
+/// How the position of a node is found. It follows from the position of its parent through a deflection that is an unknown
+/// anyway, x = x_parent + sign (p + offset), or along a slider, by the displacement at which it sticks. Otherwise its distance
+/// from the parent is integrated, x = x_parent + y: that distance may be small where both move far. A node without neighbours
+/// has ground as its parent.
 struct Position {
   double sign = 1;
   int branch = -1, slider = -1;
@@ -24,7 +24,7 @@ struct Positions {
   std::vector<NodeId> order;        ///< those needed for positions, parents first
 };
 
-/// `needed[node]`: its position is asked for.
+/// `needed[node]`: its position is requested.
 Positions find_positions(const Network& network, const Structure& structure, const std::vector<char>& needed);
 
 }  // namespace rheonet

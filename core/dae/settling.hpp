@@ -15,16 +15,16 @@
 
 namespace rheonet {
 
-/// How `settle` goes about it. In steady motion each law is a function of velocity alone: springs are rigid, friction slides
-/// at its full force, what creeps has the force of its creep. The velocities are those of least dissipation, a convex
-/// problem; with their forces, what is left is how far springs and the friction that sticks give way, another one.
+/// Implementation of `settle`. In steady motion each law is a function of velocity alone: springs are rigid, friction slides at
+/// its full force, laws that creep have the force of their creep. The velocities are those of least dissipation, a convex
+/// problem. Their forces load a second convex problem, for the displacements of springs and of friction that sticks.
 class Settling {
  public:
   Settling(const Network& network, const Structure& classified, double t, Start& begin);
   SteadyStart go();
 
  private:
-  /// Forces that balance, and values that agree, but for this share of their magnitudes do so.
+  /// Forces balance, and values agree, if they differ by no more than this share of their magnitudes.
   static constexpr double rounding = 1e-12;
 
   struct Law {
@@ -55,7 +55,7 @@ class Settling {
     return std::abs(w) <= rounding * std::max(std::abs(va), std::abs(vb)) ? 0 : w;
   }
   int slot(NodeId node) const { return structure_.rank[at(node)]; }
-  /// Of the node that speaks for all that move with this one.
+  /// Slot of the node that represents all nodes that move with this one.
   int leader(NodeId node) const { return slot(leader_[at(node)]); }
   bool together(const Branch& b) const { return leader_[at(b.a)] == leader_[at(b.b)]; }
   bool held(NodeId node) const {
@@ -78,7 +78,7 @@ class Settling {
     }
   }
 
-  // steady.cpp: what is given, and what is said.
+  // steady.cpp: inputs and messages.
   void enter_drive();
   void refuse_stretching() const;
   [[noreturn]] void report_stretching(NodeId first, NodeId last, const std::vector<const Branch*>& from) const;
@@ -114,8 +114,8 @@ class Settling {
   std::vector<Law> laws_;         ///< one for each deflection branch
   std::vector<double> velocity_;  ///< of each node
   std::vector<double> load_, load_magnitude_;  ///< applied at each node
-  std::vector<NodeId> leader_;    ///< of each node: the one that speaks for all that move as it does
-  std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else gives one
+  std::vector<NodeId> leader_;    ///< of each node: the node that represents all that move with it
+  std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else determines it
   std::vector<char> broken_;      ///< of each slider: it has broken away
   std::vector<int> slip_;         ///< of each slider: its direction
   SteadyStart result_;

@@ -7,8 +7,8 @@
 namespace rheonet {
 
 /// Triangular factors of a sparse matrix. KLU, of T. A. Davis and E. Palamadai Natarajan, ACM Transactions on Mathematical
-/// Software 37 (2010) 36: it looks for blocks that can be solved one after the other, and of what is integrated each is one.
-/// Rows and columns should have been scaled: entries are compared to choose pivots.
+/// Software 37 (2010) 36: it finds blocks that can be solved one after the other; each integrated unknown is such a block. Rows
+/// and columns should have been scaled: entries are compared to choose pivots.
 class SparseFactors {
  public:
   /// The pattern must outlive this.
@@ -19,17 +19,17 @@ class SparseFactors {
 
   /// Chooses pivots for a matrix with these values, in the order of the pattern. False if it is singular.
   [[nodiscard]] bool factorise(double* values);
-  /// The same with the pivots that were chosen last. False if they do not serve.
+  /// Factorises with the pivots chosen last. False if they are unsuitable.
   [[nodiscard]] bool refactorise(double* values);
-  /// How much larger the coefficients of the matrix last factorised, of these values, have become.
+  /// Growth of the coefficients in the last factorisation, of a matrix with these values.
   double growth(double* values);
   /// Solves A x = b; x takes the place of b.
   void solve(double* b);
-  /// Gives the memory of the factors back, not the order of elimination.
+  /// Frees the memory of the factors, but keeps the order of elimination.
   void release();
 
  private:
-  // KLU does not change what these point to.
+  // KLU does not change these arrays.
   int* columns() const { return const_cast<int*>(pattern_.column_start.data()); }
   int* rows() const { return const_cast<int*>(pattern_.row.data()); }
 

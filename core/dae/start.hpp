@@ -9,23 +9,23 @@
 
 namespace rheonet {
 
-/// A network just before its run, and what drives it.
+/// A network just before its run, and its inputs.
 struct Start {
   State state;
   Drive drive;
-  std::vector<std::string> chosen;  ///< what was not given and does not follow from anything else
+  std::vector<std::string> chosen;  ///< values that were neither given nor implied, in words
 };
 
 /// From the start values of nodes and elements; `classified` is the structure with every slider slipping. Throws
-/// SimulationError for those that contradict each other.
+/// SimulationError if they contradict each other.
 Start start(const Network& network, const Structure& classified);
 
 struct StartWords {
-  std::vector<std::string> notes;   ///< given values that nothing could be made of
-  std::vector<std::string> chosen;  ///< as in Start, and where massless nodes have gone
+  std::vector<std::string> notes;   ///< given values that could not be used
+  std::vector<std::string> chosen;  ///< as in Start, and the positions of massless nodes
 };
 
-/// What there is to say of a start when its first instant is over; `velocity` are those of the nodes then.
+/// Messages on a start after its first event; `velocity` holds the velocities of the nodes then.
 StartWords describe_start(const Start& start, const Network& network, const Structure& classified,
                           const std::vector<double>& velocity);
 

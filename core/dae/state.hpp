@@ -4,24 +4,24 @@
 
 namespace rheonet {
 
-/// A deflection is rounded less often than a sum of forces is. Where a small force comes of a large deflection, so much of what
-/// the slope makes of that counts as a force that is rounded.
+/// Share of slope times deflection that counts as a force in estimates of round-off: a small force at a large deflection has
+/// the round-off of that product. Below 1, as a deflection is rounded less often than a sum of forces.
 constexpr double deflection_share = 0.1;
 
-/// Where a network is, whatever its modes: what goes from the equations of one mode to those of the next.
+/// The state of a network independent of its modes: it passes from the equations of one mode to those of the next.
 struct State {
-  std::vector<double> velocity;  ///< of each node [m/s]; of massless nodes a guess
+  std::vector<double> velocity;  ///< of each node [m/s]; a guess at massless nodes
   std::vector<double> p;         ///< deflection of each deflection branch [m]
-  std::vector<double> position;  ///< of each node [m]; kept up for those that are asked for
-  std::vector<double> blocks;    ///< the states of those blocks that have one [unit of the output]
+  std::vector<double> position;  ///< of each node [m]; updated where it is requested
+  std::vector<double> blocks;    ///< states of the blocks that have one [unit of the output]
   std::vector<double> offset;    ///< displacement less deflection of each deflection branch that does not creep [m]; changes at
                                  ///< reversals only
 };
 
-/// A deflection branch that both directions hold at rest.
+/// A deflection branch in a Filippov sliding mode: both directions hold it at rest.
 struct Standing {
   int branch;
-  int lean;  ///< side of the branch to which a slider beside it is at its bound: -1, 1, or 0 if there is none
+  int lean;  ///< side of the branch to which a slider in parallel is at its bound: -1, 1, or 0 if there is none
 };
 
 }  // namespace rheonet
