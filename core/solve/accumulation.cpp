@@ -11,19 +11,19 @@ namespace rheonet {
 
 namespace {
 
-// The tolerance of a step against the accuracy of the result where errors are forgotten: within the time that they take for
-// that they add up, and records are not the unknowns themselves.
+// Tolerance of a step over the accuracy of the result where errors are forgotten: they add up within the time of forgetting,
+// and recorded channels are not the unknowns themselves.
 constexpr double forgetful_share = 2e-3;
-// The same of a step over small kinks, of which the errors have either sign. (Of 1000 pairs on a mass at accuracy 1e-6 that
-// takes a tenth of the steps, with errors of 2e-7.)
+// The same for steps over small kinks, whose errors have either sign. (1000 pairs on a mass at accuracy 1e-6 take a tenth of
+// the steps, with errors of 2e-7.)
 constexpr double dense_forgetful_share = 6e-3;
-// Where they are not, each step adds up to so much of its tolerance. (IDA at order 5, 30 to 1000 cycles of an undamped
-// oscillator, free and at resonance: 0.05 at an accuracy of 1e-6, 0.5 at 1e-9.)
+// Where errors are not forgotten, each step adds this multiple of its tolerance to the global error. (IDA at order 5, 30 to
+// 1000 cycles of an undamped oscillator, free and at resonance: 0.05 at an accuracy of 1e-6, 0.5 at 1e-9.)
 constexpr double added = 1;
-// Where kinks are dense they make more steps, whose errors cancel. Those of the motion between add up: of about so many
-// steps from one turn of a velocity or an acceleration to the next, each to so much of its tolerance.
+// Dense kinks cause additional steps, whose errors cancel. The errors of the motion between kinks add up: about this many
+// steps from one sign change of a velocity or an acceleration to the next, each with this multiple of its tolerance.
 constexpr double dense_added = 0.15, steps_of_turn = 50;
-// A mass turns that comes to this share of its fastest speed the other way. What is slower shakes at rest.
+// A sign change counts once the value exceeds this share of its largest magnitude: a slower motion is jitter at rest.
 constexpr double of_any_size = 1e-3;
 
 }  // namespace
@@ -78,7 +78,7 @@ void Accumulation::follow(double t, const Dae::View& view) {
   if (!switches_) account(step, view);
 }
 
-/// Of energy: stored, and turned into heat.
+/// Updates the energy stored in each part, and how often it has been dissipated.
 void Accumulation::account(double step, const Dae::View& view) {
   std::fill(power_.begin(), power_.end(), 0.0);
   for (Part& part : parts_) part.stored = 0;
@@ -115,7 +115,7 @@ double Accumulation::remembered(const Part& part) const {
 double Accumulation::local_share() const {
   double share = 0;
   for (const Part& part : parts_) share = std::max(share, remembered(part));
-  // As many steps as it has taken so far it takes in the time to come.
+  // Steps are assumed to go on at the same rate: `share` scales the count so far to the run, or to the time of forgetting.
   return 1 / (1 / forgetful_share + added * share * static_cast<double>(steps_));
 }
 

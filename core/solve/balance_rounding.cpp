@@ -12,7 +12,7 @@ namespace rheonet {
 
 namespace {
 
-// Roundings of forces that balance (a sum of a few); of a deflection it is one.
+// Round-off of forces that balance, in ulps (a sum of a few terms); that of a deflection is one ulp.
 constexpr double sum_grains = 4;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -67,7 +67,8 @@ void BalanceRounding::find_forces(const Dae::View& view, const std::vector<doubl
 
 void BalanceRounding::find(const Dae::View& view, const std::vector<double>& slope) {
   find_forces(view, slope);
-  // Stiff ones first: what they join holds together as well as the softest on the way (a maximum spanning tree).
+  // Kruskal's maximum spanning tree, stiffest branches first: two places are held together by the softest branch on the path
+  // between them.
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](int i, int j) {
     return std::abs(slope[at(branches_[at(i)].branch)]) > std::abs(slope[at(branches_[at(j)].branch)]);
@@ -87,7 +88,7 @@ void BalanceRounding::find(const Dae::View& view, const std::vector<double>& slo
     by_[at(low)] = std::abs(slope[at(branches_[at(i)].branch)]);
   }
   for (const Held& h : branches_) {
-    // What stands still beside others does not go their way: its deflection is its own.
+    // A branch that is held at rest has a deflection of its own, whatever branches are in parallel with it.
     std::size_t i = 0;
     const bool stands = network_->batch_of(h.branch, i).holds(i);
     const double held = stands ? std::abs(slope[at(h.branch)]) : held_together(h.a, h.b);
@@ -96,11 +97,11 @@ void BalanceRounding::find(const Dae::View& view, const std::vector<double>& slo
   }
 }
 
-/// The least slope on the way from one to the other. Trees were joined at ever smaller slopes: it is the last one met.
+/// Returns the least slope on the path from a to b [N/m]. Subtrees were joined by decreasing slope.
 double BalanceRounding::held_together(int a, int b) const {
   double least = std::numeric_limits<double>::infinity();
   while (a != b) {
-    // The smaller tree is farther down.
+    // The smaller subtree is lower.
     int& lower = size_[at(a)] <= size_[at(b)] && up_[at(a)] != a ? a : b;
     least = std::min(least, by_[at(lower)]);
     lower = up_[at(lower)];

@@ -7,9 +7,9 @@ namespace rheonet {
 namespace {
 
 struct Node {
-  int open = 0;                      ///< forces there that are not found yet
-  bool any = false;                  ///< its balance tells nothing
-  std::vector<std::size_t> forces;   ///< all that have to be found
+  int open = 0;                      ///< number of its forces that are not determined yet
+  bool any = false;                  ///< its balance determines no force
+  std::vector<std::size_t> forces;   ///< all its forces that have to be determined
 };
 
 }  // namespace
@@ -20,7 +20,7 @@ void BalancedForces::attach(const Structure& structure, std::vector<Branch> forc
   at_node_.resize(structure.kind.size());
   noise_.resize(forces_.size());
   std::vector<Node> nodes(structure.kind.size());
-  // A momentum, or what moves as it is told to, takes any force.
+  // A mass or a prescribed motion balances any force.
   for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].any = structure.kind[n] == Kind::known || structure.mass[n] > 0;
   std::vector<char> found(forces_.size(), 0);
   for (std::size_t k = 0; k < forces_.size(); ++k) {

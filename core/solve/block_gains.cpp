@@ -32,7 +32,7 @@ BlockGains::BlockGains(const Network& network) : blocks_(network.blocks) {
   for (const int block : recorded_blocks(network)) gains_[block] = {};
 }
 
-/// Goes from the output back to sensors and states. Passes a loop through delays once.
+/// Propagates the derivative from the output back to sensors and states. A loop through delays is followed once.
 BlockGains::Derivatives BlockGains::derivatives_of(int output) const {
   const std::size_t count = blocks_.blocks.size();
   Derivatives result{std::vector<double>(count, 0), std::vector<double>(blocks_.sensors.size(), 0)};

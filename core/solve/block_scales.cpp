@@ -9,17 +9,18 @@ namespace rheonet {
 
 namespace {
 
-// Smallest share of its own size to which a quantity is resolved for the output of a block: an output that has just begun may still
-// grow. (A servo with a gain of 40 needs 0.05.)
+// Least share of its own magnitude to which a quantity is resolved for the output of a block: an output that is still small
+// may grow. (A servo with a gain of 40 needs 0.05.)
 constexpr double least_for_output = 1e-2;
-// And no smaller than so many of its roundings.
+// The same in units of its round-off.
 constexpr double output_grains = 64;
 
 }  // namespace
 
-/// Scales from blocks. A gain makes a large error of the output from a small error of its input: a recorded output allows each
-/// quantity that it follows from an equal part of its own error. A force that follows from a position allows its error over the
-/// slope: a stop in the way of a far-travelling mass deflects little. At contact, a mass brings along a force v sqrt(k m).
+/// Scales from blocks. A gain turns a small error of its input into a large error of its output: each quantity that a
+/// recorded output depends on gets an equal share of the error allowed in the output. A position that a force depends on may
+/// be off by the allowed error of the force over its slope: a stop in the way of a far-travelling mass deflects little. A
+/// mass that reaches the stop at speed v causes a force v sqrt(k m).
 void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < sorts; ++k) block_scale_[k].assign(seen_[k].size(), std::numeric_limits<double>::infinity());
@@ -28,7 +29,7 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
     block_output_seen_[b] = std::max(block_output_seen_[b], std::abs(dae_->output(static_cast<int>(b))));
   }
   block_gains_.for_each([&](int block, BlockGains::Of of, int index, double gain, double together) {
-    // Each quantity in turn takes up the errors of all of them.
+    // Divided by `together` twice: the error of each quantity also contains the errors of the others.
     const double allowed = block_output_seen_[at(block)] / (together * together * gain);
     const bool state = of == BlockGains::Of::state;
     const auto sort = static_cast<std::size_t>(state ? Sort::block : of == BlockGains::Of::position ? Sort::position : Sort::velocity);

@@ -17,13 +17,13 @@ namespace rheonet {
 
 namespace {
 
-// Rounding of a force that is compared with its bound.
+// Round-off of a force relative to its bound.
 constexpr double force_rounding = 1e-12;
-// A slider slips against its own force by no more than this share of the largest velocity: more is no rounding.
+// A slider may slip against its own force at this share of the largest velocity: more is no round-off.
 constexpr double slip_rounding = 1e-2;
-// Of friction at rest.
+// Largest number of events of a law that is held at rest.
 constexpr std::size_t most_events = 8;
-// A velocity of so many times its noise is resolved.
+// A velocity of this many times its dead band is resolved.
 constexpr double noises_resolved = 1e3;
 
 }  // namespace
@@ -47,7 +47,7 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
   law_margin_.assign(events_.size(), 0);
   margin_.assign(structure.sliders.size(), 0);
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
-    // What slips within a cluster is held at its bound by the others: it has no event of its own.
+    // A slipping slider whose ends other sliders hold together stays at its bound: it has no event of its own.
     const Branch& b = structure.sliders[k];
     if (!structure.stuck[k] && b.a == b.b) continue;
     rates_needed_ = rates_needed_ || floating(b);
@@ -81,8 +81,8 @@ void NetworkEvents::find_pseudoplastic() {
   }
 }
 
-// Beside a pseudoplastic dashpot what is left of a velocity at the end of its margin still goes with a force that is felt.
-// There it is the force that tells of a velocity below what is resolved, and a margin of force that is left.
+// In parallel with a pseudoplastic dashpot, a velocity within the dead band still causes a considerable force. There the
+// velocity is expressed by the dashpot's force, and the dead band by the noise of that force.
 NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& view) const {
   const Flow plain{view.flow[at(law.branch)], tolerances_.noise(law.branch)};
   if (law.beside < 0) return plain;
@@ -102,7 +102,7 @@ int NetworkEvents::element(std::size_t k) const {
   return network.deflections[at(branch)].element;
 }
 
-// Never exactly 0: from there a function would not be seen to fall.
+// Never exactly 0: a guard that begins at 0 would not be seen to fall.
 double NetworkEvents::limit_function(std::size_t k) const {
   return dae_.drive().blocks().event_function(k) + limit_margin_[k] + std::numeric_limits<double>::min();
 }
@@ -111,14 +111,15 @@ double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) cons
   return k < sliders_.size() ? slider_function(sliders_[k], view) : limit_function(k - sliders_.size());
 }
 
-/// Nothing holds together what blocks move: it slips as soon as they move it apart.
+/// True for a sticking slider between prescribed motions of which a block gives at least one: it slips as soon as they move
+/// its ends apart.
 bool NetworkEvents::moved_apart(int k) const {
   const Structure& structure = dae_.structure();
   const Branch& ends = structure.sliders[at(k)];
   return ends.a != ends.b && !(structure.of_time[at(ends.a)] && structure.of_time[at(ends.b)]);
 }
 
-/// Of a slider that sticks.
+/// Dead band of the guard of a sticking slider [N].
 double NetworkEvents::force_band(int k) const {
   return dae_.network().sliders[at(k)].law.breakaway * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
 }
@@ -158,10 +159,10 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
     const Dae::View& view = dae_.view(t, y, yp);
     for (Slipping& one : slipping_) one.slope = slope(one, view);
   }
-  // Never exactly 0, as of limits.
+  // Never exactly 0, as for limits.
   const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) + std::numeric_limits<double>::min() : 0; };
-  // Where an instant and the equations see it a little differently an event is due when there is more of it: else it would be
-  // back at once.
+  // Mode selection and the equations may differ slightly: re-arm the guard at twice its current violation, so that it does
+  // not fire again at once.
   const auto more = [&](double g) { return 2 * margin(g); };
   for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = more(at_begin_[k]);
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
@@ -193,7 +194,7 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
                                               const std::vector<int>& stopped) {
   const Structure& structure = dae_.structure();
   const Dae::View& view = resolved(t, y.data(), yp.data());
-  std::vector<double> change(structure.kind.size(), 0);  // of the velocity of each node, as what is left of others' is taken away
+  std::vector<double> change(structure.kind.size(), 0);  // of the velocity of each node, as residual slip stops
   const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || change[at(n)] != 0; };
   const auto stop = [&](int k, double velocity) {
     const Branch& b = structure.sliders[at(k)];
@@ -245,7 +246,7 @@ double NetworkEvents::held_function(const Held& held, const Dae::View& view) con
   return g[at(held.which)] + law_margin_[held.event];
 }
 
-/// What friction at rest may come to.
+/// Collects the events of the laws that are held at rest.
 void NetworkEvents::find_held() {
   held_.clear();
   std::size_t event = 0;
@@ -264,7 +265,7 @@ void NetworkEvents::look_at_step(const Integrator& integrator, double a, double 
     integrator.interpolate(t, 1, step_yp_);
     all_at(seen_between(t, step_y_.data(), step_yp_.data()), g);
   };
-  // Where the step before this one ended it has been looked.
+  // The guards at the end of the previous step are known.
   if (right_time_ == a)
     left_.swap(right_);
   else
@@ -283,7 +284,8 @@ double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
   return modes_.slider[at(one.slider)] * (view.acceleration[at(b.a)] - view.acceleration[at(b.b)]);
 }
 
-/// What slips may all but come to rest, or just do so, and be pulled on.
+/// Finds the slipping sliders whose speed had a minimum within the step: each may almost stop, or stop and move on. True if
+/// any.
 bool NetworkEvents::any_dips(const Dae::View& end) {
   bool any = false;
   for (Slipping& one : slipping_) {
@@ -297,7 +299,7 @@ bool NetworkEvents::any_dips(const Dae::View& end) {
 
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator, const Dae::View& end) {
   constexpr int refinements = 4;
-  constexpr double near = 0.1;  // a parabola tells where the least value is, not how little
+  constexpr double near = 0.1;  // a parabola gives the place of the minimum, but hardly its value
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
   if (!(b > a)) return first;
@@ -312,7 +314,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
     double gl = left_[i], gm = middle_[i], gr = right_[i];
     const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});
     for (int n = 0; n < refinements && gm > 0; ++n) {
-      // The vertex of the parabola through the three.
+      // The vertex of the parabola through the three points.
       const double p = (middle - left) * (gm - gr), q = (middle - right) * (gm - gl);
       const double least = middle - ((middle - left) * p - (middle - right) * q) / (2 * (p - q));
       if (!(least > left && least < right) || least == middle || std::min({gl, gm, gr}) > near * (1 + n) * steep + gm / 2) break;
@@ -336,17 +338,17 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
   return first;
 }
 
-/// The state as the events see it.
+/// The view in which guards are evaluated.
 const Dae::View& NetworkEvents::resolved(double t, const double* y, const double* yp) {
-  // Between floating nodes a velocity is a derivative. The integrator's polynomial gives it only to the accuracy of the
-  // run, and an event that it finds might be none by the equations: chattering. So it is taken from the equations.
-  // The same of a velocity that goes like a power of time: no polynomial follows it. And friction at rest may be as near to
-  // moving as a rate changes in a step: of its first steps the polynomial knows no more than one rate.
+  // A velocity between floating nodes is a derivative of deflections. The integrator's polynomial gives it to the accuracy of
+  // the run only: an event located with it might not be one by the equations, which would cause chattering. So the equations
+  // give y'. No polynomial follows a velocity that grows like a power of time. A law held at rest may be so near its guard
+  // that a change of rates within one step matters, and a polynomial of order 1, as after a restart, has constant rates.
   const bool between_steps = dae_.rough() || dae_.follows_time();
   if (!rates_needed_ && held_.empty() && !(between_steps && !events_.empty())) return dae_.view(t, y, yp);
   try {
     return resolved(t, y, between_steps);
-  } catch (const SimulationError&) {  // the step itself will tell
+  } catch (const SimulationError&) {  // the step itself reports the error
     return dae_.view(t, y, yp);
   }
 }

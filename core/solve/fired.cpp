@@ -10,11 +10,11 @@ namespace rheonet {
 
 namespace {
 
-// What moves back at this share of the speed of what has just turned has turned too.
+// A branch has reversed too if its speed is at least this share of the slowest reversed branch's.
 constexpr double as_surely = 0.5;
 
-/// What may be kept together with a branch by what rests between them: the event of the first must not leave the others
-/// behind. Those not among the fired that move against their direction as fast as the slowest of what has turned.
+/// Branches that did not fire, but move against their direction about as fast as the slowest branch that fired. Friction at
+/// rest may hold such branches together: they reverse at the same event.
 std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents::Turned>& all, const std::vector<int>& switched,
                                                  const Instant::Fired& fired) {
   double speed = std::numeric_limits<double>::infinity();
@@ -28,13 +28,13 @@ std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents
   return along;
 }
 
-/// Which events there are at t: those that the integrator has found, and those of laws that would follow within the rounding
-/// of time. Of two laws in series that come to equal bounds at once the second would never come to its own.
+/// Flags the events at t: those that the integrator has located, and those of laws that follow within the round-off of time.
+/// Without the latter, if two laws in series reach equal bounds at once, the second would never reach its event.
 std::vector<char> at_once(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
   const std::vector<int>& found = system.integrator.events();
   std::vector<char> result(found.size(), 0);
   for (std::size_t k = 0; k < found.size(); ++k) result[k] = found[k] != 0;
-  if (found.empty() || system.events[0].which < 0) return result;  // those of laws come first
+  if (found.empty() || system.events[0].which < 0) return result;  // the events of laws come first
   constexpr double end_of_step = 1e-2;
   const double begin = t - end_of_step * (t - system.integrator.previous_time());
   if (!(begin < t)) return result;
@@ -54,7 +54,7 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
 
 Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
   Dae& dae = system.dae;
-  // As the events saw it: what is switched changes the velocities.
+  // Before any memory is switched, because switching changes the velocities.
   const std::vector<NetworkEvents::Turned> turned = system.events.turned(t, y, yp);
   const std::vector<char> events = at_once(system, t, y, yp);
   const Dae::View& view = dae.view(t, y.data(), yp.data());
@@ -69,7 +69,7 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
       fired.elements.push_back(system.events.element(k));
       continue;
     }
-    // Events of one branch, or of several that let go of the same ends, come in one instant: one change answers them.
+    // Several events of one branch, or of branches released in parallel, may coincide: the memory is switched once.
     if (contains(switched, branch)) continue;
     std::size_t i = 0;
     DeflectionBatch& batch = dae.batch_of(branch, i);

@@ -31,7 +31,7 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
 double fastest_rate(const Dae& dae, Consistency& consistency, double t, double horizon, const Motion& motion, double ahead) {
   if (!dae.rough()) return consistency.fastest_rate(t, horizon, motion.y, motion.yp);
   std::vector<double> y = motion.y, yp(y.size());
-  // Where the drive starts from rest nothing has changed yet to first order.
+  // Inputs that start from rest have no effect to first order, hence the second order.
   for (std::size_t i = 0; i < y.size(); ++i) y[i] += ahead * (motion.yp[i] + ahead / 2 * motion.ypp[i]);
   try {
     consistency.project(t + ahead, y);
@@ -54,7 +54,7 @@ double first_step(const std::vector<double>& ypp, const std::vector<double>& tol
 }
 
 double remembered_angle(double accuracy) {
-  constexpr double share = 0.1, at_middle = 0.005;  // of six points: (5/2 3/2 1/2)^2/6!
+  constexpr double share = 0.1, at_middle = 0.005;  // error in the middle of six points: (5/2 3/2 1/2)^2/6!
   return std::pow(share * accuracy / at_middle, 1.0 / static_cast<double>(step_points));
 }
 

@@ -11,11 +11,11 @@ namespace rheonet {
 
 namespace {
 
-// So many failures of the integrator in a row: it will not get over them.
+// Failures of the integrator in a row after which the run ends.
 constexpr std::size_t enough_failures = 30;
-// So many steps at one place: within so many grains of time, a few units in the last place a step.
+// Steps near one time after which the run ends; near is within `standstill_grains` of the round-off of time.
 constexpr int enough_steps = 1000;
-// So many counts one after the other.
+// Counts of `enough` events in a row without a change, after which the run has no end.
 constexpr int enough_counts = 20;
 constexpr double standstill_grains = 64;
 

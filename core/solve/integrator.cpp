@@ -23,12 +23,12 @@ void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));
 }
 
-// What an iteration leaves may be this share of a step's allowed error. More of it, as by IDA's default, is noise in the
-// estimates of errors, and keeps the order low and steps short.
+// Error of Newton's iteration as a share of the step's allowed error. IDA's default is larger: it perturbs the error
+// estimates, and so keeps the order low and steps short.
 constexpr double iteration_share = 0.02;
 
-// A step is made longer where it may be so many times as long as the last. (IDA's default of 2 leaves steps at less than half
-// of what they may be; below 1.3 they change so often that the order does not rise.)
+// The step size grows only if it may grow by this factor. (IDA's default of 2 leaves steps at less than half of the possible
+// size; below 1.3 the size changes so often that the order does not rise.)
 constexpr double growth = 1.5;
 
 }  // namespace
@@ -41,25 +41,24 @@ struct Integrator::Implementation {
   std::vector<double> y, yp, work;
   N_Vector ny = nullptr, np = nullptr, nw = nullptr;
   Newton newton;
-  SUNNonlinearSolver solver = nullptr;  // how IDA comes to that
+  SUNNonlinearSolver solver = nullptr;  // IDA's interface to `newton`
   void* ida = nullptr;
-  /// IDA counts time from the last restart, so that steps and events are as exact as their distance from that, however late it is.
+  /// IDA counts time from the last restart, so that the round-off of steps and events is relative to the time since then.
   TimePoint begin, stop;
   double time = 0, previous = 0;  ///< from `begin` on [s]
-  /// IDA adds up the lengths of its steps, and rounds each sum. Where a step is a small part of the time that it has come to,
-  /// and one like the next, that goes astray by half a rounding of the time in every step. What has been lost is kept here,
-  /// and time is the sum of both [s].
+  /// IDA sums its step sizes with round-off. Many equal steps that are short against the time reached drift by up to half an
+  /// ulp of time each. `lost` is the sum of these errors, and true time is IDA's time plus `lost` [s].
   double lost = 0;
-  double lost_by_step = 0;  ///< with the step that is under way, once it has been attempted [s]
-  double reached = 0;       ///< by IDA's sum [s]
+  double lost_by_step = 0;  ///< `lost` including the attempted step [s]
+  double reached = 0;       ///< IDA's time at the end of the last step [s]
   std::vector<int> fired;
-  std::vector<double> left, between, right;  // event functions, at both ends of a step and within
-  std::vector<double> band;                  // of each that has fallen in the last step: see EventFunctions
+  std::vector<double> left, between, right;  // event functions at both ends of a step and within
+  std::vector<double> band;                  // dead band of each that fell in the last step: see EventFunctions
   bool locate = true;
-  Statistics past;  // of the stretches before the last restart
+  Statistics past;  // before the last restart
   bool started = false;
   long rejected = 0;    // error tests failed since the restart
-  int grown_back = 0;   // steps in a row whose length was tried larger, and went back
+  int grown_back = 0;   // steps in a row whose increase was rejected at order 1
 
   Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
                  const Options& options)
@@ -80,8 +79,9 @@ struct Integrator::Implementation {
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
     require(IDASetEtaFixedStepBounds(ida, 1, growth), "IDASetEtaFixedStepBounds");
     if (!dae.rough()) require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
-    // What follows from the others at every instant need not be followed by steps. (In IDA's error test it could keep the
-    // order at 1 for good: it magnifies the error of what is stiff, which goes with the step however short that is.)
+    // Algebraic unknowns follow from the other unknowns at any time, so they are left out of the error test. (There they
+    // could keep the order at 1 for good: they magnify the error of stiff components, which is proportional to any step
+    // size.)
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
     if (std::find(work.begin(), work.end(), 0.0) != work.end()) {
       require(IDASetId(ida, nw), "IDASetId");
@@ -109,14 +109,14 @@ struct Integrator::Implementation {
 
   static double* data(N_Vector v) { return NV_DATA_S(v); }
 
-  /// IDA wants a residual of its own; it comes to `newton` only.
+  /// IDA requires a residual, but only `newton` evaluates one.
   static int residual(double, N_Vector, N_Vector, N_Vector, void*) { return -1; }
 
   double length() const { return stop.since(begin); }
   TimePoint point(double since) const { return since == length() ? stop : begin + since; }
-  /// Time from `begin` to t, which may be rounded, within the last step [s].
+  /// Time from `begin` to t, clamped to the last step because t is rounded [s].
   double since_begin(double t) const { return std::clamp(TimePoint(t).since(begin), previous, time); }
-  /// Tells the equations which time the returned double stands for: they are evaluated there next.
+  /// Gives the equations the exact time that the returned double stands for, before they are evaluated there.
   double refine(double since) {
     const TimePoint t = point(since);
     dae.refine(t);
@@ -131,7 +131,7 @@ struct Integrator::Implementation {
     require(IDAGetNonlinearSystemData(self.ida, &t, &predicted_y, &predicted_yp, &y, &yp, &r, &cj, &user), "IDAGetNonlinearSystemData");
     self.see_loss(t);
     const Newton::Step step{self.refine(t + self.lost_by_step), cj, data(predicted_y), data(predicted_yp), data(y), data(yp)};
-    // Where it does not converge, or comes to a trial value out of a law's range, IDA tries a smaller step.
+    // If the iteration fails or leaves a law's range, IDA tries a smaller step.
     return self.newton.solve(step, data(correction), data(weight), enough) ? SUN_NLS_SUCCESS : SUN_NLS_CONV_RECVR;
   }
 
@@ -142,7 +142,7 @@ struct Integrator::Implementation {
     return 0;
   }
 
-  /// What the sum has lost with a step to `sum` (exactly: T. J. Dekker, Numerische Mathematik 18 (1971) 224).
+  /// Finds the round-off of IDA's time in a step to `sum` (exactly: T. J. Dekker, Numerische Mathematik 18 (1971) 224).
   void see_loss(double sum) {
     double length = 0;
     IDAGetCurrentStep(ida, &length);
@@ -156,9 +156,9 @@ struct Integrator::Implementation {
     require(IDASetStopTime(ida, length() - lost), "IDASetStopTime");
   }
 
-  /// After a step. IDA raises the order after a few steps of one length, and makes a step longer whose error is small.
-  /// Where the error of what is stiff goes with a change of that length, each longer one is rejected, and the order would be 1
-  /// for good. Then no step grows until the order has gone up.
+  /// Call after a step. IDA raises the order after a few steps of equal size, and enlarges steps with a small error. Where a
+  /// change of step size excites an error of stiff components, each enlarged step is rejected, and the order would stay 1 for
+  /// good. Then the step size is held until the order has risen.
   void rise() {
     constexpr int enough = 6;
     constexpr double none = 1e6;
@@ -176,7 +176,7 @@ struct Integrator::Implementation {
 
   void evaluate(std::vector<double>& functions) { event_functions.evaluate(refine(time), y.data(), yp.data(), functions.data()); }
 
-  /// y and y' at a time within the last step.
+  /// Interpolates y and y' at a time within the last step.
   void go_to(double t) {
     time = t;
     refine(t);
@@ -184,7 +184,8 @@ struct Integrator::Implementation {
     require(IDAGetDky(ida, t - lost_by_step, 1, np), "IDAGetDky");
   }
 
-  /// Whether the last step has gone over an event, and which. Where events are located it ends at the first of them.
+  /// Finds the events of the last step; true if there are any. If events are located, the step is shortened to the first of
+  /// them.
   bool meets_event() {
     if (fired.empty()) {
       refine(time);
@@ -198,7 +199,7 @@ struct Integrator::Implementation {
     return std::find(fired.begin(), fired.end(), 1) != fired.end();
   }
 
-  /// Some function has fallen through 0 since `left`.
+  /// True if some function has fallen through 0 since `left`.
   bool falls(const std::vector<double>& now) const {
     for (std::size_t k = 0; k < left.size(); ++k) {
       if (left[k] > 0 && now[k] <= 0) return true;
@@ -206,11 +207,11 @@ struct Integrator::Implementation {
     return false;
   }
 
-  /// By the Illinois variant of the rule of false position (Dowell and Jarratt, BIT 11 (1971) 168), with the function that falls
-  /// first as a straight line: to just behind the event.
+  /// Shortens the step to just behind the first event, by the Illinois variant of the rule of false position (Dowell and
+  /// Jarratt, BIT 11 (1971) 168), applied to the function that falls first.
   void go_to_event() {
-    constexpr double grains = 100;  // roundings of the time since the last restart
-    constexpr int most = 60;        // then by halves
+    constexpr double grains = 100;  // tolerance of the event time, in ulps
+    constexpr int most = 60;        // afterwards by bisection
     double begin = previous, end = time;
     const double near = grains * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
     for (std::size_t k = 0; k < left.size(); ++k) {
@@ -223,9 +224,9 @@ struct Integrator::Implementation {
     take_bands(left);
     take_bands(right);
     double weight = 1;    // of the functions at the beginning
-    int last_moved = 0;   // 1: the end
+    int last_moved = 0;   // 1: the end moved
     for (int round = 0; end - begin > near; ++round) {
-      double share = 0;  // of the interval: where the first of them falls through 0, counted from its end
+      double share = 0;  // of the interval, from its end to the first zero
       for (std::size_t k = 0; k < left.size(); ++k) {
         if (left[k] > 0 && right[k] <= 0) share = std::max(share, right[k] / (right[k] - weight * left[k]));
       }
@@ -264,7 +265,7 @@ struct Integrator::Implementation {
     return s;
   }
 
-  /// The unknown with the largest error estimate, of those that `counts` is true of.
+  /// The unknown with the largest error estimate relative to its tolerance, of those for which `counts` is true; -1 if none.
   template <class Counts>
   int worst(Counts counts) const {
     if (dae.unknowns() == 0 || IDAGetEstLocalErrors(ida, nw) < 0) return -1;

@@ -8,14 +8,14 @@ namespace rheonet {
 
 namespace {
 
-// Steps over which is counted.
+// Length of the moving average, in steps.
 constexpr double memory = 32;
-// At a strict tolerance kinks make steps short, and most of these go over none. So it is tried where one in so many does
-// (which one kink by itself does not come to), for so many steps, and left off where at the larger tolerance not every
-// third one does.
+// At the strict tolerance kinks make steps short, and most steps cross no kink. So the larger tolerance is tried for `trial`
+// steps once the share of steps with kinks exceeds `promising`, which a single kink does not reach. It is kept while that
+// share exceeds `largest_pace`.
 constexpr double promising = 0.05, largest_pace = 1.0 / 3;
 constexpr long trial = 64;
-// The longest wait until it is tried again: each failure doubles it.
+// Longest wait between trials, in steps: each failed trial doubles the wait.
 constexpr long longest_wait = 1 << 16;
 
 }  // namespace
@@ -29,7 +29,7 @@ bool Kinks::crossed(const Dae& dae, const Dae::View& view) {
       const Kind kind = dae.structure().kind[at(node)];
       return kind == Kind::known || kind == Kind::massive;
     };
-    // Where a mass is not there to smooth it a kink is one of a velocity or of its slope, and nothing is gained.
+    // Without masses at both ends a kink is one of a velocity or of its slope, and a larger tolerance gains nothing.
     if (!smooth(ends.a) || !smooth(ends.b)) continue;
     const Yielded now{law.branch(), law.yielded(view.p[at(network_.first_bundle) + b])};
     if (now.branch == yielded_[b].branch && now.pairs > yielded_[b].pairs) any = true;

@@ -9,9 +9,10 @@ namespace rheonet {
 
 namespace {
 
-// So much more than with pivots that are chosen for a matrix its coefficients may grow with those of an earlier one.
+// Earlier pivots are reused while the coefficients grow by no more than this factor times their growth when the pivots were
+// chosen.
 constexpr double much_more = 1e3;
-// What is larger than that says that there are no better ones.
+// Growth beyond this, with new pivots, means that no better pivots exist.
 constexpr double largest_growth = 1e6;
 
 }  // namespace
@@ -38,7 +39,7 @@ void LinearSolver::scale() {
     value *= column_scale_[at(column)];
     row_scale_[at(row)] += std::abs(value);
   });
-  // A row of zeros is left for the solver to find.
+  // A row of zeros stays for the factorisation to detect.
   for (double& s : row_scale_) s = s > 0 && std::isfinite(s) ? 1 / s : 1;
   for_each_entry([&](int row, int, double& value) { value *= row_scale_[at(row)]; });
   if (sparse_) return;
@@ -50,8 +51,8 @@ void LinearSolver::scale() {
 bool LinearSolver::factorise() {
   scale();
   if (!sparse_) return dense_.factorise();
-  // What was a pivot may since have come to 0, friction's slope at its bound for one, or near it: what is divided by that leaves
-  // few digits of others.
+  // A former pivot may have become 0 or almost so, such as the slope of friction at its bound: dividing by it leaves few
+  // digits of other unknowns.
   if (sparse_->refactorise(values_.data()) && sparse_->growth(values_.data()) <= much_more * first_growth_) return true;
   if (!sparse_->factorise(values_.data())) return false;
   first_growth_ = std::min(sparse_->growth(values_.data()), largest_growth);

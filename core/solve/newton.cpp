@@ -11,12 +11,12 @@ namespace rheonet {
 
 namespace {
 
-// A step whose coefficient cj is another one by this share gets a Jacobian of its own. (By IDA's default of 0.25 one that has
-// become longer by half goes on with the old one, and takes twice the iterations; a Jacobian costs less than one of them.)
+// The Jacobian is renewed once cj has changed by this share. (With IDA's default of 0.25, a step that has become longer by
+// half keeps the old Jacobian, and takes twice the iterations. A Jacobian costs less than one iteration.)
 constexpr double stale_share = 0.01;
 
-// As in IDA: so many iterations at most; an iteration that is no faster does not converge; and as long as nothing shows how
-// fast it is so much is taken to be left of a change, with a new Jacobian and with an old one.
+// As in IDA: the largest number of iterations, the largest rate of convergence, and the assumed ratio of the remaining error
+// to the last change while no rate is known, with a new and with an old Jacobian.
 constexpr int most_iterations = 4;
 constexpr double slowest_rate = 0.9, left_if_new = 20, left_if_old = 100;
 
@@ -41,7 +41,7 @@ bool Newton::stale(double cj) const {
   return jacobian_cj_ == 0 || ratio < least || ratio > 1 / least;
 }
 
-/// The negative residual with this correction. False where it is beyond a law's range.
+/// Evaluates the negative residual with this correction. False where the correction is out of a law's range.
 bool Newton::evaluate(const Step& step, const double* correction) {
   ++counts_.residuals;
   for (std::size_t i = 0; i < change_.size(); ++i) {
@@ -80,9 +80,9 @@ bool Newton::solve(const Step& step, double* correction, const double* weight, d
   return false;
 }
 
-/// From the residual of the correction on.
+/// Iterates, starting from the residual of the correction.
 Newton::Verdict Newton::iterate(const Step& step, double* correction, const double* weight, double enough) {
-  // A Jacobian of another cj makes changes too large or too small: half of that is taken back (as in IDA).
+  // A Jacobian of another cj gives changes too large or too small: the mean of both cj corrects half of that (as in IDA).
   const double scale = 2 / (1 + step.cj / jacobian_cj_);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (iteration > 0 && !evaluate(step, correction)) break;
@@ -100,8 +100,8 @@ Newton::Verdict Newton::judge(const Step& step, int iteration, const double* wei
   return dae_.rough() ? rough(step, iteration, size, weight, enough) : smooth(step, iteration, size, weight, enough);
 }
 
-/// IDA's test. But what has come to the rounding of the unknowns, and gets no further, has not failed; nor has what gets no
-/// further where it would be done by IDA's default.
+/// IDA's test, with two exceptions: an iteration that stalls has converged if it is within the round-off of the unknowns, or
+/// if it would satisfy IDA's default tolerance.
 Newton::Verdict Newton::smooth(const Step& step, int iteration, double size, const double* weight, double enough) {
   constexpr double nothing_to_change = 1e-8, no_farther = 0.1;
   if (iteration == 0) {
@@ -114,16 +114,16 @@ Newton::Verdict Newton::smooth(const Step& step, int iteration, double size, con
   return foreseen_ * size <= enough ? Verdict::converged : Verdict::go_on;
 }
 
-/// IDA's own test takes one small first change for enough where the iteration converged fast in the step before. A power law
-/// is so steep near rest that with a Jacobian from there any change is small: the second one has to show.
+/// For power laws. IDA's own test accepts one small first change if the iteration converged fast in the step before. But a
+/// power law is so steep near rest that with a Jacobian from there any change is small: a second change is required.
 Newton::Verdict Newton::rough(const Step& step, int iteration, double size, const double* weight, double enough) {
   constexpr double nothing_to_change = 1e-4;
-  constexpr double certain = 0.1;  // of what is allowed: whether the next change is smaller or not
+  constexpr double certain = 0.1;  // of `enough`: small enough even where changes do not shrink
   const bool back = iteration > 0 && turns_back(weight);
   last_change_ = change_;
   if (iteration == 0) return size <= nothing_to_change * enough ? Verdict::converged : Verdict::go_on;
   if (size <= rounding(step, weight)) return Verdict::converged;
-  // To and fro over the solution, in the rounding of differences of velocities, say: about as far from it as this.
+  // Changes that alternate in sign, as in the round-off of velocity differences, are about as large as the error.
   if (back && size <= certain * enough) return Verdict::converged;
   const double rate = std::pow(size / first_change_, 1.0 / iteration);
   if (rate > slowest_rate) return size <= certain * enough ? Verdict::go_on : Verdict::hopeless;
@@ -142,9 +142,9 @@ bool Newton::turns_back(const double* weight) const {
   return sum < 0;
 }
 
-/// What rounding leaves of the unknowns, as the norm of a change.
+/// The round-off of the unknowns, as the norm of a change.
 double Newton::rounding(const Step& step, const double* weight) const {
-  // A change comes out of a residual and two triangular solutions, sums of some tens of rounded terms.
+  // A change follows from a residual and two triangular solutions, sums of some tens of rounded terms.
   constexpr double grains = 64 * std::numeric_limits<double>::epsilon();
   double sum = 0;
   for (std::size_t i = 0; i < grain_.size(); ++i) {

@@ -9,11 +9,11 @@ namespace rheonet {
 
 namespace {
 
-// The largest share of the tolerance that a reversal's velocity may hide in.
+// Dead band of a velocity for reversals, as a share of its tolerance.
 constexpr double noise_share = 0.1;
-// What a slider that sticks may have to bear above its bound for errors of steps, in shares of that.
+// Largest excess of a sticking slider over its bound because of the errors of steps, in units of the tolerance.
 constexpr double slip_share = 10;
-// Rounding of a velocity that is a given function of time.
+// Relative round-off of a velocity that is a given function of time.
 constexpr double given_noise = 1e-13;
 
 }  // namespace
@@ -23,16 +23,17 @@ double Tolerances::force_noise(int rate) const {
   return std::max(noise, std::numeric_limits<double>::min());
 }
 
-/// A branch that has hardly moved yet is noise as long as it is slow against the rest of the network.
+/// Dead band of the relative velocity of a branch [m/s]. A branch that has hardly moved yet gets one relative to the largest
+/// velocity of the network.
 double Tolerances::noise_of(bool given, double flow, const Branch& b, double of_difference) const {
   const Structure& structure = dae_->structure();
-  // What rounding leaves of forces, dashpots make a velocity of at nodes without mass alone.
+  // Round-off of forces causes a velocity, through dashpots, only at nodes without mass.
   const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.mass[at(node)] > 0; };
   const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
   const double unresolved =
       given ? given_noise * flow
             : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_), of_rounding, of_difference});
-  // More than nothing: an event function that begins at 0 would never be seen to fall through it.
+  // Above 0: an event function that begins at 0 would never be seen to fall through it.
   return std::max(unresolved, std::numeric_limits<double>::min());
 }
 
@@ -50,7 +51,8 @@ void Tolerances::find_noise(const std::vector<double>& slope) {
   find_slip_noise(slope);
 }
 
-/// Errors that steps and round-off may add to forces. Near rest, a dilatant law turns a small force into a large velocity.
+/// Finds the errors of forces due to steps and round-off. Near rest, a dilatant law turns a small force into a large
+/// velocity.
 void Tolerances::find_force_errors(const std::vector<double>& slope) {
   force_error_.clear();
   if (!dae_->rough()) return;
@@ -71,8 +73,8 @@ double Tolerances::unfelt_dilatant(int rate) const {
   return law.velocity_at(i, force_error_[at(part_of(dae_->structure().rates[at(rate)]))]);
 }
 
-/// A slider that has just come to rest bears its full force, less by the second order of time from there on: an error of the
-/// first step, which is of that order, would let it slip.
+/// A slider that has just stopped carries its full sliding force, and from there on less by an amount of second order in
+/// time. The error of the first step is of that order too, and would let the slider slip.
 void Tolerances::find_slip_noise(const std::vector<double>& slope) {
   if (slip_noise_.empty()) return;
   const Structure& structure = dae_->structure();
@@ -87,7 +89,7 @@ void Tolerances::find_slip_noise(const std::vector<double>& slope) {
     const double noise = std::abs(slope[j]) * tolerance_[at(unknown)];
     for (const NodeId node : {network_.deflections[j].a, network_.deflections[j].b}) held_noise_[at(held_[at(node)])] += noise;
   }
-  // What moves as it is told to takes any force.
+  // A prescribed motion balances any force.
   const auto noise_at = [&](NodeId node) { return structure.kind[at(node)] == Kind::known ? 0 : held_noise_[at(held_[at(node)])]; };
   for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;

@@ -44,7 +44,7 @@ void Profile::step(const Integrator& integrator) {
 Profile::Counts& Profile::of(int unknown) {
   if (unknown < 0) return others_;
   Counts*& counts = of_unknown_[unknown];
-  if (!counts) counts = &counts_[dae_->subject(unknown)];  // whose address stays: it is a map
+  if (!counts) counts = &counts_[dae_->subject(unknown)];  // std::map keeps the address valid
   return *counts;
 }
 

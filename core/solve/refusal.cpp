@@ -11,8 +11,8 @@ namespace rheonet {
 
 namespace {
 
-/// The unknown with the largest error; where a run has not come so far that there is one, that which changes fastest. -1 if
-/// there is no unknown.
+/// The unknown with the largest error estimate; if there is no estimate yet, the one that changes fastest. -1 if there is no
+/// unknown.
 int at_fault(const System& system, const std::vector<double>& tolerance) {
   if (const int worst = system.integrator.worst_unknown(); worst >= 0) return worst;
   int fastest = -1;
@@ -26,7 +26,7 @@ int at_fault(const System& system, const std::vector<double>& tolerance) {
   return fastest;
 }
 
-/// Of a network that moves as it is given to.
+/// The names of all elements, for a network whose whole motion is prescribed.
 std::string all_of(const Network& network) {
   std::vector<std::string> names;
   for (const SceneElement& e : network.scene->elements) names.push_back(e.name);

@@ -11,14 +11,14 @@ namespace rheonet {
 
 namespace {
 
-// Roundings of forces that balance (a sum of a few).
+// Round-off of forces that balance, in ulps (a sum of a few terms).
 constexpr double force_grains = 16;
-// A restart leaves a balance off by Dae::rounding_share of the sum of its terms: of so many times the largest force.
+// A restart leaves a balance with a residual of Dae::rounding_share times the sum of its terms: of this many largest forces.
 constexpr double balance_terms = 4;
-// A difference of two velocities that is larger than this share of the smaller one is told from none, with something to spare.
+// Velocities that differ by more than this share of the smaller one are different: velocity_grain with a margin.
 constexpr double different = 2.2 * velocity_grain;
-// Near rest an iteration takes the velocity of a dilatant law to and fro by so many times the rounding of its force: its
-// slopes are of the velocities that it comes from.
+// Near rest Newton's iteration lets the velocity of a dilatant law alternate by this multiple of the round-off of its force:
+// its slopes belong to the previous velocity.
 constexpr double to_and_fro = 4;
 
 double speed_at(const Dae::View& view, const Branch& b) {
@@ -27,7 +27,7 @@ double speed_at(const Dae::View& view, const Branch& b) {
 
 }  // namespace
 
-/// The parts of the network that known nodes keep from each other: the noise of one does not reach the others.
+/// Finds the parts of the network that known nodes separate: round-off in one part does not reach the others.
 void Tolerances::find_parts() {
   const Structure& structure = dae_->structure();
   Sets parts(structure.kind.size());
@@ -41,8 +41,9 @@ void Tolerances::find_parts() {
   for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
-/// Through dashpots and friction motion follows what moves at once, and jitters as time is rounded. Where there are only
-/// springs it goes by the lengths of steps, and so where sliders end it, but for what comes through delays.
+/// Flags the unknowns that jitter with the round-off of time: those in parts with dashpots or friction, which follow their
+/// inputs directly. With springs alone a motion depends on step sizes, not on time. So it does with ideal sliders, unless
+/// there are delays.
 void Tolerances::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
@@ -67,7 +68,8 @@ int Tolerances::part_of(const Branch& b) const {
   return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
 }
 
-/// Of each part of the network the largest force and velocity; of each node what is around it; of each deflection branch its law.
+/// Of each part of the network its largest force and velocity; of each node the stiffness and damping around it; of each
+/// deflection branch its law.
 struct Tolerances::Loads {
   std::vector<double> force, speed;        ///< N, m/s
   std::vector<double> stiffness, damping;  ///< N/m, N s/m
@@ -114,9 +116,9 @@ Tolerances::Loads Tolerances::find_loads(const Dae::View& view) const {
   return loads;
 }
 
-/// What rounding leaves of forces F that balance and of velocities V that are equal is noise: a velocity
-/// eps (V + F/sqrt(k m)) at a mass, eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and what comes of
-/// eps V until it has crept away. Without this a network in equilibrium would be followed into its rounding.
+/// Finds the round-off of all unknowns. Forces F in balance and equal velocities V cause a velocity eps (V + F/sqrt(k m)) at
+/// a mass, a velocity eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and the integral of eps V until it
+/// has crept away. Otherwise steps would resolve the round-off of a network in equilibrium.
 void Tolerances::find_rounding(const Dae::View& view) {
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
@@ -137,7 +139,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const bool alone = known(b.a) && known(b.b);
       const std::size_t part = at(part_of(b));
       const double f = std::abs(loads.f[k]), df = std::abs(loads.df[k]), dc = std::abs(loads.dc[k]);
-      // At its bound friction has hardly any slope, and its deflection goes with others.
+      // Friction at its bound has hardly any slope: its secant then limits its deflection.
       const double slope = std::max(df, view.p[k] != 0 ? f / std::abs(view.p[k]) : 0);
       const bool in_balance = structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0;
       const double share = in_balance ? balance_terms * Dae::rounding_share : eps;
@@ -159,8 +161,8 @@ void Tolerances::find_rounding(const Dae::View& view) {
   find_rounding_now(view);
 }
 
-/// A block that makes a force of a position takes in the rounding of that position: a spring made of blocks between two places
-/// far from 0 has the rounding of these places in its force, and the mass that it holds shakes by it.
+/// A block that turns a position into a force also amplifies the round-off of that position. A spring made of blocks between
+/// two positions far from 0 has their round-off in its force, which shakes the mass that it holds.
 void Tolerances::find_block_rounding() {
   if (block_rounding_.empty()) return;
   constexpr double eps = 2 * std::numeric_limits<double>::epsilon();
@@ -191,8 +193,8 @@ void Tolerances::find_block_rounding() {
   }
 }
 
-/// Where force goes with a power of the velocity above 1 the rounding of a force is a much larger one of the velocity, at
-/// rest the most. That of forces grows with them up to the next restart.
+/// Finds the round-off of forces. A dilatant law turns it into a much larger round-off of the velocity, the most at rest. The
+/// round-off of forces never decreases until the next restart.
 void Tolerances::find_force_rounding(const Dae::View& view) {
   constexpr double eps = to_and_fro * force_grains * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
@@ -223,8 +225,8 @@ double Tolerances::unresolved() const {
   return std::max(relative_ * largest_velocity_, *std::max_element(plain_rounding_.begin(), plain_rounding_.end()));
 }
 
-/// What the rounding of the velocities at the ends of dashpots leaves of their forces, near rest a lot where they go with a
-/// small power.
+/// Finds the round-off of the forces of dashpots due to that of the velocities at their ends. With a small exponent it is
+/// large near rest.
 void Tolerances::find_dashpot_rounding(const Dae::View& view) {
   if (!any_solved_) return;
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
@@ -237,7 +239,7 @@ void Tolerances::find_dashpot_rounding(const Dae::View& view) {
   }
 }
 
-/// What it is of the velocity at present.
+/// The round-off of velocities with the present forces of dilatant laws.
 void Tolerances::find_rounding_now(const Dae::View& view) {
   rounding_now_ = plain_rounding_;
   if (!dae_->rough()) return;
@@ -248,8 +250,8 @@ void Tolerances::find_rounding_now(const Dae::View& view) {
   });
 }
 
-/// Where both ends of a branch move almost alike its own velocity is the rounding of theirs: the end of a branch hangs free, say,
-/// or a thin gel rides on thick oil.
+/// If both ends of a branch move almost alike, its own velocity is their round-off: one end hangs free, say, or a thin gel
+/// rides on thick oil.
 void Tolerances::find_difference_rounding(const Dae::View& view) {
   const auto rounding = [&](const Branch& b) {
     return different * std::min(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
@@ -259,9 +261,9 @@ void Tolerances::find_difference_rounding(const Dae::View& view) {
   for (std::size_t k = 0; k < slide_rounding_.size(); ++k) slide_rounding_[k] = rounding(structure.sliders[k]);
 }
 
-/// A force that is an unknown balances others: it cannot be known better than they are. The same of the deflection of what is
-/// held still, which may take any force. Where no balance tells the force of a dashpot it follows from a velocity, and has the
-/// rounding of that.
+/// Lists the unknowns whose error is that of the forces that they balance: forces of dashpots, and deflections of laws held
+/// at rest, which may take any force. A dashpot's force that no balance determines follows from a velocity, and has its
+/// round-off.
 void Tolerances::find_balances() {
   followers_.clear();
   if (!any_balanced_) return;
@@ -315,13 +317,13 @@ void Tolerances::loosen_balanced_forces(const std::vector<double>& slope) {
     } else if (slope[f.index] != 0) {
       double& tolerance = tolerance_[at(dae_->deflection_unknown(static_cast<int>(f.index)))];
       const double all = noise / std::abs(slope[f.index]);
-      // Where friction has hardly any slope it is its deflection that places its end.
+      // Where friction has hardly any slope, its deflection determines the position of its end: hence the limit.
       tolerance = std::max(tolerance, f.held ? all : std::min(all, local() * longest_at_[at(balanced_[f.index])]));
     }
   }
 }
 
-/// Of the deflections of each part, of which the motion comes of what hangs there.
+/// Finds the largest deflection of each part: positions of nodes that springs and friction hold follow from deflections.
 void Tolerances::find_longest() {
   const Structure& structure = dae_->structure();
   const std::vector<double>& seen = seen_[static_cast<std::size_t>(Sort::deflection)];

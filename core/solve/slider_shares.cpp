@@ -7,8 +7,8 @@ namespace rheonet {
 
 namespace {
 
-// Forces may be so many times what a slider bears before they are resolved for its sake: errors of steps add up to less than
-// what they may. And they are so to no less than this share, which takes two to three times the steps.
+// Forces may be this multiple of a slider's bound before they get tighter tolerances for it: errors of steps add up to less
+// than their limits. The tightening ends at `least_slider_share`, which takes two to three times the steps.
 constexpr double much_larger = 10, least_slider_share = 1e-3;
 
 }  // namespace
@@ -21,8 +21,8 @@ void Tolerances::see_rest(std::size_t slider, double velocity) {
   any_rested_ = any_rested_ || rested_[slider];
 }
 
-/// The force of a slider that has come to rest is what the others around it leave it to bear. These may have been many times as
-/// large while it slipped: what they were wrong by is off where it has come to rest, by as much as its own force allows.
+/// The force of a slider at rest is the sum of the forces around it. These may have been many times larger while it slipped,
+/// and their errors shift the position at which it stops: tolerances around it are relative to its own bound.
 void Tolerances::find_slider_shares() {
   if (!any_rested_) return;
   const Structure& structure = dae_->structure();

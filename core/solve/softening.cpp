@@ -20,7 +20,7 @@ void Softening::attach(const Structure& structure) {
   std::fill(stops_.begin(), stops_.end(), 0);
   std::fill(mass_.begin(), mass_.end(), 0);
   const auto heavy = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };
-  // Ends that sliders hold together are one node in this.
+  // `structure` represents ends that sliders hold together by one node.
   const auto for_each_pseudoplastic = [&](auto visit) {
     for (const Laws<RateBatch>& laws : network_.rate_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -29,7 +29,7 @@ void Softening::attach(const Structure& structure) {
       }
     }
   };
-  // Chains of them through massless nodes.
+  // Chains of pseudoplastic laws through massless nodes.
   Sets chains(structure.kind.size());
   for_each_pseudoplastic([&](std::size_t, const Branch& b) {
     if (!heavy(b.a) && !heavy(b.b)) chains.join(b.a, b.b);
@@ -71,16 +71,18 @@ void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   }
 }
 
-/// The velocity below which time is too coarse to see such a law bring a mass to rest: m w' = -B w^n takes m w^(1-n)/B.
+/// The velocity [m/s] below which the round-off of time hides that such a law stops a mass: m w' = -B w^n takes the time m
+/// w^(1-n)/B.
 double Softening::slowest_stop(std::size_t rate, const Growth& growth) const {
-  constexpr double grains = 16;  // that the last of it takes, in steps
+  constexpr double grains = 16;  // shortest resolved duration, in units of the round-off of time
   const auto [B, n] = growth;
   const double shortest = grains * time_grain(network_.scene->stop - network_.scene->start);
   return std::pow(n * B * shortest / mass_[rate], 1 / (1 - n));
 }
 
 void Softening::apply(const Tolerances& tolerances) {
-  // What follows such a law at once would jump with every change of it.
+  // Velocities that follow such a law directly jump with each change of its regularisation: change it by a factor of 2 or
+  // more.
   constexpr double other = 2;
   const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
   const double unresolved = tolerances.unresolved();
@@ -91,7 +93,7 @@ void Softening::apply(const Tolerances& tolerances) {
       double w = 0;
       if (growth.exponent > 1) w = std::max(least_velocity_[r], tolerances.unfelt_dilatant(static_cast<int>(r)));
       if (growth.exponent < 1 && stops_[r]) w = Tolerances::soft_share * unresolved;
-      // Of so small a velocity the force may be a large one still, all of which goes in the end.
+      // Even at such a small velocity the force may be large, and all of it vanishes at rest.
       if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));
       if (same(w, applied_[r])) continue;
       applied_[r] = w;

@@ -8,7 +8,7 @@ namespace rheonet {
 
 namespace {
 
-/// What touches each node: how much there is, and which of it are pseudoplastic dashpots.
+/// The number of branches and forces at a node, and the pseudoplastic dashpots among them.
 struct Around {
   int count = 0;
   std::vector<int> pseudoplastic;

@@ -9,21 +9,22 @@ namespace rheonet {
 
 namespace {
 
-// Below n = 1/2 the force of w(t) = (c (T - t))^(1/(1-n)) falls ever more steeply, and an error of the time of rest T makes the
-// more of it the nearer that is: as much as is allowed at this share of the motion before it, but for laws that are as good as
-// dry friction, whose force falls at one instant.
+// Below n = 1/2 the force of w(t) = (c (T - t))^(1/(1-n)) falls ever more steeply, so an error of the time of rest T causes a
+// force error that grows towards T. It stays within its limit up to `last_share` of the motion before T. `most_steepening`
+// limits the effort for laws close to dry friction, whose force drops at one time anyway.
 constexpr double last_share = 3e-3, most_steepening = 1 / 30.0;
-// Of the velocity with which both ends move along together, to how much their difference is resolved at best: in shares of what
-// they are themselves, and in roundings.
+// Finest resolution of the relative velocity of two ends that move together: relative to the tolerance of their common
+// velocity, and in ulps of that velocity.
 constexpr double least_share = 1e-5, carried_grains = 256;
-// Noise of a force is borne up to about the accuracy promised: more would keep steps from converging.
+// Round-off of a force is accepted up to this multiple of a negligible force, about the promised accuracy: more would keep
+// Newton's iteration from converging.
 constexpr double noisy = 10;
 
 }  // namespace
 
-/// Pseudoplastic dashpots between masses, or a mass and what moves as it is given to, bring them to rest at a finite time:
-/// f = B w^n, with a slope without bound in the end. The same error of a velocity there is a larger one of the force, and a
-/// larger one of the time of rest: each is to leave the force right.
+/// Limits the velocity tolerance of masses that pseudoplastic dashpots stop in a finite time. The slope of f = B w^n grows
+/// without bound towards rest, so the same velocity error causes a growing error of the force, and of the time of rest. The
+/// tolerance keeps the force within its own allowed error.
 void Tolerances::find_stopping(const Dae::View& view) {
   if (!dae_->rough()) return;
   stopping_.assign(dae_->structure().kind.size(), std::numeric_limits<double>::infinity());
@@ -37,9 +38,9 @@ void Tolerances::find_stopping(const Dae::View& view) {
       const RateBatch& law = network_.rate_of(r, i);
       const double n = law.growth(i).exponent, allowed = local() * dashpot_seen_[at(r)];
       const double w = std::abs(view.rate_velocity[at(r)]), f = std::abs(law.force_at(i, w));
-      if (f > 0) most += allowed * w / (n * f);  // by their slopes
+      if (f > 0) most += allowed * w / (n * f);  // errors of velocities of the branches, by their slopes
       least += law.velocity_at(i, allowed);
-      largest_exponent = std::max(largest_exponent, n);  // in the end it is the slowest
+      largest_exponent = std::max(largest_exponent, n);  // the slowest in the end
     }
     if (least == 0) continue;  // no force yet
     const double n = largest_exponent;
@@ -59,7 +60,7 @@ double Tolerances::unfelt(int rate) const {
   const double largest = dashpot_seen_[at(rate)];
   if (largest == 0) return std::numeric_limits<double>::infinity();
   const double allowed = soft_share * local() * largest, rounding = std::numeric_limits<double>::epsilon() * carried_seen_[at(rate)];
-  // The steeper the law is, the more is made of the rounding of two velocities by which both ends move along together.
+  // A steep law amplifies the round-off of the velocities of two ends that move together.
   return std::max({std::pow(allowed / B, 1 / n), std::pow(n * B * rounding / (noisy * allowed), 1 / (1 - n)), soft_share * carried_noise(at(rate))});
 }
 

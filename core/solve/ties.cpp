@@ -11,7 +11,7 @@ namespace rheonet {
 
 namespace {
 
-// Constant forces balance but for this share of their magnitudes.
+// Residual of a balance of constant forces that is still round-off, relative to the sum of their magnitudes.
 constexpr double tie_rounding = 1e-9;
 
 }  // namespace

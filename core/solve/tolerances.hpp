@@ -13,74 +13,78 @@
 
 namespace rheonet {
 
-/// Absolute tolerances of all unknowns, from the scale of each: the largest magnitude that it has had in the run so far.
+/// Absolute tolerances of all unknowns. Each is a relative tolerance times the scale of the unknown: its largest magnitude so
+/// far in the run.
 ///
-/// A deflection is measured by the force that it makes: presliding of a nanometre is as much as sliding of a metre. No
-/// scale is below `floor_of_kind` times the largest of its kind, so that what is yet to come need not be resolved in
-/// every digit. Around a slider that comes to rest forces are resolved as its own is: it bears what they leave.
+/// The scale of a deflection is its force over its slope: a nanometre of presliding counts as much as a metre of sliding. No
+/// scale is below `floor_of_kind` times the largest of its kind, so that small quantities that may still grow are not
+/// resolved to every digit. Around a slider that comes to rest, forces are resolved relative to its own force, because their
+/// errors add up in it.
 class Tolerances {
  public:
-  /// An unknown cannot be known better than to some roundings; IDA asks for no less.
+  /// Least relative tolerance, a few ulps: IDA accepts no less.
   static constexpr double least_tolerance = 6.4e-16;
 
   Tolerances(const Network& network, double relative);
 
-  /// Goes over to these equations; what has been seen is kept.
+  /// Switches to these equations; the magnitudes seen so far are kept.
   void attach(Dae& dae);
-  /// True if nothing of some kind (velocity, force, ...) has been seen yet: its scale must be foreseen.
+  /// True if all unknowns of some kind (velocity, force, ...) have been 0 so far, or a block's state has: then scales must be
+  /// foreseen.
   bool blind() const;
-  /// Before a restart at t. Where nothing has been seen, scales come from how large each unknown may be until t + ahead (0:
-  /// do not foresee); they are forgotten after ten times that.
+  /// Call before a restart at t. With `ahead` > 0 [s], scales are also taken from `coming_size`, the estimate of how large
+  /// each unknown may be until t + ahead; it is forgotten after ten times that.
   void foresee(double t, double ahead, const std::vector<double>& y, const std::vector<double>& yp,
                const std::vector<double>& coming_size);
-  /// Whether what there is to see is to be believed. Where the integrator has just failed the equations may be so near to
-  /// singular that velocities are without any measure; until they are solved again no scale comes of them.
+  /// False: take no scales from the states that follow. When the integrator has just failed, the equations may be so nearly
+  /// singular that velocities are arbitrarily large. True once they are solved again.
   void trust(bool trusted) { trusted_ = trusted; }
-  /// From here on an unknown is allowed this share of its scale, and `dense` where small kinks are (kinks.hpp).
+  /// Sets the tolerance relative to the scale, and `dense`, the one used where small kinks are dense (kinks.hpp).
   void allow(double relative, double dense) {
     relative_ = relative;
     dense_ = dense;
   }
-  /// After a step, with the view of the state that it reached.
+  /// Call after a step, with the view of the state at its end.
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
   const std::vector<double>& values() const { return tolerance_; }
-  /// Of each unknown: a change below this is noise of the forces that it follows from.
+  /// Of each unknown: a change below this is round-off of the forces that it follows from.
   const std::vector<double>& grains() const { return grain_; }
-  /// Of what is unknown or given, so far or foreseen [m/s].
+  /// Largest velocity of all nodes, unknown or prescribed, seen or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
-  /// Velocity below which nothing is resolved, but of dilatant laws [m/s].
+  /// Velocity below which nothing is resolved, except by dilatant laws [m/s].
   double unresolved() const;
-  /// So many times what a step may be wrong by is 0.013 of the accuracy promised: what is no more may be taken as linear.
+  /// A force is negligible up to this multiple of its allowed error in a step (0.04 of the accuracy or less): power laws may
+  /// be linear there.
   static constexpr double soft_share = 20;
-  /// Velocity at which the force of a pseudoplastic dashpot is no more than that, or at which so much of it comes of
-  /// rounding [m/s]. Infinite as long as it has had no force.
+  /// Velocity at which the force of a pseudoplastic dashpot is negligible by `soft_share`, or is mostly round-off [m/s].
+  /// Infinite as long as the dashpot has had no force.
   double unfelt(int rate) const;
-  /// Velocity at which the force of a dilatant dashpot is as small as the error of the forces around it [m/s].
+  /// Velocity at which the force of a dilatant dashpot equals the error of the forces around it [m/s].
   double unfelt_dilatant(int rate) const;
-  /// Velocity below which the reversal of a branch is noise [m/s].
+  /// Dead band of the velocity of a branch for its reversals [m/s].
   double noise(int branch) const;
-  /// Of the force of a rate branch that is solved for it.
+  /// Dead band of the force of a rate branch that is solved for its force [N].
   double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
-  /// Force by which a slider that sticks may seem to be above its bound for the errors that steps are allowed [N].
+  /// Force by which a sticking slider may exceed its bound because of the errors that steps are allowed [N].
   double slip_noise(int slider) const { return slip_noise_[static_cast<std::size_t>(slider)]; }
 
  private:
   enum class Sort : char { velocity, deflection, force, position, block };
   static constexpr std::size_t sorts = 5;
-  /// A quantity this much smaller than the largest of its kind is still resolved as it is asked for: a nanometre beside metres
-  /// is no noise.
+  /// Least scale of a quantity relative to the largest of its kind. Small enough that a nanometre is still resolved beside
+  /// metres.
   static constexpr double floor_of_kind = 1e-8;
-  /// What an unknown stands for: the velocity or position of a node, the deflection or force of a branch, a block's state.
+  /// The quantity of an unknown: velocity or position of a node, deflection or force of a branch, or state of a block.
   struct Quantity { Sort sort; unsigned index; };
   double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double seen(const Quantity& q) const { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }
   double& foreseen_of(const Quantity& q) { return foreseen_[static_cast<std::size_t>(q.sort)][q.index]; }
   void forget();
   void see(const std::vector<double>& y, const Dae::View& view);
-  /// Its size says nothing of that of others of its sort: states of blocks have units of their own, and what a block takes
-  /// in may be a small movement beside large ones.
+  /// Its scale is not comparable with others of its sort: states of blocks have units of their own, and the input of a block
+  /// may be a small motion beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void see_positions();
   void find_gaps();
@@ -90,12 +94,12 @@ class Tolerances {
   double slider_share(const Quantity& q) const;
   void find_held();
   double local() const;
-  using Scales = std::array<double, sorts>;  ///< of each sort: m/s, m, N, m
+  using Scales = std::array<double, sorts>;  ///< of each sort [m/s, m, N, m, unit of the block]
   Scales scales_to_come(double time, const Scales& largest) const;
-  /// The least shares of their own size to which velocities and positions are resolved beside others, and of the way of two
-  /// nodes the distance between them.
+  /// Least relative resolution: of velocities and positions that are small beside a neighbour's, and of the distance between
+  /// two nodes relative to their displacement.
   struct LeastShares { double velocity, position, way; };
-  // `slope`: of all deflection branches, df/dp [N/m].
+  // `slope`: df/dp of all deflection branches [N/m].
   Scales find_largest(const std::vector<double>& slope);
   double scale_of(const Quantity& q, const Scales& largest, const LeastShares& least, const std::vector<double>& slope);
   void bear_noise(std::size_t i, double t, double jitter, double largest_velocity);
@@ -121,7 +125,7 @@ class Tolerances {
   void find_dashpot_rounding(const Dae::View& view);
   void find_stopping(const Dae::View& view);
   double carried_noise(std::size_t rate) const;
-  /// visit(law, index in it, branch, part) of each rate branch whose force goes with a power of the velocity above 1.
+  /// visit(law, index in it, branch, part) for each dilatant rate branch (exponent above 1).
   template <class Visit>
   void for_each_dilatant(Visit visit) const {
     for (const Laws<RateBatch>& laws : network_.rate_laws) {
@@ -137,77 +141,77 @@ class Tolerances {
   double relative_, dense_;
   Kinks kinks_;
   BalanceRounding balance_rounding_;
-  double begin_ = not_given;  ///< of the run [s]
-  double restarted_ = 0;      ///< the last time [s]
-  double reached_ = 0;        ///< the end of the last step [s]
-  double step_ = 0;           ///< its length [s]
-  double ahead_ = 0;   ///< time over which is foreseen [s]; 0 when that is forgotten
-  double forget_ = 0;  ///< time at which what was foreseen no longer counts
+  double begin_ = not_given;  ///< start of the run [s]
+  double restarted_ = 0;      ///< time of the last restart [s]
+  double reached_ = 0;        ///< end of the last step [s]
+  double step_ = 0;           ///< length of the last step [s]
+  double ahead_ = 0;   ///< time span of the estimates of `foresee` [s]; 0 once they are forgotten
+  double forget_ = 0;  ///< time at which those estimates expire [s]
   std::vector<double> size_;                          ///< of each unknown: the largest magnitude since the last restart
   std::vector<Quantity> quantity_;                    ///< of each unknown
-  std::vector<char> sensed_;                          ///< of each node: a block takes in its position
-  std::vector<char> rested_;                          ///< of each slider: it has come to rest, if only for an instant
+  std::vector<char> sensed_;                          ///< of each node: a block senses its position
+  std::vector<char> rested_;                          ///< of each slider: it has come to rest or reversed
   std::vector<signed char> slid_;                     ///< of each slider: the direction of its last motion
   bool any_rested_ = false;
-  std::vector<double> slider_share_;                  ///< of each part: to what share tolerances are tighter for its sliders
+  std::vector<double> slider_share_;                  ///< of each part: factor by which its sliders tighten tolerances
   BlockGains block_gains_;
-  std::array<std::vector<double>, sorts> block_scale_;  ///< of everything that can be an unknown: what blocks make of it allows no more
-  std::vector<double> block_output_seen_;             ///< of each block: its largest magnitude
-  /// Of each node, where there are sensors: what the rounding of what blocks take in makes of its velocity [m/s], and what
-  /// holds it beside blocks at the last restart [N/m, N s/m].
+  std::array<std::vector<double>, sorts> block_scale_;  ///< of everything that can be an unknown: largest scale that blocks allow
+  std::vector<double> block_output_seen_;             ///< of each block: largest magnitude of its output
+  /// Of each node, if there are sensors: velocity caused by the round-off of what blocks sense [m/s]; stiffness and damping
+  /// around the node, without blocks, at the last restart [N/m, N s/m].
   std::vector<double> block_rounding_, stiffness_around_, damping_around_;
-  std::vector<double> block_force_seen_;              ///< of each force of the network that a block gives [N]
+  std::vector<double> block_force_seen_;              ///< of each force of the network: largest magnitude if a block gives it [N]
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
-  /// Largest magnitude of everything that can be an unknown; of positions only if some are.
+  /// Largest magnitude of everything that can be an unknown; positions only where some are.
   std::array<std::vector<double>, sorts> seen_;
-  std::array<std::vector<double>, sorts> foreseen_;   ///< the same, for the time until `forget_`
+  std::array<std::vector<double>, sorts> foreseen_;   ///< estimated, until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
-  std::vector<double> dashpot_seen_;                  ///< of each rate branch: its largest force [N]
-  std::vector<double> slide_seen_;                    ///< of each slider
-  std::vector<double> relative_seen_;                 ///< of each node: fastest motion beside a neighbour [m/s]
-  /// Of each node: of the sliders there that have slipped, the slowest one's fastest [m/s].
+  std::vector<double> dashpot_seen_;                  ///< of each rate branch: largest force [N]
+  std::vector<double> slide_seen_;                    ///< of each slider: largest velocity [m/s]
+  std::vector<double> relative_seen_;                 ///< of each node: largest velocity relative to a neighbour [m/s]
+  /// Of each node: least of the largest velocities of the sliders there that have slipped [m/s].
   std::vector<double> least_slide_;
-  /// Where a dashpot or a slider leads from a node whose position is an unknown: its displacement is a difference of positions,
-  /// and may be small beside them.
+  /// A dashpot or slider at a node whose position is an unknown: its displacement is a difference of positions, and may be
+  /// small beside them.
   struct Gap { NodeId node; Branch branch; };
   std::vector<Gap> gaps_;
-  std::vector<double> gap_seen_;                      ///< of each node: the largest of them [m]
-  /// Of each node whose distance from another one is integrated: the farthest that it has been from where positions count
-  /// from, and the same of both [m].
+  std::vector<double> gap_seen_;                      ///< of each node: largest displacement over its gaps [m]
+  /// Of each node whose distance from another one is integrated: largest distance from the origin of positions, and the
+  /// larger of that of both nodes [m].
   std::vector<double> place_seen_, way_seen_;
-  std::vector<char> has_gap_;                         ///< of each node: it has one at present
-  std::vector<NodeId> part_;                          ///< of each node: one that stands for its part of the network
+  std::vector<char> has_gap_;                         ///< of each node: it has a gap at present
+  std::vector<NodeId> part_;                          ///< of each node: representative of its part of the network
   std::vector<double> longest_;                       ///< of each part: its longest deflection so far [m]
-  std::vector<char> jitters_;                         ///< of each unknown: with the rounding of time
-  std::vector<double> rounding_;                      ///< of each unknown: what rounding leaves of it where it is 0
-  /// That of a velocity, and how long it adds up in what comes of it [s].
+  std::vector<char> jitters_;                         ///< of each unknown: it jitters with the round-off of time
+  std::vector<double> rounding_;                      ///< of each unknown: its round-off near 0
+  /// Round-off of a velocity [m/s], and how long it accumulates in the quantity that integrates it [s].
   struct Drift { double velocity = 0, lasting = std::numeric_limits<double>::infinity(); };
-  std::vector<Drift> drift_;                          ///< of each unknown that comes of a velocity
+  std::vector<Drift> drift_;                          ///< of each unknown that integrates a velocity
   // Of each part: round-off of its forces near rest [N], and of its velocities [m/s].
   std::vector<double> force_rounding_;
-  std::vector<double> plain_rounding_;    ///< but for dilatant laws
-  std::vector<double> rounding_at_rest_;  ///< with those at rest
-  std::vector<double> rounding_now_;      ///< with those as they are at present
-  std::vector<NodeId> balanced_;          ///< of each deflection branch: the node whose balance tells its deflection, -1
-  bool any_balanced_ = false;             ///< some do, or some dashpot is solved for its force
+  std::vector<double> plain_rounding_;    ///< without dilatant laws
+  std::vector<double> rounding_at_rest_;  ///< with dilatant laws at rest
+  std::vector<double> rounding_now_;      ///< with dilatant laws at their present forces
+  std::vector<NodeId> balanced_;          ///< of each deflection branch: the node whose balance determines it, -1
+  bool any_balanced_ = false;             ///< some node does, or some dashpot is solved for its force
   bool any_solved_ = false;               ///< some dashpot is solved for its force
-  /// The branch of a force or a deflection that follows from a balance; one that is held still may take any.
+  /// A branch whose force or deflection follows from a balance. If `held`, its deflection may balance any force.
   struct Follower { Sort sort; std::size_t index; bool held; };
   std::vector<Follower> followers_;       ///< dashpots first, then deflections
   BalancedForces balanced_forces_;        ///< of the followers
-  std::vector<double> longest_at_;        ///< of each node: the longest of the deflections there so far [m]
+  std::vector<double> longest_at_;        ///< of each node: largest deflection at it so far [m]
   std::vector<StopChain> stop_chains_;    ///< in the present modes
-  std::vector<double> stopping_;          ///< of each node: what a velocity may be wrong by for the force that stops it [m/s]
-  std::vector<double> carried_seen_;                  ///< of each rate branch: the fastest that both its ends have been [m/s]
-  std::vector<double> dashpot_rounding_;  ///< of each: what the rounding of velocities leaves of its force [N]
-  std::vector<double> difference_rounding_, slide_rounding_;  ///< of the velocities of deflections and sliders [m/s]
+  std::vector<double> stopping_;          ///< of each node: error of the velocity allowed by the force that stops it [m/s]
+  std::vector<double> carried_seen_;                  ///< of each rate branch: largest velocity common to both ends [m/s]
+  std::vector<double> dashpot_rounding_;  ///< of each: round-off of its force due to velocities [N]
+  std::vector<double> difference_rounding_, slide_rounding_;  ///< of their velocities [m/s]
   double largest_velocity_ = 0;
   double known_velocity_ = 0, applied_force_ = 0;
   bool trusted_ = true;
-  std::vector<double> force_error_;  ///< of each part: what steps and round-off may add to its forces [N]; empty without dilatant laws
+  std::vector<double> force_error_;  ///< of each part: error of its forces [N]; empty without dilatant laws
   std::vector<double> slider_noise_, slip_noise_, tolerance_, grain_;
-  std::vector<NodeId> held_;        ///< of each node: one that stands for all that sliders hold together with it
-  std::vector<double> held_noise_;  ///< of each of these: the errors of forces there [N]
+  std::vector<NodeId> held_;        ///< of each node: representative of those that sticking sliders hold together
+  std::vector<double> held_noise_;  ///< of each of these: sum of the errors of forces there [N]
 };
 
 }  // namespace rheonet

@@ -18,7 +18,7 @@ Values of(N_Vector v) { return {NV_DATA_S(v), NV_LENGTH_S(v)}; }
 // Up to this length a plain loop is faster than one made for long vectors.
 constexpr sunindextype longest_loop = 6;
 
-// Of each of these the result may be one of the operands, element by element.
+// In each of these operations the result may be one of the operands.
 
 void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
   const sunindextype length = NV_LENGTH_S(z);
@@ -53,7 +53,7 @@ realtype norm(N_Vector x, N_Vector weight) {
   return std::sqrt((of(x) * of(weight)).square().sum() / static_cast<double>(NV_LENGTH_S(x)));
 }
 
-/// Of the elements whose `id` is positive, among all.
+/// Norm of the elements whose `id` is positive; the mean is over all elements.
 realtype norm_of_masked(N_Vector x, N_Vector weight, N_Vector id) {
   const double *value = NV_DATA_S(x), *w = NV_DATA_S(weight), *counts = NV_DATA_S(id);
   double sum = 0;
@@ -63,7 +63,7 @@ realtype norm_of_masked(N_Vector x, N_Vector weight, N_Vector id) {
   return std::sqrt(sum / static_cast<double>(NV_LENGTH_S(x)));
 }
 
-/// In blocks, so that what is summed stays in the cache.
+/// Works in blocks, so that the sums stay in the cache.
 int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
   constexpr sunindextype block = 64;
   std::array<double, block> sum;
