@@ -8,7 +8,7 @@ namespace rheonet {
 
 namespace {
 
-// Where bytes that are not UTF-8 go: code points that encode no text (surrogates), and back.
+// Bytes that are not UTF-8 are mapped to these code points (surrogates, which encode no text), and back.
 constexpr char32_t stray = 0xDC00;
 
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }

@@ -15,7 +15,7 @@ namespace {
 
 const char* const check_example = "laminar = { that = \"speed < critical_speed\", warn = \"the flow would be turbulent\" }";
 
-/// Where the comparisons of an expression stand.
+/// The comparison operators found in an expression.
 struct Comparisons {
   bool any = false;
   std::size_t chained = std::string_view::npos;  ///< the second operator of `a < b < c`
@@ -23,7 +23,7 @@ struct Comparisons {
 
 Comparisons comparisons_of(std::string_view text) {
   Comparisons found;
-  std::vector<bool> compared{false};  // at each depth of parentheses, since the last && || ? : ,
+  std::vector<bool> compared{false};  // for each depth of parentheses: a comparison occurred since the last && || ? : ,
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool equal_sign_follows = i + 1 < text.size() && text[i + 1] == '=';
@@ -42,7 +42,7 @@ Comparisons comparisons_of(std::string_view text) {
   return found;
 }
 
-/// What is wrong with the dimensions of a comparison that does not hold: a value of 0 shows none.
+/// The dimension error of a comparison that does not hold; absent if there is none. The value 0 alone does not show it.
 std::optional<TextError> mismatch(std::string_view text, const Environment& environment) {
   const auto opposite = evaluate_expression(fmt::format("({}) == 0", text), environment);
   const auto* wrong = std::get_if<TextError>(&opposite);

@@ -24,7 +24,7 @@ double ClaimValues::time(const TomlValue& source, const std::string& name) const
 }
 
 void ClaimValues::check_in_run(const TomlValue& source, const std::string& name, double t) const {
-  if (std::isnan(scene_.start) || std::isnan(scene_.stop)) return;  // which is mistaken itself
+  if (std::isnan(scene_.start) || std::isnan(scene_.stop)) return;  // this mistake has been reported
   if (t < scene_.start || t > scene_.stop)
     context_.mistakes.error(source.spot,
                             fmt::format("{} must be within the run, {} s to {} s, but is {} s", name,

@@ -7,16 +7,16 @@ namespace rheonet {
 
 namespace {
 
-constexpr double exponent_rounding = 1e-9;  // as for the exponents of a Dimension
+constexpr double exponent_rounding = 1e-9;  // as for the exponents of Dimension
 
 bool same_exponent(double a, double b) { return std::abs(a - b) <= exponent_rounding; }
 bool vanishes(double exponent) { return same_exponent(exponent, 0); }
 
-/// Made of time alone, or of nothing.
+/// Whether the dimension is a power of time alone, or a pure number.
 bool is_temporal(Dimension dimension) { return vanishes(dimension.metre) && vanishes(dimension.kilogram); }
 bool is_rate(Dimension dimension) { return is_temporal(dimension) && dimension.second < -exponent_rounding; }
 
-/// Moves as much of the exponent `from` to the exponent `to` as pi can convert.
+/// Moves the part of the exponent `from` that `pi` can convert to the exponent `to`.
 void convert_by_pi(double& from, double& pi, double& to) {
   const double part = std::min(std::abs(from), std::abs(pi));
   const double moved = from > 0 ? part : -part;
@@ -25,8 +25,8 @@ void convert_by_pi(double& from, double& pi, double& to) {
   pi -= pi > 0 ? part : -part;
 }
 
-/// Settles what pi is, as far as the exponents show. `rate_in_radians`: the factor that is a rate counted radians before
-/// pi came: then pi is a number.
+/// Decides whether pi is a number or a conversion, as far as the exponents show. It is a number if `rate_in_radians`: the
+/// factor with the rate already counted radians.
 void settle(Number& number, bool rate_in_radians) {
   double &radian = number.radian, &hertz = number.hertz, &pi = number.pi;
   if (vanishes(pi)) return;
@@ -45,7 +45,7 @@ void settle(Number& number, bool rate_in_radians) {
   }
 }
 
-/// The cycles that it may count, as pi is a number or a conversion.
+/// Bounds of the number's exponent of cycles: pi may be a number or a conversion.
 struct CycleRange {
   double least, most;
 };
@@ -54,8 +54,8 @@ CycleRange cycles_of(const Number& number) {
           std::max(number.hertz, number.hertz - number.pi) + exponent_rounding};
 }
 
-/// Whether `number`, beside one that counts cycles, may be taken to count them too: it is a count, a duration or a
-/// mechanical quantity without any angle, or the inverse of a time.
+/// Whether `number`, next to one that counts cycles, may count cycles as well: a count, a duration, the inverse of a time,
+/// or a mechanical quantity without an angle.
 bool may_count_cycles(const Number& number) {
   const Dimension& dimension = number.dimension;
   if (!vanishes(number.hertz) || !vanishes(number.radian)) return false;
@@ -63,7 +63,7 @@ bool may_count_cycles(const Number& number) {
   return vanishes(number.pi) && (!is_rate(dimension) || same_exponent(number.typed_time, dimension.second));
 }
 
-/// 2 pi times 600 rpm.
+/// Whether the number is a product like 2 pi times 600 rpm.
 bool counts_radians_times_pi(const Number& number) { return number.radian > exponent_rounding && number.pi > exponent_rounding; }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::string_view without_quotes(std::string_view text) {
   return quoted ? trim(text.substr(1, text.size() - 2)) : text;
 }
 
-/// The quote that closes a field which begins at `at` and stands in quotes; npos if it does not.
+/// The quote that closes a quoted field beginning at `at`; npos if the field is not quoted.
 std::size_t closing_quote(std::string_view line, std::size_t at) {
   at = line.find_first_not_of(spaces_and_ends, at);
   return at < line.size() && line[at] == '"' ? line.find('"', at + 1) : line.npos;
@@ -45,7 +45,7 @@ std::vector<CsvField> csv_fields(std::string_view line) {
   while (at <= line.size()) {
     const std::size_t closing = closing_quote(line, at);
     std::size_t from = closing == line.npos ? at : closing;
-    // Between blanks a unit belongs to the name before it.
+    // At blanks a unit in square brackets belongs to the name before it.
     const bool unit = separator == ' ' && at > 0 && !fields.empty() && line.substr(at - 1).starts_with(" [") && line.find(']', at) != line.npos;
     if (unit) from = line.find(']', at);
     std::size_t end = separator == ' ' ? line.find_first_of(spaces_and_ends, from) : line.find(separator, from);

@@ -14,7 +14,7 @@ namespace {
 
 const char* const demo_example = "k = [\"10 N/m\", \"1 kN/m\"], or with a step: n = [1, 64, 1]";
 
-/// "N/m" of "10 N/m"; "" of a number and an expression.
+/// "N/m" for "10 N/m"; "" for a number or an expression.
 std::string unit_text(const TomlValue& value) {
   const std::size_t blank = value.is_string() ? value.text.find(' ') : std::string::npos;
   if (blank == std::string::npos || !identifiers_of(value.text).empty()) return "";
@@ -25,7 +25,7 @@ std::string words_for(const Number& number) {
   return number.plain ? "a number" : describe(number);
 }
 
-/// The values of a range in SI; absent if something is wrong with one of them.
+/// The values of a range in SI; absent if one has a mistake.
 std::optional<std::vector<double>> values_of(const TomlEntry& entry, const Number& parameter,
                                              const Environment& environment, Mistakes& mistakes) {
   std::vector<double> values;
@@ -47,7 +47,7 @@ std::optional<std::vector<double>> values_of(const TomlEntry& entry, const Numbe
   return values;
 }
 
-/// What the numbers of a range are in: the unit in which the file gives one of them, with its size in SI.
+/// The unit of a range, which the file gives with one of its numbers, and the size of this unit in SI.
 std::pair<std::string, double> unit_of(const TomlEntry& entry, const Number& parameter,
                                        const Environment& environment) {
   for (const TomlValue& item : entry.value.items)
@@ -73,7 +73,7 @@ std::optional<Demo::Slider> read_slider(const TomlEntry& entry, const Environmen
     return {};
   }
   const auto values = values_of(entry, parameter->second, environment, mistakes);
-  if (!values || std::isnan(parameter->second.value)) return {};  // that is reported already
+  if (!values || std::isnan(parameter->second.value)) return {};  // this has been reported
   const auto [unit, size] = unit_of(entry, parameter->second, environment);
   Demo::Slider slider{.parameter = entry.key, .unit = unit, .least = (*values)[0] / size, .most = (*values)[1] / size};
   if (!(slider.least < slider.most)) {

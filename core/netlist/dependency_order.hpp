@@ -7,8 +7,7 @@ namespace rheonet {
 
 /// A topological order of items that use each other, and the cycles that prevent one.
 struct DependencyOrder {
-  std::vector<std::size_t> order;  ///< each item after all items that it uses; items on a cycle, or using one on a cycle,
-                                   ///< are left out
+  std::vector<std::size_t> order;  ///< each item after all that it uses; without items that are on a cycle or use one
   std::vector<std::vector<std::size_t>> cycles;  ///< each lists the items on the cycle; the first is not repeated at the end
 };
 

@@ -13,10 +13,10 @@ namespace rheonet {
 
 namespace {
 
-// Characters of a line that an excerpt shows: netlists written by programs may have all their points on one line.
+// Number of characters of a line in an excerpt: generated netlists may have all their points on one line.
 constexpr std::size_t excerpt_width = 120;
 
-/// Line `number` (from 1) without its end, "" if there is none.
+/// Line `number` (from 1) without its line end, "" if there is none.
 std::string_view line_at(std::string_view text, int number) {
   for (int n = 1; n < number; ++n) {
     const auto end = text.find('\n');
@@ -28,15 +28,15 @@ std::string_view line_at(std::string_view text, int number) {
   return text;
 }
 
-/// What stands for a character in an excerpt, as wide as itself: a control character must not reach the terminal.
+/// The character shown in an excerpt, of the same width: a control character must not reach the terminal.
 char32_t shown_as(char32_t c) {
   constexpr char32_t picture_of_null = 0x2400, picture_of_delete = 0x2421, replacement = 0xFFFD;
   if (c == U'\t' || is_printable(c)) return c;
   return c < 0x20 ? picture_of_null + c : c == 0x7F ? picture_of_delete : replacement;
 }
 
-/// The line with a caret under character `column`, both behind a margin with the line's number, if not 0. A tab stands
-/// in both lines, so that the caret is in its place whatever the width of a tab.
+/// The line, and a caret under character `column`. Both have a margin with the line's number, if it is not 0. Tabs are
+/// repeated in both, so that the caret is in place for any tab width.
 std::string excerpt(std::string_view line, int line_number, int column) {
   std::u32string characters = decode(line);
   std::transform(characters.begin(), characters.end(), characters.begin(), shown_as);
@@ -57,11 +57,11 @@ std::string excerpt(std::string_view line, int line_number, int column) {
   return column > 0 ? shown + '\n' + below + '^' : shown;
 }
 
-// Longer words are no mistyped names; comparing them would take time in proportion to the square of their length.
+// Longer words are no mistyped names, and the time of a comparison grows with the square of the length.
 constexpr std::size_t longest_guessed = 100;
 
-/// Damerau-Levenshtein distance (optimal string alignment: insert, delete, replace, swap neighbours) of words that are not
-/// longer than can be guessed.
+/// Damerau-Levenshtein distance (optimal string alignment: insert, delete, replace, swap neighbours) of words of at most
+/// longest_guessed bytes.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   using Row = std::array<std::size_t, longest_guessed + 1>;
   Row rows[3];
@@ -113,9 +113,9 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   for (const std::string& candidate : known) {
     const std::size_t longer = std::max(word.size(), candidate.size());
     if (longer > longest_guessed || longer - std::min(word.size(), candidate.size()) > limit) continue;
-    // A wrong case is the smallest of mistakes.
+    // A difference in case is the smallest mistake.
     const std::pair distance{edit_distance(lower, lower_case(candidate)), edit_distance(word, candidate)};
-    // Nothing in common: no hint is better than any two letters for any other two.
+    // No letter in common: no hint is better than an arbitrary one.
     if (distance.first >= longer) continue;
     if (distance < best) best = distance, name = candidate;
   }

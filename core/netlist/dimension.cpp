@@ -8,8 +8,8 @@ namespace rheonet {
 
 namespace {
 
-// Exponents that stand for the same one differ by the rounding of a few products; two that differ do so by more than
-// any flow index is ever typed with.
+// Equal exponents differ by the round-off of a few products; different exponents differ by more than the precision with
+// which flow indices are typed.
 constexpr double exponent_tolerance = 1e-9;
 
 bool near(double a, double b) { return std::abs(a - b) <= exponent_tolerance; }
@@ -118,7 +118,7 @@ std::string to_string(Dimension dimension) {
     if (!text.empty()) text += '*';
     text += base;
     if (near(exponent, 1)) return;
-    // Rounded to the tolerance, so that 2.9999999999 shows as what it is taken for.
+    // Rounded to the tolerance, so that 2.9999999999 is printed as 3.
     text += fmt::format("^{:.9g}", std::round(exponent / exponent_tolerance) * exponent_tolerance);
   };
   append("kg", dimension.kilogram);
@@ -159,7 +159,7 @@ std::string describe(Dimension dimension, double radian) {
       {{2, 0, -1}, 0, "a kinematic viscosity (m^2/s)"},
       {{-3, 1, 0}, 0, "a density (kg/m^3)"},
   };
-  // An exponent of rad that makes no name of its own (N*rad) says nothing.
+  // An exponent of rad that gives no name of its own (N*rad) is ignored.
   for (const double wanted : {radian, 0.0})
     for (const auto& entry : known)
       if (dimension.same(entry.dimension) && near(entry.radian, wanted)) return entry.words;

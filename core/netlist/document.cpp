@@ -24,7 +24,7 @@ TomlValue convert(const toml::node& node, int file) {
     value.entries.reserve(table->size());
     for (const auto& [key, item] : *table)
       value.entries.push_back({std::string(key.str()), spot_of(key.source().begin, file), convert(item, file)});
-    // toml++ keeps tables sorted by key; the order of a netlist is that of its file.
+    // toml++ sorts tables by key; a netlist keeps the order of its file.
     std::sort(value.entries.begin(), value.entries.end(), [](const TomlEntry& a, const TomlEntry& b) {
       return std::pair(a.spot.line, a.spot.column) < std::pair(b.spot.line, b.spot.column);
     });
@@ -78,7 +78,7 @@ int column_of_key(std::string_view line, std::string_view key, int column) {
                                             [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-/// The key that begins at a column, as written but for quotes around the whole of it.
+/// The key that begins at a column, as written, without quotes around all of it.
 std::string key_at(std::string_view line, int column) {
   std::string_view key = word_at(line, column);
   key = key.substr(0, key.find('='));
@@ -88,7 +88,7 @@ std::string key_at(std::string_view line, int column) {
   return std::string(key);
 }
 
-/// The column where the key that ends before `column` begins: after what separates it from another entry.
+/// The column at which the key that ends before `column` begins: after the separator from another entry.
 int begin_of_key(std::string_view line, int column) {
   const std::u32string characters = decode(line);
   const auto end = std::min(static_cast<std::size_t>(column), characters.size());
@@ -97,7 +97,7 @@ int begin_of_key(std::string_view line, int column) {
   return static_cast<int>(begin == std::u32string::npos ? end : begin) + 1;
 }
 
-/// Where a number that the parser stumbled over begins: it says where it gave up.
+/// The column at which a faulty number begins; the parser reports where it stopped.
 int begin_of_number(std::string_view line, int column) {
   const std::u32string characters = decode(line);
   const auto belongs = [](char32_t c) {
@@ -109,7 +109,7 @@ int begin_of_number(std::string_view line, int column) {
   return static_cast<int>(at) + 1;
 }
 
-/// What toml++ says, in the words of this project and with what would mend it.
+/// Reports an error of toml++ in the words of this project, with a remedy.
 void report(const toml::parse_error& e, std::string_view text, int file, Mistakes& mistakes) {
   std::string description(e.description());
   Spot spot = spot_of(e.source().begin, file);
@@ -130,7 +130,7 @@ void report(const toml::parse_error& e, std::string_view text, int file, Mistake
     mistakes.error(spot, "`" + key_at(line, spot.column) + "` adds to a table that is given whole elsewhere",
                    "put it with the other entries of that table");
   } else if (says("cannot redefine existing") && !quoted().empty()) {
-    // Of a key in quotes the parser knows the name no more.
+    // For a key in quotes the parser does not report the name.
     const bool named = line.find(quoted()) != line.npos;
     spot.column = named ? column_of_key(line, quoted(), spot.column - 1) : begin_of_key(line, spot.column - 1);
     mistakes.error(spot, "key `" + (named ? quoted() : key_at(line, spot.column)) + "` is given twice",

@@ -11,7 +11,7 @@ namespace rheonet {
 
 namespace {
 
-/// The effects of a list: words of the netlist, or of the command line.
+/// A list of effects, from the netlist or the command line.
 class EffectList {
  public:
   enum class Purpose { leave_out, keep };
@@ -47,7 +47,7 @@ class EffectList {
 
   const std::vector<EffectLeftOut>& found() const { return found_; }
 
-  /// All effects but those of the list; one that is kept for some elements alone is left out of all others.
+  /// All effects except those of the list. An effect kept for some elements is left out of all others.
   std::vector<EffectLeftOut> all_others() const {
     std::vector<EffectLeftOut> result;
     for (const Effect effect : effects()) {
@@ -91,7 +91,7 @@ class EffectList {
     }
     return names.empty() ? "" : "its effects are " + list_names(names, "and");
   }
-  /// Of elements, and of what they are in.
+  /// Paths of all elements, and of the assemblies and instances around them.
   std::vector<std::string> paths() const {
     std::set<std::string> result;
     for (const SceneElement& element : scene_.elements) {
@@ -110,7 +110,7 @@ class EffectList {
   std::vector<EffectLeftOut> found_;
 };
 
-/// Words of the command line as values, so that messages can point at them.
+/// Adds words of the command line as values with places, so that messages can point at them.
 void add_words(const std::vector<std::string>& words, const std::string& option, Sources& sources, EffectList& list) {
   for (const std::string& word : words) {
     sources.command_line.push_back(option + " " + word);

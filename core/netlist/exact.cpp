@@ -21,13 +21,13 @@ namespace {
 
 const char* const exact_example = "\"k1.force\" = \"k*x0*exp(-t*k/B)\"";
 
-/// One entry: a path, a string with its place, and the form.
+/// One entry of `[exact]`: a path (a string with its place) and the closed form.
 struct Entry {
   TomlValue path;
   const TomlValue* form;
 };
 
-/// `k1.force = "..."` without quotes is a table `k1` to TOML: it means the same.
+/// Without quotes, TOML reads `k1.force = "..."` as a table `k1`; it means the same here.
 void gather_entries(const TomlValue& table, const std::string& before, std::vector<Entry>& entries) {
   for (const TomlEntry& entry : table.entries) {
     if (entry.value.is_table()) {
@@ -47,7 +47,7 @@ void flatten(const Environment& environment, Environment& all) {
   if (environment.outer) flatten(*environment.outer, all);
 }
 
-/// The time. Where no parameter has a unit it has none either.
+/// The time as a number. It has no unit if no parameter has one.
 Number time_of(double t, const Environment& parameters, Domain domain) {
   const bool plain = std::all_of(parameters.names.begin(), parameters.names.end(),
                                  [](const auto& named) { return named.second.plain; });

@@ -12,14 +12,14 @@ namespace rheonet {
 
 namespace {
 
-/// Levels of groups and models within each other: each takes some stack.
+/// Limit on nested groups and models: each level takes stack.
 constexpr int most_nested = 500;
 
 constexpr NodeId no_node = std::numeric_limits<NodeId>::min();
 
 std::string joined(const std::string& path, const std::string& name) { return path.empty() ? name : path + '.' + name; }
 
-/// How many members a repeat has: a whole number of at least 1.
+/// The number of members of a repeat, a whole number of at least 1; absent, with a mistake, otherwise.
 std::optional<double> member_count(const Repeat& repeat, const Environment& environment, Context& context) {
   const auto wanted = repeat.count.evaluate(environment, Quantity::number, context.domain, context.mistakes);
   if (!wanted || (*wanted >= 1 && *wanted == std::floor(*wanted))) return wanted;
@@ -28,7 +28,7 @@ std::optional<double> member_count(const Repeat& repeat, const Environment& envi
   return {};
 }
 
-/// The overrides within a repeat of `count` members, each with the member that it concerns.
+/// The overrides inside a repeat of `count` members, each with the index of its member.
 std::vector<std::pair<std::size_t, ActiveOverride>> by_member(const ActiveOverrides& overrides, std::size_t count,
                                                               const std::string& path, Mistakes& mistakes) {
   std::vector<std::pair<std::size_t, ActiveOverride>> members;
@@ -129,7 +129,7 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   element.b = plan.at ? ground : ends[1];
   element.at = plan.at;
   element.spot = plan.spot;
-  // The force of a motion or a force is what it applies, that of any other element what must be applied to it.
+  // A source (motion or force) has the force that it applies; any other element has the force applied to it.
   if (around.force)
     around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1 : -1});
   scene_.elements.push_back(std::move(element));
@@ -137,7 +137,7 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   return true;
 }
 
-/// One value, or its default; false if it is none that it may be.
+/// Evaluates one value, or takes its default; false if the value is invalid.
 bool Expander::element_value(const Plan& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
@@ -170,7 +170,7 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
   values_.assign(parameters.size(), not_given);
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].flow_index.empty()) good = element_value(plan, environment, i, 1, element) && good;
-  // What has a flow index in its unit, and what is the same as another, comes after those.
+  // Parameters whose unit depends on a flow index, or that default to another parameter, come after those parameters.
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].flow_index.empty()) continue;
     const double n = values_[index_of(parameters[i].flow_index)];
@@ -191,7 +191,7 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
   return element_signals(plan, environment, element) && good;
 }
 
-/// The values of the element that is being made: those of the last one of its type, if they are the same.
+/// The values of the element being made; shared with the last element of its type if they are equal.
 Shared<double> Expander::shared_values(int declaration) {
   if (made_.empty()) made_.resize(context_.declarations.size());
   Shared<double>& last = made_[static_cast<std::size_t>(declaration)];
@@ -209,7 +209,7 @@ bool Expander::element_signals(const Plan& plan, const Environment& environment,
     element.signal_parameters.own().push_back(plan.signal_parameters[i]);
   }
   for (const Wire& feed : plan.feeds) {
-    element.signals.own().emplace_back(Signal::Constant{0});  // what the block gives takes its place
+    element.signals.own().emplace_back(Signal::Constant{0});  // placeholder: the output of the block replaces it
     element.signal_parameters.own().push_back(feed.parameter);
   }
   for (const std::size_t i : plan.default_signals) {
@@ -243,7 +243,7 @@ bool Expander::group(const Plan& plan, Ends ends, const std::string& path, const
 
 bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surroundings& around) {
   const bool series = plan.kind == Plan::Kind::series;
-  if (around.depth > most_nested) return body(plan, ends, level.path, around);  // which refuses it
+  if (around.depth > most_nested) return body(plan, ends, level.path, around);  // which reports the mistake
   bool good = true;
   NodeId before = ends[0];
   for (std::size_t i = 0; i < plan.members.size() && !stopped_; ++i) {
@@ -267,7 +267,7 @@ bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surround
                    {nullptr, around.environment, deeper, around.depth + 1, force}) &&
              good;
     }
-    // Inner nodes are numbered as one reads: those within a member before the one behind it.
+    // Inner nodes are numbered in reading order: nodes within a member before the node behind it.
     if (series && !last)
       scene_.nodes[static_cast<std::size_t>(after)].name = joined(level.path, "node" + std::to_string(++level.joints));
     before = after;
@@ -301,7 +301,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
   std::string member_path;
   const Mistakes::Within within(mistakes, member_path);
   const std::size_t elements_before = scene_.elements.size();
-  NodeId before = ends.empty() ? ground : ends[0];  // a block has none
+  NodeId before = ends.empty() ? ground : ends[0];  // a block has no ends
   bool good = true;
   for (std::size_t i = 0; i < count && good; ++i) {
     number = Number{.value = static_cast<double>(i), .dimension = {}};
@@ -320,7 +320,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
     } else {
       good = member.sound && body(member, ends, member_path, inside);
     }
-    // Known after the first member: how many elements there would be in all.
+    // The first member shows how many elements there would be in all.
     const double in_all =
         static_cast<double>(elements_before) + static_cast<double>(scene_.elements.size() - elements_before) * *wanted;
     member_path = path;

@@ -20,7 +20,7 @@ bool is_number(const std::string& text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// Whether an override concerns something within the plan, not one of its own keys.
+/// Whether an override applies to something within the plan, not to one of its own keys.
 bool goes_deeper(const Plan& plan, const ActiveOverride& active, bool is_member) {
   if (active.at_end()) return false;
   const std::string& name = active.next().name;
@@ -28,19 +28,19 @@ bool goes_deeper(const Plan& plan, const ActiveOverride& active, bool is_member)
   if (plan.kind == Plan::Kind::element) return false;
   if (plan.kind != Plan::Kind::instance) return has_member(plan, name);
   const auto named = [&](const auto& thing) { return thing.name == name; };
-  // A parameter and an element of a model may have the same name: the value of a path is that of the parameter.
+  // A parameter and an element of a model may share a name: a path that ends there means the parameter.
   const auto& parameters = plan.model->parameters;
   if (active.deeper().at_end() && std::any_of(parameters.begin(), parameters.end(), named)) return false;
   return plan.model->scope.find(name) != nullptr;
 }
 
-/// Whether an override changes where an entry stands, which a member of a `repeat` cannot by itself.
+/// Whether an override changes the place of an entry, which a single member of a `repeat` cannot do.
 bool names_place(const ActiveOverride& active) {
   return active.at_end() || active.next().name == "at" || active.next().name == "between" ||
          active.next().name == "repeat";
 }
 
-/// What an override may name within a plan besides its keys.
+/// Collects the names that an override may use within a plan besides its keys.
 void collect_names(const Plan& plan, std::vector<std::string>& names) {
   for (const Plan& member : plan.members) {
     if (has_level(member))
@@ -53,7 +53,7 @@ void collect_names(const Plan& plan, std::vector<std::string>& names) {
   for (const Plan& entry : plan.model->scope.entries) names.push_back(entry.name);
 }
 
-/// Whether an override names neither a key of the plan nor anything within it; a mistake if so.
+/// Whether an override names neither a key of the plan nor anything within it; reports a mistake if so.
 bool is_lost(const Plan& plan, const ActiveOverride& active, bool is_member, Mistakes& mistakes) {
   if (plan.kind == Plan::Kind::element || active.at_end()) return false;
   const std::string& name = active.next().name;
@@ -132,8 +132,8 @@ bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, co
   if (assembled) port_names_[port] = inside.ports.at(model.ports[0]);
   std::swap(inside_, inside);
   if (assembled) {
-    // The first port may be a node that the inside names too (ground), so it has an id of its own until it is known
-    // which elements are at it.
+    // The first port may be a node that is also named inside (ground). It has an id of its own until the elements that end
+    // at it are known.
     locals.ids[0] = port;
     --next_port_;
   }
@@ -154,7 +154,7 @@ Expander::Terms Expander::take_port_forces(NodeId port, NodeId actual, std::size
   Terms terms;
   for (std::size_t i = first_element; i < scene_.elements.size(); ++i) {
     SceneElement& element = scene_.elements[i];
-    // The force of a motion or a force is what it applies, that of any other element what must be applied to it.
+    // A source (motion or force) has the force that it applies; any other element has the force applied to it.
     const int applied = element.signals.empty() ? 1 : -1;
     if (element.a == port) {
       element.a = actual;

@@ -3,7 +3,7 @@
 
 namespace rheonet {
 
-/// What a wire names, in the scene: within a model its elements and nodes, and the nodes at its ports.
+/// Path of a wire's source in the scene. A wire in a model may name the model's elements and nodes, and its ports.
 std::string Expander::path_of(const Wire& wire) const {
   if (inside_.path.empty()) return wire.path;
   const std::size_t dot = wire.path.find('.');

@@ -24,7 +24,7 @@ constexpr std::pair<const char*, Figure> claim_keys[] = {
     {"value", Figure::at},  {"final", Figure::final}, {"max", Figure::max},         {"min", Figure::min},
     {"mean", Figure::mean}, {"rms", Figure::rms},     {"crosses", Figure::crossing}};
 
-/// One entry of `[expect]`: a path, and its claims.
+/// One entry of `[expect]`: a path and its claims.
 struct ClaimedSubject {
   TomlValue path;  ///< a string
   const TomlValue* claims;
@@ -34,7 +34,7 @@ bool holds_tables(const TomlValue& value) {
   return value.is_table() || (value.is_array() && !value.items.empty() && value.items.front().is_table());
 }
 
-/// `k1.force = { ... }` without quotes is a table `k1` with a table `force` to TOML: it means the same.
+/// Without quotes, TOML reads `k1.force = { ... }` as a table `k1` with a table `force`; it means the same here.
 void gather_subjects(const TomlValue& table, const std::string& before, const Spot* begin, std::vector<ClaimedSubject>& subjects) {
   for (const TomlEntry& entry : table.entries) {
     const Spot& spot = begin ? *begin : entry.spot;
@@ -57,7 +57,7 @@ class ClaimReader {
   ClaimReader(const Environment& environment, Context& context, const Scene& scene)
       : environment_(environment), context_(context), mistakes_(context.mistakes), scene_(scene), values_(environment, context, scene) {}
 
-  /// A claim on `record`; `other` is the one that it is divided by. Absent if something is wrong with it.
+  /// Reads a claim on `record`, divided by `other` if not nullptr. Absent if it has a mistake.
   std::optional<Claim> read(const TomlValue& source, const Record& record, const Record* other) {
     const std::size_t before = mistakes_.errors();
     Claim claim;
@@ -127,7 +127,7 @@ class ClaimReader {
                                                         " s, but is " + number_text(claim.to) + " s");
   }
 
-  /// One value, with a tolerance; or two, between which it lies.
+  /// Reads one value with a tolerance, or two bounds.
   void read_claimed(Claim& claim, const TomlEntry& entry, const TomlEntry* within) {
     const std::string name = "`" + entry.key + "`";
     if (!entry.value.is_array()) {
@@ -147,7 +147,7 @@ class ClaimReader {
     if (within) mistakes_.error(within->spot, "`within` does not go with two values, which say how far it may be");
   }
 
-  /// A ratio has no magnitude in the run to compare with but what is claimed of it.
+  /// A ratio has no magnitude in the run: its relative tolerance refers to the claimed ratio, which must not be 0.
   void refuse_fraction_of_nothing(const Claim& claim, const TomlEntry& claimed, const TomlEntry* within) {
     if (claimed.value.is_array() || claim.least != 0 || (within && !claim.fraction)) return;
     const std::string two = "two values say where it may lie: " + claimed.key + " = [-1e-6, 1e-6]";
@@ -171,7 +171,7 @@ class ClaimReader {
   }
 
   double time(const TomlEntry* entry) { return values_.time(entry->value, "`" + entry->key + "`"); }
-  /// In SI, of the dimension of what is claimed.
+  /// A value in SI, of the dimension of the claimed figure.
   double value(const TomlValue& source, const std::string& name) { return values_.level(source, name, unit_); }
 
   const Environment& environment_;
@@ -179,7 +179,7 @@ class ClaimReader {
   Mistakes& mistakes_;
   const Scene& scene_;
   ClaimValues values_;
-  Number unit_;  ///< one of the unit of what is claimed
+  Number unit_;  ///< the number 1 in the unit of the claimed figure
 };
 
 }  // namespace
@@ -191,7 +191,7 @@ void read_claims(const TomlValue& expect, const Environment& environment, const 
   std::vector<ClaimedSubject> subjects;
   gather_subjects(expect, "", nullptr, subjects);
 
-  // All paths first: a scene of millions is gone through once.
+  // Resolve all paths together: this takes one pass over a scene with millions of elements.
   std::vector<TomlValue> paths;
   std::vector<std::pair<const TomlValue*, std::size_t>> claims;  // each with the index of its record's path
   for (const ClaimedSubject& subject : subjects) {

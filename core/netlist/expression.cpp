@@ -21,7 +21,7 @@ namespace {
 
 using Result = std::variant<Number, TextError>;
 
-/// What other languages call it.
+/// Names from other languages, with the spelling that is used here.
 constexpr std::pair<std::string_view, std::string_view> foreign_names[] = {
     {"if", "a choice is written `a > b ? x : y`"},
     {"pow", "a power is written with `^`"},
@@ -46,7 +46,7 @@ std::string hint_for_call(const std::string& name) {
   return meant.empty() ? "" : fmt::format("did you mean `{}`?", meant);
 }
 
-/// A number times an angle that may be its unit: see counting.hpp.
+/// A number that may also convert cycles to radians: see counting.hpp.
 constexpr Number pi_number{.value = std::numbers::pi, .dimension = {}, .plain = true, .pi = 1};
 
 bool is_pi(std::string_view name) { return name == "PI" || name == "Pi" || name == "π"; }
@@ -68,7 +68,7 @@ class Evaluation {
       values_.push_back(number.value);
       united_ = united_ || !number.plain;
       infinite_ = infinite_ || std::isinf(number.value);
-      // Nothing is known of the dimension of "inf"; any other plain number is a pure one beside what has a unit.
+      // The dimension of "inf" is unknown. Next to parameters with units, any other plain number is dimensionless.
       number.plain = std::isinf(number.value);
       variables_.push_back(number);
     }
@@ -145,7 +145,7 @@ class Evaluation {
 
   void carry_out(const ExpressionCode::Instruction& instruction) {
     switch (instruction.op) {
-      case Op::number:  // a 0 that is typed fits everything
+      case Op::number:  // a typed 0 fits every dimension
         stack_.push_back({.value = instruction.number, .dimension = {}, .plain = instruction.number == 0});
         return;
       case Op::variable:
@@ -229,7 +229,7 @@ class Evaluation {
     stack_.push_back(result);
   }
 
-  /// The exponents of what a function gives.
+  /// The exponents of a function's value.
   Number value_of(const ExpressionFunction& function, std::span<const Number> arguments, std::size_t first) const {
     const Part& part = code_.arguments[first];
     Number result{.value = 0, .dimension = {}, .plain = false};
@@ -309,13 +309,13 @@ class Evaluation {
   std::vector<double> values_;  ///< of the variables, in SI
   std::vector<Number> stack_;
   bool united_ = false;    ///< one of the variables has a unit
-  bool infinite_ = false;  ///< one of them is "inf"
+  bool infinite_ = false;  ///< one of the variables is "inf"
 };
 
-/// The members of a `repeat` evaluate the same text thousands of times.
+/// Caches compiled expressions: the members of a `repeat` evaluate the same text thousands of times.
 std::shared_ptr<const ExpressionCode> code_of(std::string_view text) {
   static thread_local std::unordered_map<std::string, std::shared_ptr<const ExpressionCode>> codes;
-  constexpr std::size_t most = 512;  // of a few kB each: more than a person writes
+  constexpr std::size_t most = 512;  // a few kB each; more expressions than a person writes
   std::string key(text);
   if (const auto known = codes.find(key); known != codes.end()) return known->second;
   if (codes.size() >= most) codes.clear();

@@ -12,8 +12,8 @@ namespace rheonet {
 
 namespace {
 
-constexpr int most_parentheses = 500;  // the parser calls itself for each
-// Signs, powers and choices within each other: a parenthesis counts as two at least.
+constexpr int most_parentheses = 500;  // the parser recurses for each
+// Limit on nested signs, powers and choices; a parenthesis counts as at least two levels.
 constexpr int most_levels_within = 4 * most_parentheses;
 
 bool begins_name(char c) { return is_letter(c) || c == '_'; }
@@ -170,7 +170,7 @@ class ExpressionParser {
     return code_.instructions.size() - 1;
   }
 
-  /// Operators of one level, taken from left to right.
+  /// Parses operators of equal precedence, which associate to the left.
   template <std::size_t N>
   Part chain(Level level, const std::pair<std::string_view, Op> (&operators)[N]) {
     const Part first = (this->*level)();

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether `path` lies in `folder` or below it; both canonical.
+/// Whether `path` lies in or below `folder`; both are canonical.
 bool within(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
@@ -25,7 +25,7 @@ std::optional<std::string> Files::text_of(const fs::path& file, std::string& why
 }
 
 int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role role) {
-  // A byte order mark is no part of the text that lines and columns count.
+  // Lines and columns do not count a byte order mark.
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   sources_.files.push_back({std::move(shown), std::move(text), role});
   places_.push_back({std::move(folder)});
@@ -42,7 +42,7 @@ std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistake
     mistakes.error(name.spot, "`" + name.text + "` leads outside the netlist's folder", rule);
     return {};
   }
-  // Files named on the command line count as named by the scene itself.
+  // Files named on the command line are searched for as if named by the scene itself.
   const Place& place = places_[static_cast<std::size_t>(std::max(from, 0))];
   return offers_.empty() ? find_on_disk(name, place, mistakes) : find_offered(name, place, mistakes);
 }

@@ -8,7 +8,7 @@ namespace rheonet {
 
 namespace {
 
-/// Whether a wave, its rate and its period are finite. The corners of a triangle have 2/pi of the rate of a sine.
+/// Whether a wave, its rate and its period are finite. The slope of a triangle wave is 2/pi of the peak rate of a sine.
 bool is_finite_wave(double amplitude, double frequency, double offset) {
   const bool has_period = frequency == 0 || std::isfinite(1 / frequency);
   return has_period && std::isfinite(std::abs(offset) + std::abs(amplitude)) && std::isfinite(2 * std::numbers::pi * frequency) &&

@@ -12,16 +12,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// 10-point Gauss-Legendre on [-1, 1] (Abramowitz and Stegun, table 25.4), the positive half: abscissa, weight.
+/// 10-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun, table 25.4), the positive half: abscissa, weight.
 constexpr std::pair<double, double> gauss[] = {{0.14887433898163121088, 0.29552422471475287017},
                                                {0.43339539412924719080, 0.26926671930999635509},
                                                {0.67940956829902440623, 0.21908636251598204400},
                                                {0.86506336668898451073, 0.14945134915058059315},
                                                {0.97390652851717172008, 0.06667134430868813759}};
-// 10 points integrate a quarter turn to rounding, even where the frequency passes through 0.
+// 10 points integrate a quarter turn to round-off, even if the frequency passes through 0.
 constexpr double panel_angle = std::numbers::pi / 2;
-// Up to here the panels are taken, and beyond it the closed form: a difference of two tails, which over less than a turn
-// loses digits.
+// Largest number of panels. Longer intervals take the closed form, a difference of two tails, which loses digits over less
+// than a turn.
 constexpr double most_panels = 4;
 
 /// sin(phase + omega t + chirp t^2/2).
@@ -41,7 +41,7 @@ struct Sweep {
     return half * sum;
   }
 
-  /// Integral from t to where the frequency is infinite, for chirp > 0: the frequency at t is `rate` >= 0 [rad/s].
+  /// Integral from t to infinity, for chirp > 0; the frequency at t is `rate` >= 0 [rad/s].
   double tail(double t, double rate) const {
     const double root = std::sqrt(chirp);
     return (std::polar(1.0, angle(t)) * fresnel_tail(rate / root)).imag() / root;
@@ -50,14 +50,14 @@ struct Sweep {
 
 }  // namespace
 
-// F(x), which is 1/sqrt(pi) exp(-i pi/4) times the integral of exp(i t^2) from x on, by the trapezium rule with the poles of
-// its integrand taken off: Alazah, Chandler-Wilde and La Porte, Numer. Math. 128 (2014) 635, equation (11), with
-// G(z) = sqrt(2 pi) exp(i (pi/4 - x^2)) F(x), x = z/sqrt(2).
+// F(x), which is 1/sqrt(pi) exp(-i pi/4) times the integral of exp(i t^2) from x to infinity, by the trapezium rule,
+// corrected for the poles of the integrand: Alazah, Chandler-Wilde and La Porte, Numer. Math. 128 (2014) 635, equation
+// (11), with G(z) = sqrt(2 pi) exp(i (pi/4 - x^2)) F(x), x = z/sqrt(2).
 Complex fresnel_tail(double z) {
-  constexpr double furthest = 1e9;  // G is i/z to round-off: the next term of its series is 1/z^3
+  constexpr double furthest = 1e9;  // beyond, G is i/z to round-off: the next term of its series is 1/z^3
   if (z > furthest) return {0, 1 / z};
   struct Node { double t2, weight; };
-  constexpr int nodes = 12;  // the error is then below round-off for all x
+  constexpr int nodes = 12;  // the error is below round-off for all x
   static const double A = std::sqrt((nodes + 0.5) * std::numbers::pi);
   static const std::array<Node, nodes> table = [] {
     std::array<Node, nodes> result;
@@ -74,8 +74,8 @@ Complex fresnel_tail(double z) {
     const double share = weight / (x2 * x2 + t2 * t2);
     sum += Complex(share * x2, -share * t2);
   }
-  // The residue of the poles: nothing to the sum beyond here, where exp overflows in the end.
-  constexpr double last_residue = 40;  // its exponent: exp(-40) is below round-off of the sum
+  // The residue of the poles. Beyond this exponent it is negligible, and exp would finally overflow.
+  constexpr double last_residue = 40;  // exp(-40) is below round-off of the sum
   const double exponent = std::numbers::sqrt2 * A * x;
   const Complex residue = exponent > last_residue ? 0 : std::polar(1.0, -x2) / (1.0 + std::polar(std::exp(exponent), -exponent));
   return factor * (residue + std::polar(x / A, std::numbers::pi / 4) * sum);
@@ -89,7 +89,7 @@ double integral_of_chirp(double phase, double omega, double chirp, double a, dou
   const double panels = std::ceil(std::max(std::abs(before), std::abs(after)) * (b - a) / panel_angle);
   if (panels <= most_panels) return sweep.by_panels(a, b, std::max(1.0, panels));
   if (before >= 0) return sweep.tail(a, before) - sweep.tail(b, after);
-  // In mirrored time the frequency rises from its zero towards earlier times too.
+  // In mirrored time the frequency also rises from its zero towards earlier times.
   const Sweep mirrored{phase, -omega, chirp};
   if (after <= 0) return mirrored.tail(-b, -after) - mirrored.tail(-a, -before);
   const double turn = -omega / chirp;

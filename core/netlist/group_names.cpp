@@ -30,7 +30,7 @@ void name(Plan& group, Naming& naming, Mistakes& mistakes) {
     const bool unnamed = member.name.empty();
     if (unnamed) {
       const std::string type = type_of(member);
-      if (type.empty()) continue;  // a mistake that has been reported
+      if (type.empty()) continue;  // this mistake has been reported
       member.name = type + std::to_string(++naming.numbers[type]);
     }
     if (!naming.taken.emplace(member.name, member.spot).second)

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each file that includes another takes some stack.
+// Limit on nested includes: each level takes stack.
 constexpr std::size_t most_including = 100;
 
 class Includer {
@@ -73,7 +73,7 @@ class Includer {
   }
 
   Context& context_;
-  std::vector<Open> open_;  ///< the file being read, and those that included it
+  std::vector<Open> open_;  ///< the file being read and the files that include it
   std::set<fs::path> done_;
 };
 

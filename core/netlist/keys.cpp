@@ -23,7 +23,7 @@ bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_
   return false;
 }
 
-/// Where a key that is often misplaced belongs; empty for all others.
+/// The right place of a key that is often misplaced; empty for all other keys.
 std::string place_of(std::string_view key) {
   const auto among = [&](std::initializer_list<std::string_view> keys) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
   if (among({"domain", "title", "include"})) return "at the top of the file, above all tables: it is for the whole scene";

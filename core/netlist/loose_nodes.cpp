@@ -11,7 +11,7 @@ namespace rheonet {
 
 namespace {
 
-// So many of them may be mistyped; where there are more, they are meant.
+// Up to this many loose nodes may be mistyped names; more of them are intended.
 constexpr std::ptrdiff_t most_mistyped = 20;
 
 bool is_ground_in_capitals(const std::string& name) {
@@ -21,7 +21,7 @@ bool is_ground_in_capitals(const std::string& name) {
          });
 }
 
-/// Names of all nodes but these two: the ends that an element has.
+/// Names of all nodes other than `ends`, the ends of an element.
 std::vector<std::string> ends_but(const Scene& scene, std::pair<NodeId, NodeId> ends) {
   std::vector<std::string> names;
   for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -56,7 +56,7 @@ std::vector<Diagnostic> loose_nodes(const Scene& scene) {
     }
     const bool inner = node.name.find('.') != std::string::npos;
     if (meetings[n].count != 1 || meetings[n].only->at || inner) continue;
-    // One that hangs nowhere is refused: nothing determines its motion.
+    // An element whose other end is loose too is an error anyway: nothing determines its motion.
     const SceneElement& only = *meetings[n].only;
     const NodeId other = only.a == static_cast<NodeId>(n) ? only.b : only.a;
     if (other != ground && meetings[static_cast<std::size_t>(other)].count == 1) continue;

@@ -29,7 +29,7 @@ constexpr std::pair<const char*, Figure> measure_names[] = {
     {"time of crossing", Figure::crossing},
 };
 
-/// A measure in its parts, each a string with its place.
+/// The parts of a measure, each a string with its place.
 struct Parts {
   Figure figure = Figure::max;
   std::string name;   ///< of the figure

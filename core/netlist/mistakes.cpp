@@ -8,8 +8,8 @@ namespace rheonet {
 
 namespace {
 
-// More errors, or warnings, than anyone reads. Each costs time in proportion to the scene: its place and excerpt are looked for
-// in the file, and its name is compared with all others.
+// Limit on the errors, and on the warnings, that are listed. The time for each grows with the scene: its place and excerpt
+// are searched for in the file, and its name is compared with all others.
 constexpr std::size_t most_shown = 200;
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
@@ -28,13 +28,13 @@ std::size_t index_of(std::string_view text, int line, int column) {
   return at;
 }
 
-/// How many characters of source make the character of a basic string that begins at `at`.
+/// Number of source characters that encode the character of a basic string at `at`.
 std::size_t escaped_length(std::string_view text, std::size_t at) {
   if (text[at] != '\\' || at + 1 >= text.size()) return 1;
   return text[at + 1] == 'u' ? 6 : text[at + 1] == 'U' ? 10 : 2;
 }
 
-/// A path that fits on a line.
+/// A path, shortened to fit on a line.
 std::string shortened(const std::string& path) {
   constexpr std::size_t part = 40;
   return path.size() <= 2 * part ? path : path.substr(0, part) + "..." + path.substr(path.size() - part);
@@ -84,7 +84,7 @@ Spot Mistakes::inside(const TomlValue& value, std::size_t offset) const {
       while (at < text.size() && continues_character(text[at])) ++at;
     }
   };
-  // A string without quotes: a value of the command line that is taken literally.
+  // A string without quotes is a value of the command line, taken literally.
   const char quote = at < text.size() ? text[at] : '\0';
   const bool quoted = quote == '"' || quote == '\'';
   if (quoted) {

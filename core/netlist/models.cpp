@@ -83,7 +83,7 @@ void refuse_unused_ports(const Model& model, Mistakes& mistakes) {
                      "elements name ports as they name nodes");
 }
 
-/// The types that an element or model has already.
+/// Whether `name` is the type of an element.
 bool is_taken(const std::string& name, const Context& context) {
   return std::any_of(context.declarations.begin(), context.declarations.end(),
                      [&](const Declaration* d) { return d->type == name || d->rotational_type == name; });
@@ -93,7 +93,7 @@ std::string place(Spot spot, const Context& context) {
   return context.files.shown(spot.file) + ":" + std::to_string(spot.line);
 }
 
-/// The least number of elements that come of a plan, its models' numbers being known.
+/// Lower bound on the number of elements of a plan; the bounds of its models must be known.
 double least_elements(const Plan& plan) {
   if (plan.kind == Plan::Kind::element) return 1;
   double sum = plan.model ? plan.model->least_elements : 0;
@@ -101,7 +101,7 @@ double least_elements(const Plan& plan) {
   return sum;
 }
 
-/// The models that occur in a plan, in any depth.
+/// Visits the instances of models in a plan, at any depth.
 void collect_models(const Plan& plan, const std::function<void(const Plan&)>& visit) {
   if (plan.model) visit(plan);
   for (const Plan& member : plan.members) collect_models(member, visit);
@@ -172,7 +172,7 @@ void plan_models(Context& context, Models& models) {
     mistakes.error(all[cycle.front()]->spot,
                    "models contain each other in a circle: " + path + "`" + all[cycle.front()]->name + "`");
   }
-  // An instance of what cannot be expanded cannot be expanded either.
+  // A model with an instance of an unsound model is unsound too.
   std::vector<bool> finite(all.size(), false);
   for (const std::size_t i : dependencies.order) {
     finite[i] = true;

@@ -9,7 +9,7 @@ namespace rheonet {
 
 namespace {
 
-/// Splits PATH= off; the length of it with the `=`, 0 if there is none. `before`: characters of the option before it.
+/// Splits PATH= off; returns its length with `=`, 0 if absent. `before`: characters of the option before it.
 std::size_t read_path(std::string_view text, int line, std::size_t before, std::vector<Override::Part>& path) {
   std::string name;
   std::size_t begin = 0;
@@ -41,7 +41,7 @@ std::size_t read_path(std::string_view text, int line, std::size_t before, std::
   return 0;
 }
 
-/// An entry that can stand only in place of another: giving one by an override takes the other away.
+/// Whether entry `a` excludes entry `b` of a table: an override with the one removes the other.
 bool excludes(const std::string& a, const std::string& b) {
   const auto is_shape = [](const std::string& key) {
     const auto& names = SignalPlan::shape_names();

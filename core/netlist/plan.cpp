@@ -20,7 +20,7 @@ const Parameter* find_parameter(const Declaration& declaration, const std::strin
   return nullptr;
 }
 
-/// What a parameter that is missing would be.
+/// Describes a valid value of a missing parameter.
 std::string wanted(const Parameter& parameter, Domain domain) {
   const std::string unit = unit_of(parameter.quantity, domain);
   if (parameter.kind == Parameter::Kind::signal)
@@ -29,7 +29,7 @@ std::string wanted(const Parameter& parameter, Domain domain) {
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
 
-/// Which parameters are signals.
+/// Lists the parameters that are signals.
 std::string what_may_vary(Declarations declarations) {
   std::string text;
   for (const Declaration* declaration : declarations) {
@@ -45,7 +45,7 @@ bool among(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The one of `type`, `series` and `parallel` that an element or group has; nullptr, with a message, if not one.
+/// The entry `type`, `series` or `parallel` of an element or group; nullptr, with a mistake, unless it has exactly one.
 const TomlEntry* find_kind(const TomlValue& source, Spot spot, const std::string& called, Mistakes& mistakes) {
   const TomlEntry* kind = nullptr;
   for (const char* key : {"type", "series", "parallel"}) {
@@ -70,7 +70,7 @@ const TomlEntry* find_kind(const TomlValue& source, Spot spot, const std::string
   return kind;
 }
 
-/// Where a parameter has two names, the other one deserves more than "unknown key". Returns whether it is there.
+/// Reports a parameter given by its name in the other domain: "unknown key" would help less. True if there is one.
 bool refuse_other_names(const Parameter& parameter, const std::string& name, bool in_model, Domain domain, Keys& keys,
                         Mistakes& mistakes) {
   const bool rotation = domain == Domain::rotation;
@@ -78,7 +78,7 @@ bool refuse_other_names(const Parameter& parameter, const std::string& name, boo
   for (const std::string& other : {parameter.name, parameter.rotational_name}) {
     const TomlEntry* entry = other.empty() || other == name ? nullptr : keys.find_quietly(other);
     if (!entry) continue;
-    // An override takes the place of what a model for translation says.
+    // In a model for translation, an override replaces the value that the model gives.
     const TomlEntry* given_now = keys.find_quietly(name);
     if (in_model && rotation && other == parameter.name && given_now && given_now->spot.on_command_line()) continue;
     misnamed = true;
@@ -149,7 +149,7 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
     read_repeat(plan, keys);
     read_group(plan, *kind, keys);
     keys.finish(mistakes);
-    // An unnamed group within another adds no level: its members are named with those around it.
+    // An unnamed group within another adds no level: its members are numbered with the members around it.
     if (scope || !plan.name.empty() || plan.repeat) name_members(plan, mistakes);
   } else if (expect_string(kind->value, "`type`", mistakes)) {
     const std::string& type = kind->value.text;
@@ -166,7 +166,7 @@ Plan Planner::read_entry(std::string name, Spot spot, const TomlValue& source, S
       read_repeat(plan, keys);
       keys.finish(mistakes);
     } else if (context_.models_missing) {
-      return plan;  // it may be one of those
+      return plan;  // the type may be a model of that file
     } else {
       refuse_type(*kind, source, !scope);
     }
@@ -190,7 +190,7 @@ void Planner::refuse_type(const TomlEntry& type, const TomlValue& source, bool i
       context_.mistakes.error(type.value.spot,
                               article(type.value.text) + " belongs to a rotational scene, this one is translational",
                               "use `" + d->type + "`, or set domain = \"rotation\"");
-      // What keys it has is known all the same.
+      // The type's keys are known nevertheless.
       Keys keys(source, article(type.value.text));
       keys.find("type");
       if (is_member) keys.find("name");
@@ -234,7 +234,7 @@ void Planner::read_element(Plan& plan, const TomlEntry& type, const Declaration&
   } else {
     read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, keys);
   }
-  // One that would move it is refused with the conflict.
+  // A source of motion at `ground` is refused elsewhere, as a conflict.
   if (plan.at && plan.nodes == std::vector<int>{Scope::ground} && !declaration.prescribes_motion())
     mistakes.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
                      "name another node, or leave it out");

@@ -47,8 +47,7 @@ struct Plan {
 
   int declaration = 0;          ///< of an element
   bool at = false;              ///< of an element
-  std::vector<Formula> values;  ///< of an element: one for each declared parameter; of an instance: one for each parameter
-                                ///< of the model
+  std::vector<Formula> values;  ///< of an element: one a declared parameter; of an instance: one a parameter of its model
   std::vector<SignalPlan> signals;  ///< of an element, one for each of signal_parameters
   std::vector<int> signal_parameters;
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default

@@ -10,7 +10,7 @@ namespace rheonet {
 
 namespace {
 
-/// A text, or several in brackets.
+/// One text, or several in an array.
 std::vector<TomlValue> texts_of(const TomlEntry* entry, const std::string& example, Mistakes& mistakes) {
   if (!entry) return {};
   const std::string what = "`" + entry->key + "`";

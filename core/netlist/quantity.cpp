@@ -23,7 +23,7 @@ std::string_view without_spaces_before(std::string_view text) {
   return text;
 }
 
-/// A number at the start of a text, and what comes after it.
+/// A number at the start of a text, and the rest of the text.
 struct Leading {
   double value = 0;
   bool in_range = true;
@@ -32,7 +32,7 @@ struct Leading {
 
 std::optional<Leading> leading_number(std::string_view text) {
   const std::size_t sign = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
-  // from_chars knows "inf" and "nan" too, but no plus.
+  // from_chars accepts "inf" and "nan", but no plus sign.
   const std::string_view digits = text.substr(sign);
   if (digits.empty() || !(is_digit(digits[0]) || (digits.size() > 1 && digits[0] == '.' && is_digit(digits[1]))))
     return {};
@@ -46,7 +46,7 @@ std::optional<Leading> leading_number(std::string_view text) {
   return leading;
 }
 
-/// Whether what follows a number and a space is meant as a unit rather than as the rest of an expression.
+/// Whether the text after a number and a space is meant as a unit, not as the rest of an expression.
 bool begins_unit(std::string_view rest) {
   return !rest.empty() && std::string_view("+-*/^<>=!&|?:,.)").find(rest[0]) == std::string_view::npos;
 }
@@ -56,7 +56,7 @@ Result quantity(const Leading& leading, std::string_view unit_text, const Enviro
   if (const auto* unit = std::get_if<Unit>(&parsed))
     return number_in(leading.value, *unit);
   TextError error = std::get<TextError>(parsed);
-  // "2 B", where B is a parameter.
+  // "2 B", if B is a parameter.
   const std::string product = fmt::format("{}*{}", leading.number, unit_text);
   if (std::holds_alternative<Number>(evaluate_expression(product, environment)))
     error.hint = fmt::format("for a product with a parameter: `{}`", product);
@@ -65,8 +65,7 @@ Result quantity(const Leading& leading, std::string_view unit_text, const Enviro
   return error;
 }
 
-/// Says of "1/3 m", an expression that would be one but for the unit at its end, and of "2N/m", a number without a space
-/// before its unit, what is wrong with them.
+/// Explains two errors: "1/3 m", an expression followed by a unit, and "2N/m", a number without a space before its unit.
 void explain_unit(std::string_view text, const std::optional<Leading>& leading, const Environment& environment,
                   TextError& error) {
   const auto is_unit = [](std::string_view unit) {
@@ -74,7 +73,7 @@ void explain_unit(std::string_view text, const std::optional<Leading>& leading, 
   };
   if (leading && is_unit(leading->rest)) {
     error.hint = fmt::format("between a number and its unit stands a space: \"{} {}\"", leading->number, leading->rest);
-    // "2m" may be meant as 2*m where there is a parameter m.
+    // "2m" may be meant as 2*m if there is a parameter m.
     if (!environment.find(leading->rest.substr(0, leading->rest.find_first_of(" */^()+-"))))
       error.message = fmt::format("a space is missing between `{}` and its unit `{}`", leading->number, leading->rest);
     return;
@@ -120,13 +119,13 @@ std::string with_article(const std::string& name) {
   return (std::string_view("aeiou").find(name[0]) != std::string_view::npos ? "an " : "a ") + name;
 }
 
-/// What may have led to the wrong dimension.
+/// Guesses the cause of a wrong dimension.
 std::string hint_for(const Number& number, Quantity quantity, Domain domain, double flow_index) {
   const bool rotation = domain == Domain::rotation;
   const Domain other = rotation ? Domain::translation : Domain::rotation;
   if (quantity == Quantity::damping && flow_index != 1 && number.dimension.same(dimension_of(quantity, domain)))
     return fmt::format("with a flow index of {0:.12g}, force = damping * velocity^{0:.12g}", flow_index);
-  // An angle is a number: that one would fit says nothing of the domain.
+  // An angle is a pure number in SI, so a fit in the other domain is no evidence.
   const Dimension elsewhere = dimension_of(quantity, other, flow_index);
   if (number.dimension.same(elsewhere) && !elsewhere.is_number())
     return rotation ? "this scene is rotational (`domain = \"rotation\"`)"
@@ -139,9 +138,9 @@ std::string hint_for(const Number& number, Quantity quantity, Domain domain, dou
   return "";
 }
 
-/// The value of a number of the dimension 1/s in Hz.
+/// Converts a number of dimension 1/s to Hz.
 std::variant<double, TextError> as_frequency(const Number& number, const std::string& expected) {
-  constexpr double tolerance = 1e-9;  // as for the exponents of a Dimension
+  constexpr double tolerance = 1e-9;  // as for the exponents of Dimension
   const auto near = [](double a, double b) { return std::abs(a - b) < tolerance; };
   if (const auto wrong = miscounted(number, false))
     return TextError{0, fmt::format("expected {}, {}", expected, wrong->message), wrong->hint};

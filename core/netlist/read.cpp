@@ -33,7 +33,7 @@ bool is_top_level(const std::string& name) {
   return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
 }
 
-/// Reads one scene, from its text on.
+/// Reads one scene from its text.
 class Reader {
  public:
   Reader(ReadResult& result, Declarations declarations, const ReadOptions& options, std::vector<const FileOffer*> offers = {})
@@ -110,8 +110,7 @@ class Reader {
     return names;
   }
 
-  /// Elements and the models of which they are made. Returns what something is wrong with: it is not reported again where it is
-  /// used.
+  /// Reads the models and elements. Returns the names that have a mistake: further mistakes about them are not reported.
   std::set<std::string> read_network(const TomlEntry* elements, const Environment& environment, const fs::path& canonical) {
     Models models;
     read_models(environment, canonical, models);
@@ -122,7 +121,7 @@ class Reader {
       mistakes_.error(elements->spot, "the scene has no elements");
     Expander expander(context_, planner, scene_);
     expander.run(scope, environment, element_overrides(scope));
-    check_names(scope, mistakes_);  // again: overrides may have named nodes
+    check_names(scope, mistakes_);  // again: overrides may have added nodes
 
     std::set<std::string> doubtful = expander.failed();
     if (elements)
@@ -134,7 +133,7 @@ class Reader {
     return doubtful;
   }
 
-  /// Those of the scene and of what it includes.
+  /// Reads the models of the scene and of the files that it includes.
   void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
     const std::size_t before = mistakes_.errors();
     included_ = read_includes(document_, canonical, context_);
@@ -154,12 +153,12 @@ class Reader {
     read_effects(document_.find("effects"), options_.without, options_.only, context_, result_.sources, scene_);
   }
 
-  /// How the run is to be, what is recorded and claimed of it, and how it is shown.
+  /// Reads the settings of the run, the records, the claims and the presentation.
   void read_questions(const TomlEntry* simulate, const Environment& environment, const std::set<std::string>& doubtful) {
-    scene_.stop = not_given;  // nothing is compared with it where [simulate] is missing or mistaken
+    scene_.stop = not_given;  // disables comparisons with the stop if [simulate] is missing or mistaken
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
-    // A million default records of a scene that is refused would be for nothing.
+    // Do not make a million default records for a scene that is refused.
     if (record || mistakes_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
@@ -196,7 +195,7 @@ class Reader {
     return environment = evaluate_parameters(formulas, mistakes_);
   }
 
-  /// Overrides of everything but elements and models.
+  /// Applies the overrides of everything but elements and models.
   void override_tables() {
     for (Override& override : overrides_) {
       const std::string table = override.path.front().name;
@@ -208,7 +207,7 @@ class Reader {
     }
   }
 
-  /// The key of an inner node in [nodes] is its path: nodes.pivot.mid.position names the node pivot.mid.
+  /// In [nodes] the key of an inner node is its path: nodes.pivot.mid.position names the node pivot.mid.
   static void join_node_path(Override& override) {
     auto& path = override.path;
     const bool names_key = path.back().name == "position" || path.back().name == "velocity";
@@ -222,7 +221,7 @@ class Reader {
     return override.path.size() < 2 || (parameters && parameters->value.find(override.path[1].name));
   }
 
-  /// A parameter that the file uses and leaves to the command line may be added; any other is mistyped.
+  /// An override may add a parameter that the file uses but does not define; any other new name is mistyped.
   void refuse_unless_used(const Override& override) {
     const Override::Part& part = override.path[1];
     if (identifiers_below(document_).contains(part.name)) return;

@@ -20,8 +20,7 @@ struct ReadOptions {
   std::vector<std::string> records = {};      ///< paths recorded in addition to those of the file
   bool plotted = false;                       ///< the records that `[plot]` draws are recorded too
   std::vector<std::string> without = {};      ///< effects, as after --without: left out in addition to those of the file
-  std::optional<std::vector<std::string>> only = {};  ///< as after --only: all other effects are left out; replaces the
-                                                      ///< file's `[effects]`
+  std::optional<std::vector<std::string>> only = {};  ///< as after --only: leaves out all others; replaces the `[effects]` of the file
   std::vector<std::string> keep = {};         ///< Scene::keep
   bool claims = true;                         ///< false: `[expect]` is not read
   std::vector<std::string> measures = {};     ///< added to Scene::claims after those of the file: see measures.hpp
@@ -36,8 +35,7 @@ struct ReadResult {
   Sources sources;
 };
 
-/// Reads and checks a netlist. Never throws on account of a file's contents; a file that cannot be opened is a diagnostic
-/// too.
+/// Reads and checks a netlist. Never throws because of a file's contents; an unreadable file is a diagnostic too.
 ReadResult read_scene(const std::filesystem::path& file, Declarations declarations, const ReadOptions& options = {});
 
 /// The same from text. `name` stands for the file in messages; includes and tables are searched for in `folder`.

@@ -23,10 +23,10 @@ constexpr std::pair<const char*, Channel> channels[] = {{"position", Channel::po
 struct Path {
   std::string object;
   std::string channel;
-  const TomlValue* source;  ///< nullptr: it has no channel
+  const TomlValue* source;  ///< nullptr: no channel
 };
 
-/// What can be recorded of something.
+/// The channels that can be recorded.
 std::vector<std::string> channels_of(const SceneIndex::Found& found) {
   if (found.block >= 0 && found.node >= 0) return {"out", "position", "velocity"};
   if (found.block >= 0) return {"out"};
@@ -35,7 +35,7 @@ std::vector<std::string> channels_of(const SceneIndex::Found& found) {
   return {"force", "displacement", "velocity"};
 }
 
-/// The words of a rotational scene, and others that users may try.
+/// The channel meant by a word of rotational scenes, or by another word that users may try.
 std::string meant_channel(const std::string& channel, const std::vector<std::string>& known) {
   const auto may = [&](const char* name) { return std::find(known.begin(), known.end(), name) != known.end(); };
   if (channel == "torque" && may("force")) return "force";
@@ -109,7 +109,7 @@ std::vector<Record> every_record(const Scene& scene) {
       add(scene.elements[i].name, Subject::block, block++, {Channel::out});
       continue;
     }
-    // What is at a node moves as the node, which is recorded.
+    // An element at a node moves with the node, whose motion is recorded already.
     if (scene.elements[i].at)
       add(scene.elements[i].name, Subject::element, i, {Channel::force});
     else
@@ -158,7 +158,7 @@ std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
   if (record.subject != Subject::block) return quantity_of(record.channel);
   const BlockUnit unit = unit_of(scene, record);
   if (unit.open) return {};
-  // An exponent of rad tells an angle from a number; in anything else it says nothing, and is often left out.
+  // An exponent of rad distinguishes an angle from a number; in other units it has no meaning, and is often omitted.
   const bool angle = scene.domain == Domain::rotation && unit.radian != 0;
   for (const Quantity known : {angle ? Quantity::position : Quantity::number, Quantity::position, Quantity::velocity, Quantity::force})
     if (unit.dimension.same(dimension_of(known, scene.domain))) return known;

@@ -4,7 +4,7 @@ namespace rheonet {
 
 namespace {
 
-// Comparing a mistyped name with so many takes a few milliseconds.
+// Limit that keeps the search for a mistyped name below a few milliseconds.
 constexpr std::size_t most_paths = 10'000;
 
 }  // namespace

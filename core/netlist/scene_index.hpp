@@ -31,8 +31,7 @@ class SceneIndex {
   std::unordered_map<std::string, Found> found_;
 };
 
-/// Paths of a scene among which the nearest name is searched for: of all nodes, and of everything else if `all`. Of a very
-/// large scene only the first paths.
+/// Paths of a scene among which the nearest name is searched for: of all nodes, and of everything else if `all`. Limited to the first paths of a very large scene.
 std::vector<std::string> known_paths(const Scene& scene, bool all);
 
 }  // namespace rheonet

@@ -26,7 +26,7 @@ Json object(Json properties) {
   return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-/// Any names, all with the same kind of value.
+/// An object with arbitrary names, all with the same kind of value.
 Json named(Json value) { return {{"type", "object"}, {"additionalProperties", std::move(value)}}; }
 
 Json list_of(Json items, int least = 0) {
@@ -78,21 +78,21 @@ Json parameter_schema(const Parameter& parameter) {
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
   Json schema = described(reference(parameter.kind == Parameter::Kind::signal ? "signal" : "value"), description);
   if (parameter.fallback && std::isfinite(*parameter.fallback)) schema["default"] = *parameter.fallback;
-  // These hold for numbers only; what a text amounts to is known when it is read.
+  // The bounds apply to numbers only; the value of a text is known only when the netlist is read.
   if (parameter.kind == Parameter::Kind::signal) return schema;
   if (std::isfinite(parameter.lower)) schema[parameter.lower_open ? "exclusiveMinimum" : "minimum"] = parameter.lower;
   if (std::isfinite(parameter.upper)) schema["maximum"] = parameter.upper;
   return schema;
 }
 
-/// Objects that have one of the keys (each possibly under two names).
+/// Objects that have exactly one of the keys.
 Json one_required(const std::vector<std::string>& keys) {
   Json alternatives = Json::array();
   for (const std::string& key : keys) alternatives.push_back({{"required", {key}}});
   return {{"oneOf", std::move(alternatives)}};
 }
 
-/// What any element or member of a group may have.
+/// Properties of any element or member of a group.
 Json common_properties() {
   return {{"name", text("for a member of a group: the name by which it is addressed in it")},
           {"repeat", reference("repeat")}};
@@ -151,8 +151,8 @@ Json if_then(Json condition, const std::string& definition) {
   return {{"if", std::move(condition)}, {"then", reference(definition)}};
 }
 
-/// An element or a member of a group, without its place. A type that is not declared is a model, which may be in
-/// another file: its parameters cannot be known here.
+/// An element or a member of a group, without its place. An undeclared type is a model, possibly of another file: its
+/// parameters are unknown here.
 Json body_schema(Declarations declarations) {
   Json types = Json::array();
   Json cases = Json::array();
@@ -265,7 +265,7 @@ Json expect_schema() {
                                             "largest magnitude in the run; the run's accuracy if absent")}});
   claim.update(one_required({"value", "final", "max", "min", "mean", "rms", "crosses"}));
   claim["dependentRequired"] = {{"value", {"at"}}, {"crosses", {"at"}}};
-  // The last: k1.force without quotes is a table in a table.
+  // The last alternative: without quotes k1.force is a table in a table.
   return described(named({{"anyOf", {claim, list_of(claim, 1), reference("expect")}}}),
                    "claims on results, by record; checked after a run");
 }
@@ -346,7 +346,7 @@ std::string json_schema(Declarations declarations) {
   definitions["elements"] = described(named(std::move(element)), "one line, one element: the key is its name");
   definitions["model"] = model_schema();
   definitions["expect"] = expect_schema();
-  // Of k1.force without quotes, too.
+  // Also accepts k1.force without quotes.
   definitions["exact"] = described(named({{"anyOf", {reference("value"), reference("exact")}}}),
                                    "closed forms of records, over the parameters and the time t");
   const Json node = object({{"position", described(reference("value"), "at the start; 0 if absent")},

@@ -18,7 +18,7 @@ constexpr double endless = std::numeric_limits<double>::infinity();
 
 double sinc(double x) { return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x; }
 
-/// A piece, and what its end is rounded by [s].
+/// A piece, and the round-off of its end [s].
 struct Stretch : Piece {
   double end_rest = 0;
 };
@@ -31,16 +31,16 @@ Stretch constant(double level, TimePoint end = endless) {
   return piece;
 }
 
-/// A breakpoint after t, whatever rounding did to it.
+/// The breakpoint `end`, but always after t, whatever the round-off.
 TimePoint after(double t, TimePoint end) { return end.t > t ? end : std::nextafter(t, endless); }
 
-/// time + number/frequency, to the digits of a time point.
+/// time + number/frequency, as a time point in double-double precision.
 TimePoint edge_at(double time, double number, double frequency) {
   const double length = number / frequency;
   return std::isfinite(length) ? TimePoint(time, length) + std::fma(-length, frequency, number) / frequency : TimePoint(time + length);
 }
 
-/// The largest k >= first with edge(k) <= t, for edges that do not decrease and edge(first).t <= t. `guess` is near it.
+/// The largest k >= first with edge(k) <= t, for non-decreasing edges and edge(first).t <= t; searched from `guess`.
 template <typename Edge>
 std::int64_t last_edge(double t, double guess, std::int64_t first, const Edge& edge) {
   constexpr double most = 4e18;  // within int64
@@ -56,8 +56,8 @@ std::int64_t last_edge(double t, double guess, std::int64_t first, const Edge& e
   return low;
 }
 
-/// An angle in half turns. What is a whole number of halves but for the rounding of degrees to radians is made one:
-/// an edge belongs there, and not 1e-16 s after the start.
+/// An angle in half turns. A multiple of half of one, up to the round-off of degrees to radians, is made exact: its edge
+/// then falls on the start, not 1e-16 s after it.
 double half_turns(double angle) {
   const double turns = angle / pi;
   const double halves = std::round(2 * turns) / 2;
@@ -65,11 +65,11 @@ double half_turns(double angle) {
   return std::abs(turns - halves) < rounding ? halves : turns;
 }
 
-/// A stretch between two events, one every half period, that begin when the angle is `shift` half turns past a multiple
-/// of a half turn.
+/// The interval between two edges, which follow each other every half period. An edge occurs when the angle is `shift` half
+/// turns past a multiple of a half turn.
 struct HalfPeriod {
-  bool even;        ///< number of the event at its beginning
-  double fraction;  ///< of the half period that is over at `origin`
+  bool even;        ///< whether the number of the edge at the beginning is even
+  double fraction;  ///< part of the half period that has elapsed at `origin`
   double origin;
   TimePoint end;
 };
@@ -80,13 +80,13 @@ HalfPeriod half_period(double t, double frequency, double phase, double time, do
   if (frequency == 0) return {std::fmod(first, 2) == 0, start - first, time, endless};
   const auto edge = [&](std::int64_t k) { return edge_at(time, static_cast<double>(k) - start, 2 * frequency); };
   const auto k = last_edge(t, std::floor(2 * frequency * (t - time) + start), static_cast<std::int64_t>(first), edge);
-  // The first stretch is cut by the start, and reckoned from there.
+  // The start cuts the first interval, whose origin is then the start.
   const bool cut = edge(k).t < time;
   return {k % 2 == 0, cut ? start - static_cast<double>(k) : 0, cut ? time : edge(k).t, after(t, edge(k + 1))};
 }
 
-/// amplitude sin(2 pi frequency (t - time) + phase), with its origin at the last full period before t: the angle is
-/// then small, and as exact as t is.
+/// amplitude sin(2 pi frequency (t - time) + phase), with its origin at the last full period before t: the angle is then
+/// small, and as accurate as t.
 Stretch sine(double t, double amplitude, double frequency, double phase, double time, double offset) {
   const double full = std::floor(frequency * (t - time));
   Stretch piece;
@@ -97,7 +97,7 @@ Stretch sine(double t, double amplitude, double frequency, double phase, double 
   piece.origin = time;
   if (full <= 0) return piece;
   piece.origin += full / frequency;
-  // The origin is rounded, and so is its distance from the start (of which `lost` is lost: Knuth's two-sum).
+  // The origin is rounded, and so is its distance from the start, by `lost` (Knuth's two-sum).
   const double distance = piece.origin - time;
   const double back = distance - piece.origin;
   const double lost = (piece.origin - (distance - back)) - (time + back);
@@ -135,7 +135,7 @@ struct PieceAt {
 
   Stretch operator()(const Signal::Triangle& s) const {
     if (t < s.time) return constant(s.offset, s.time);
-    // Corners are at pi/2 (the top, where it begins to fall), 3 pi/2, ...
+    // Corners are at pi/2 (the maximum, where the fall begins), 3 pi/2, ...
     const HalfPeriod half = half_period(t, s.frequency, s.phase, s.time, 0.5);
     const double top = half.even ? s.amplitude : -s.amplitude;
     Stretch piece = constant(s.offset + top * (1 - 2 * half.fraction), half.end);
@@ -175,7 +175,7 @@ struct PieceAt {
   Stretch operator()(const Signal::Table& s) const {
     if (s.times.empty()) return constant(s.offset);
     if (t < s.time) return constant(s.offset, s.time);
-    // Compared as breakpoints are reckoned, so that both round alike.
+    // Compare in the arithmetic that computes breakpoints, so that both round alike.
     const auto next = std::upper_bound(s.times.begin(), s.times.end(), t,
                                        [&](double instant, double point) { return instant < s.time + point; });
     if (next == s.times.begin()) return constant(s.offset + s.values.front(), TimePoint(s.time, *next));
@@ -188,12 +188,11 @@ struct PieceAt {
   }
 };
 
-/// The time at which a periodic signal may be taken to begin, where in truth it began at `time`: 1 to 2 periods before 0,
-/// if that is later.
+/// A substitute for the beginning `time` of a periodic signal: 1 to 2 periods before 0, or `time` itself if that is later.
 double recent_beginning(double time, double frequency) {
   const double turns = -time * frequency;
   if (!(turns > 2)) return time;
-  // What is a quarter of a turn but for the rounding of the frequency is one: an edge at the start belongs there.
+  // A multiple of a quarter turn, up to the round-off of the frequency, is made exact: its edge then falls on the start.
   const double quarters = std::round(4 * turns) / 4;
   const bool near = std::abs(turns - quarters) <= std::numeric_limits<double>::epsilon() * turns;
   const double full = std::floor(near ? quarters : turns);
@@ -251,13 +250,13 @@ double Piece::integral(double from, double to) const {
   const double b = to - origin;
   const double straight = length * (level + slope * (a + b) / 2);
   if (amplitude == 0) return straight;
-  if (chirp == 0)  // the difference of two cosines, without its cancellation
+  if (chirp == 0)  // the difference of two cosines, without cancellation
     return straight + amplitude * length * std::sin(phase + omega * (a + b) / 2) * sinc(omega * length / 2);
   return straight + amplitude * integral_of_chirp(phase, omega, chirp, a, b);
 }
 
 double Piece::rounding(double t) const {
-  // The operations that lead to a breakpoint, an angle or a value, each off by half a unit in the last place.
+  // Number of operations that lead to a breakpoint, an angle or a value, each with half a unit in the last place of error.
   constexpr double operations = 8;
   const double tau = std::abs(t - origin);
   const double angle = std::abs(phase) + (std::abs(omega) + std::abs(chirp) * tau / 2) * tau;

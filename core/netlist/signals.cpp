@@ -211,7 +211,7 @@ std::string SignalPlan::hint_for(const Formula& formula, const Environment& envi
   return "`amplitude` multiplies " + formula.name() + ": one of them has the unit, the other is a number";
 }
 
-/// An expression of the time is none that this format has, and "unknown name" would not say what there is instead.
+/// The format has no expressions of time. The message names the alternatives, which "unknown name" would not do.
 bool SignalPlan::is_of_time(const Environment& environment, Context& context) const {
   const auto& names = main_.identifiers();
   for (const char* const time : {"t", "time"}) {
@@ -226,7 +226,7 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
   return false;
 }
 
-/// Who gives the name of a block means its output. One that is near that of a parameter, or is a unit, is told so elsewhere.
+/// The name of a block means its output. A name near that of a parameter, or of a unit, gets its message elsewhere.
 bool SignalPlan::is_unknown_name(const Environment& environment, Context& context) const {
   if (shape_ != Shape::constant || main_.identifiers().size() != 1) return false;
   const std::string& name = main_.identifiers().front();

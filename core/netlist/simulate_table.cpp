@@ -10,9 +10,9 @@ namespace rheonet {
 
 namespace {
 
-constexpr double finest_accuracy = 1e-12;  // what doubles leave room for
+constexpr double finest_accuracy = 1e-12;  // limit of double precision
 constexpr double coarsest_accuracy = 0.1;
-constexpr double default_points = 501;  // a smooth curve on a screen
+constexpr double default_points = 501;  // smooth on a screen
 constexpr double most_rows = 1e8;       // some GB of CSV for each column
 
 bool check_accuracy(double accuracy, Spot spot, Mistakes& mistakes) {
@@ -23,7 +23,7 @@ bool check_accuracy(double accuracy, Spot spot, Mistakes& mistakes) {
 
 void read_output(const TomlEntry* output, const Environment& environment, Context& context, Scene& scene) {
   Mistakes& mistakes = context.mistakes;
-  const double length = scene.stop - scene.start;  // NaN if they are mistaken
+  const double length = scene.stop - scene.start;  // NaN if they have a mistake
   const auto spread = [&](double points) {
     scene.output_intervals = static_cast<std::int64_t>(points) - 1;
     scene.output_every = length / (points - 1);

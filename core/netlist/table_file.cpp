@@ -13,12 +13,12 @@ namespace rheonet {
 
 namespace {
 
-/// Reads the rows of a file, telling of the first mistakes in them.
+/// Reads the rows of a file, and reports the first mistakes in them.
 class TableReader {
  public:
   TableReader(int file, const std::vector<TomlValue>& columns, Context& context) : file_(file), named_(columns), context_(context) {}
 
-  /// Absent if there are mistakes.
+  /// The table; absent if there are mistakes.
   std::optional<TableFile> read() {
     std::string_view rest = context_.files.text(file_);
     bool first = true;
@@ -40,7 +40,7 @@ class TableReader {
   }
 
  private:
-  static constexpr int most_told = 10;  // a file of another kind has as many as it has rows
+  static constexpr int most_told = 10;  // a file of the wrong kind has a mistake in every row
 
   void refuse(int column, std::string message, std::string hint = {}) {
     if (++mistakes_ <= most_told)
@@ -85,7 +85,7 @@ class TableReader {
     return fmt::format("say which two are meant: columns = [\"{}\", \"{}\"]", csv_heading(fields[0].text).name, csv_heading(fields[1].text).name);
   }
 
-  /// Takes the columns that the signal names from the header. False, with a message, if it has not both.
+  /// Finds the columns that the signal names in the header. False, with a mistake, unless both are there.
   bool find_columns(const std::vector<CsvField>& fields) {
     std::vector<std::string> names;
     for (const CsvField& field : fields) names.emplace_back(csv_heading(field.text).name);
@@ -115,8 +115,8 @@ class TableReader {
     table_.unit = *value_unit;
   }
 
-  /// The unit at the end of the field of a header; plain if there is none, nothing if it is mistaken. What stands in
-  /// round brackets may be another remark.
+  /// The unit at the end of a header's field: plain if there is none, absent if it has a mistake. Text in round brackets
+  /// may also be a remark.
   std::optional<Number> unit_of_column(const CsvField& field) {
     const CsvHeading heading = csv_heading(field.text);
     Number one{.value = 1, .dimension = {}};
@@ -135,14 +135,14 @@ class TableReader {
   }
 
   int file_;
-  const std::vector<TomlValue>& named_;  ///< the columns that the signal names; empty if it names none
+  const std::vector<TomlValue>& named_;  ///< the columns named by the signal; empty if it names none
   Context& context_;
   std::size_t width_ = 2, time_column_ = 0, value_column_ = 1;
   TableFile table_{{}, {.value = 1, .dimension = {}}};
-  double second_ = 1;  ///< the unit of the times, in s
+  double second_ = 1;  ///< unit of the times [s]
   int line_ = 0;
   int mistakes_ = 0;
-  int first_untold_ = 0;  ///< line
+  int first_untold_ = 0;  ///< line of the first mistake that is not listed
 };
 
 }  // namespace

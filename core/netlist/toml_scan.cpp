@@ -6,10 +6,10 @@ namespace rheonet {
 
 namespace {
 
-// Deeper than any path of this format; each part costs the parser and its tables some stack.
+// Longer than any path of this format; each part takes stack in the parser and its tables.
 constexpr int longest_key = 32;
 
-/// Length of the UTF-8 character that `text` begins with; 0 if it is none (overlong forms and surrogates included).
+/// Length of the UTF-8 character at the start of `text`; 0 if invalid (overlong forms and surrogates included).
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -23,7 +23,7 @@ std::size_t character_length(std::string_view text) {
   return length;
 }
 
-/// Walks over the text one character at a time, knowing where it is.
+/// Steps through the text by characters, and keeps track of line and column.
 class Scan {
  public:
   Scan(std::string_view text, int file, Mistakes& mistakes) : rest_(text), mistakes_(mistakes), spot_{file, 1, 1} {}

@@ -21,8 +21,8 @@ namespace {
 
 using UnitResult = std::variant<Unit, TextError>;
 
-/// Units that UDUNITS-2 does not know, takes for something else, or gives with less than double precision (it has
-/// 0.2780139 N for an ounce of force).
+/// Units that UDUNITS-2 does not know, interprets differently, or gives with less than double precision (0.2780139 N for an
+/// ounce of force).
 struct Definition {
   std::string_view name;
   double factor;
@@ -35,7 +35,7 @@ constexpr Definition definitions[] = {
     {"P", 1, "poise"},
     {"gon", 0.9, "degree"},
     {"thou", 1e-3, "inch"},
-    {"mph", 1, "mile/hour"},  // a milliphot to UDUNITS
+    {"mph", 1, "mile/hour"},  // UDUNITS: a milliphot
     {"kph", 1, "km/hour"},
     {"kp", 1, "kgf"},
     {"lbm", 1, "lb"},
@@ -50,11 +50,11 @@ constexpr Definition definitions[] = {
     {"horsepower", 550, "ft*lbf/s"},
 };
 
-/// Symbols above that are used with SI prefixes (cP, mdeg): UDUNITS knows the long name with the prefix.
+/// Symbols above that take SI prefixes (cP, mdeg): UDUNITS knows the prefixed long name.
 constexpr std::pair<std::string_view, std::string_view> prefixed[] = {
     {"dyn", "dyne"}, {"deg", "degree"}, {"P", "poise"}};
 
-/// What a mistyped unit may have been meant to be.
+/// Candidates for a mistyped unit.
 const std::vector<std::string>& usual_units() {
   static const std::vector<std::string> names{
       "m",      "km",     "cm",     "mm",   "um",       "µm",     "nm",    "in",     "inch",   "ft",     "foot",
@@ -68,7 +68,7 @@ const std::vector<std::string>& usual_units() {
   return names;
 }
 
-/// UDUNITS-2: every single unit by its name. Its database is read when the first unit is asked for.
+/// UDUNITS-2: single units by name. Its database is read when the first unit is requested.
 class Library {
  public:
   UnitResult find(const std::string& name) {
@@ -80,8 +80,8 @@ class Library {
  private:
   struct Found {
     Unit unit;
-    double zero = 0;      ///< of an offset scale, in its base unit
-    std::string foreign;  ///< a base unit that is not mechanical
+    double zero = 0;      ///< zero point of a scale with an offset, in its base unit
+    std::string foreign;  ///< a base unit outside mechanics
     bool multiple = true;
   };
 
@@ -99,7 +99,7 @@ class Library {
       return TextError{0, fmt::format("`{}` is not a multiple of an SI unit", name), ""};
     if (!found.foreign.empty())
       return TextError{0, fmt::format("`{}` is not a mechanical unit: it has {} in it", name, found.foreign), ""};
-    // Hz is s^-1 to UDUNITS; here it is remembered what was typed.
+    // UDUNITS treats Hz as s^-1; the name keeps the cycles.
     if (name.ends_with("Hz") || name.find("hertz") != name.npos) found.unit.hertz = 1;
     return found.unit;
   }
@@ -160,7 +160,7 @@ Unit power(const Unit& unit, double n) {
   return {std::pow(unit.factor, n), unit.dimension.power(n), n * unit.radian, n * unit.hertz};
 }
 
-/// A unit by its name, with no hint if it is unknown.
+/// A unit by its name; an unknown unit gives no hint.
 UnitResult named_unit(const std::string& name) {
   if (const Unit* unit = si_unit(name)) return *unit;
   for (const Definition& definition : definitions)
@@ -179,7 +179,7 @@ UnitResult named_unit(const std::string& name) {
   return unit;
 }
 
-/// The hint for "Nm" and "inlbf": a force times another unit, written without a product sign.
+/// The hint for "Nm" and "inlbf": a force times another unit, without a product sign.
 std::string as_product(const std::string& name) {
   const Dimension force{1, 1, -2};
   for (std::size_t i = 1; i < name.size(); ++i) {
@@ -199,7 +199,7 @@ UnitResult single_unit(const std::string& name) {
   UnitResult unit = named_unit(name);
   auto* error = std::get_if<TextError>(&unit);
   if (!error || !error->hint.empty() || !error->message.starts_with("unknown")) return unit;
-  constexpr std::size_t longest_product = 12;  // beyond it is no slip, but another thing
+  constexpr std::size_t longest_product = 12;  // a longer name is no missing product sign
   if (name.size() <= longest_product) error->hint = as_product(name);
   const std::string meant = error->hint.empty() ? nearest(name, usual_units()) : "";
   if (!meant.empty()) error->hint = fmt::format("did you mean `{}`?", meant);
@@ -207,7 +207,7 @@ UnitResult single_unit(const std::string& name) {
 }
 
 /// product = power { ("*" | "." | "/" | "per" | nothing) power };  power = atom [ "^" exponent ];
-/// atom = "1" | name | "(" product ")".  Products and quotients are taken from left to right.
+/// atom = "1" | name | "(" product ")".  Products and quotients associate to the left.
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(decode(text)) {}
@@ -309,7 +309,7 @@ class Parser {
       fail(begin, fmt::format("a unit is missing before `{}`", shown(begin)), hint_for(peek()));
     }
     while (is_name(peek()) || is_digit(peek())) ++at_;
-    // Digits at the end of a name are an exponent (m2), others belong to it (H2O).
+    // Digits at the end of a name are an exponent (m2), other digits belong to the name (H2O).
     while (is_digit(text_[at_ - 1])) --at_;
     UnitResult unit = single_unit(encode(std::u32string_view(text_).substr(begin, at_ - begin)));
     if (auto* error = std::get_if<TextError>(&unit)) fail(begin, error->message, error->hint);
@@ -341,7 +341,7 @@ class Parser {
     else if (peek() == U'+')
       ++at_;
     while (is_digit(peek())) digits += static_cast<char>(text_[at_++]);
-    // A dot without a digit after it is a product: m^2.kg
+    // A dot that no digit follows is a product: m^2.kg
     if (peek() == U'.' && is_digit(peek(1))) do
         digits += static_cast<char>(text_[at_++]);
       while (is_digit(peek()));
@@ -362,7 +362,7 @@ class Parser {
     return sign * value;
   }
 
-  static constexpr int deepest = 100;  // far beyond any unit; the parser calls itself for each
+  static constexpr int deepest = 100;  // more than any unit needs; the parser recurses for each
 
   std::u32string text_;
   std::size_t at_ = 0;

@@ -16,7 +16,7 @@ constexpr std::string_view keys_without_expressions[] = {"title", "warn", "error
                                                          "type",  "name", "in",    "between",  "record", "plot", "keep",   "without", "only"};
 
 bool holds_expressions(const TomlEntry& entry, bool in_element) {
-  if (in_element && entry.key == "at") return false;  // in a claim it is a time
+  if (in_element && entry.key == "at") return false;  // in a claim `at` is a time
   return std::find(std::begin(keys_without_expressions), std::end(keys_without_expressions), entry.key) ==
          std::end(keys_without_expressions);
 }
@@ -39,7 +39,7 @@ void warn(const std::string& name, Spot spot, const std::set<std::string>& used,
                    "use it, as in stiffness = \"" + name + "\", or leave it out");
 }
 
-/// `parameters` is a table, or in a model a list of names. Mistakes in it have been reported.
+/// Warns of unused parameters; `parameters` is a table, or in a model a list of names. Its mistakes have been reported.
 void warn_of_unused(const TomlValue& parameters, const std::set<std::string>& used, const std::string& of, Mistakes& mistakes) {
   for (const TomlEntry& entry : parameters.entries) warn(entry.key, entry.spot, used, of, mistakes);
   for (const TomlValue& item : parameters.items) {

@@ -11,7 +11,7 @@ namespace rheonet {
 
 namespace {
 
-/// Length of the unsigned decimal number that `text` begins with, 0 if it begins with none.
+/// Length of the unsigned decimal number at the start of `text`, 0 if there is none.
 std::size_t number_length(std::string_view text) {
   std::size_t at = 0;
   const auto digits = [&] {
@@ -34,7 +34,7 @@ std::size_t number_length(std::string_view text) {
   return at;
 }
 
-/// Whether a number, a space and something that is no operator make the text: a quantity, the rest of which is a unit.
+/// Whether the text is a quantity: a number, a space and a unit, which begins with no operator.
 bool is_quantity(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
   if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
@@ -46,7 +46,7 @@ bool is_quantity(std::string_view text) {
   return std::string_view("+-*/^<>=!&|?:,.)").find(text[spaces]) == std::string_view::npos;
 }
 
-/// Every word of a text, each once, in alphabetical order.
+/// The words of a text, each once, in alphabetical order.
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> names;
   while (!text.empty()) {
@@ -66,7 +66,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return names;
 }
 
-/// Whether what looks like a unit has the name of a parameter in it.
+/// Whether a text that looks like a unit contains the name of a parameter.
 bool uses_names_of(const Environment& environment, std::string_view text) {
   const auto words = words_of(text);
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return environment.find(word); });
@@ -116,8 +116,8 @@ std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes
   std::size_t count = 0;
   for (const std::string& name : identifiers_) {
     const Number* value = environment.find(name);
-    if (!value) continue;                     // a function, or an unknown name that the evaluation reports
-    if (std::isnan(value->value)) return {};  // a mistake that has been reported where it was made
+    if (!value) continue;                     // a function, or an unknown name, reported by the evaluation
+    if (std::isnan(value->value)) return {};  // this mistake has been reported
     if (count == inputs.size()) {
       inputs.push_back(*value);
       changed = true;
@@ -174,7 +174,7 @@ bool check_bounds(double value, const Parameter& parameter, const Formula& formu
   const std::string unit = unit_of(parameter.quantity, domain, flow_index);
   const Spot spot = formula.source().spot;
   if (std::isinf(value) && !parameter.may_be_infinite) {
-    // Only of what is a magnitude could one think that it has a limit.
+    // The hint is for magnitudes alone: only there may a user expect a limit at infinity.
     const bool magnitude =
         parameter.kind == Parameter::Kind::value && parameter.lower >= 0 && std::isinf(parameter.upper);
     mistakes.error(spot, formula.name() + " must be finite, but is infinite",

@@ -28,7 +28,7 @@ std::optional<Wire> read_wire(const TomlValue& source, const std::string& what, 
   return {};
 }
 
-/// Messages on this wire say in which instance it is, if it is in one.
+/// Adds the instance that the wire is in, if any, to messages.
 class Within {
  public:
   Within(Mistakes& mistakes, const LooseEnd& end) {
@@ -58,7 +58,7 @@ class Connection {
     return *context_.declarations[at(scene_.elements[at(element)].declaration)];
   }
 
-  /// Whether all are found. What depends on a faulty element is not, without a further message.
+  /// Finds the sources of all wires; false if one is not found. No message is added for a source that has a mistake.
   bool find_sources() {
     bool all = true;
     std::vector<std::string> names;
@@ -88,7 +88,7 @@ class Connection {
     return all;
   }
 
-  /// A quantity of the network; -1 if it is none.
+  /// Index of a quantity of the network in Scene::sensed; -1, with a mistake, if the path names none.
   int sensed(const LooseEnd& end, const SceneIndex::Found& found) {
     if (end.path.find('.') == end.path.npos || found.any()) {
       refuse(end, found);
@@ -128,7 +128,7 @@ class Connection {
     return declaration(scene_.blocks[at(own.block)].element).parameters[at(own.parameter)];
   }
 
-  /// Of the first that has one: an input, or a parameter that goes with them.
+  /// Unit of the inputs: that of the first input or associated parameter that has one.
   BlockUnit taken_in(int block) const {
     for (const SceneBlock::Input& input : scene_.blocks[at(block)].inputs)
       if (const BlockUnit unit = unit_of_input(input); !unit.open) return unit;
@@ -141,7 +141,7 @@ class Connection {
     return {};
   }
 
-  /// The unit that comes of the inputs.
+  /// Unit of the output, from the inputs and `own` parameters.
   BlockUnit made(int block) const {
     const Declaration::Inputs& inputs = declaration(scene_.blocks[at(block)].element).inputs;
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
@@ -155,7 +155,7 @@ class Connection {
     return unit;
   }
 
-  /// Units go from block to block until nothing new comes of it.
+  /// Passes units from block to block until nothing changes.
   void find_units() {
     for (bool again = true; again;) {
       again = false;
