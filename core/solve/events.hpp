@@ -76,8 +76,8 @@ class NetworkEvents final : public EventFunctions {
   struct Held { std::size_t law; int which; std::size_t event; };
   void find_held();
   double held_function(const Held& held, const Dae::View& view) const;
-  /// A slider that slips between known or massive nodes: its index among all sliders and in `sliders_`, the rate of its
-  /// slip speed at the end of the last step [m/s^2], and whether that speed had a minimum within the step.
+  /// A slider that slips between known or massive nodes: its index among all sliders and in `sliders_`. `slope`: rate of its
+  /// slip speed at the end of the last step [m/s^2]. `dips`: that speed had a minimum within the step.
   struct Slipping { int slider; std::size_t watched; double slope; bool dips; };
   double slope(const Slipping& one, const Dae::View& view) const;
   bool any_dips(const Dae::View& end);

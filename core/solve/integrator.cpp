@@ -79,9 +79,8 @@ struct Integrator::Implementation {
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
     require(IDASetEtaFixedStepBounds(ida, 1, growth), "IDASetEtaFixedStepBounds");
     if (!dae.rough()) require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
-    // Algebraic unknowns follow from the other unknowns at any time, so they are left out of the error test. (There they
-    // could keep the order at 1 for good: they magnify the error of stiff components, which is proportional to any step
-    // size.)
+    // The error test leaves out algebraic unknowns, which follow from the others at any time. There they could keep the order
+    // at 1 for good: they magnify the error of stiff components, which is proportional to the step size however small.
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
     if (std::find(work.begin(), work.end(), 0.0) != work.end()) {
       require(IDASetId(ida, nw), "IDASetId");

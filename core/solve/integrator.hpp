@@ -15,8 +15,8 @@ class EventFunctions {
   virtual int count() const = 0;
   virtual void evaluate(double t, const double* y, const double* yp, double* g) = 0;
   /// Dead band included in function `k`, which keeps round-off from firing it. If the function exceeds the band at the
-  /// beginning of a step, its event is located where it has fallen to the band: an event that is always late delays those
-  /// after it, and over a long run the delays add up.
+  /// beginning of a step, its event is located where it has fallen to the band. Otherwise every event would be late, and over
+  /// a long run the delays add up.
   virtual double band(int /*k*/) const { return 0; }
 };
 

@@ -42,8 +42,8 @@ void Tolerances::find_parts() {
 }
 
 /// Flags the unknowns that jitter with the round-off of time: those in parts with dashpots or friction, which follow their
-/// inputs directly. With springs alone a motion depends on step sizes, not on time. So it does with ideal sliders, unless
-/// there are delays.
+/// inputs directly. With springs, masses and ideal sliders alone a motion depends on step sizes, not on time; delays change
+/// that.
 void Tolerances::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
@@ -68,8 +68,8 @@ int Tolerances::part_of(const Branch& b) const {
   return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
 }
 
-/// Of each part of the network its largest force and velocity; of each node the stiffness and damping around it; of each
-/// deflection branch its law.
+/// Largest force and velocity of each part of the network; stiffness and damping around each node; law of each deflection
+/// branch.
 struct Tolerances::Loads {
   std::vector<double> force, speed;        ///< N, m/s
   std::vector<double> stiffness, damping;  ///< N/m, N s/m
@@ -116,8 +116,8 @@ Tolerances::Loads Tolerances::find_loads(const Dae::View& view) const {
   return loads;
 }
 
-/// Finds the round-off of all unknowns. Forces F in balance and equal velocities V cause a velocity eps (V + F/sqrt(k m)) at
-/// a mass, a velocity eps (V + F/B) at a node that dashpots hold, a deflection eps F/k, and the integral of eps V until it
+/// Finds the round-off of all unknowns. Forces F in balance and equal velocities V leave a velocity eps (V + F/sqrt(k m)) at
+/// a mass and eps (V + F/B) at a node that dashpots hold. They leave a deflection eps F/k, and the integral of eps V until it
 /// has crept away. Otherwise steps would resolve the round-off of a network in equilibrium.
 void Tolerances::find_rounding(const Dae::View& view) {
   constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();

@@ -26,29 +26,29 @@ namespace rheonet {
 
 namespace {
 
-// What jumps by less than this share of the accuracy may be smooth as well: so much error is left at the end of a stretch in
-// what no error test looks at.
+// Treat jumps below 0.1 x accuracy as continuous: unknowns outside the error test have errors as large at the end of an
+// interval.
 constexpr double jump_share = 0.1;
-// Where the integrator fails, loads that come in this share of the time until something is known to happen tell why.
+// When the integrator fails, the loads at this share of the time to the next known discontinuity are checked for overload.
 constexpr double soon = 0.1;
-// Times ahead by which directions and scales are judged, relative to the time until something is known to happen.
+// Time steps for second derivatives and for scales, relative to the time to the next known discontinuity.
 constexpr double glimpse = 1e-7;
 constexpr double lookahead = 1e-4;
-// What goes on without a change for this share of the run, again and again, has no end.
+// Events that repeat without a change within this share of the run would never end.
 constexpr double instant = 1e-6;
-// But so far that steps which resolve what happens until then are longer than the rounding of a late time.
+// Least lookahead in units of the round-off of time, so that steps within it are longer than that round-off.
 constexpr double grains_ahead = 1e5;
-// The same relative to the time in which the network itself changes.
+// Lookahead relative to the fastest time constant of the network.
 constexpr double lookahead_of_cycle = 0.01;
-// While sliders stick a step goes no further along an oscillation than this [rad]: their forces may be functions of time
-// alone, which no error test looks at.
+// Largest phase of an oscillation per step while sliders stick [rad]: their forces may be functions of time alone, which no
+// error test sees.
 constexpr double longest_angle = 0.3;
-// Nor farther than this while sliders slip that follow a drive at once: they turn back but once within it.
+// The same while sliders slip that follow the inputs directly [rad]: such a slider reverses at most once within a step.
 constexpr double longest_slip = 1.5;
 
-// A restart takes about so many steps to come to the length and order that there were. Where a stretch takes more there is little to save.
+// Steps that a restart needs to regain step size and order. After an interval with more steps a restart hardly matters.
 constexpr int steps_of_restart = 20;
-// What takes so many steps takes seconds.
+// A run with more steps takes seconds: the user gets a note.
 constexpr double many_steps = 3e5;
 
 class Run {
@@ -81,7 +81,7 @@ class Run {
       try {
         t = advance(t);
       } catch (const UndeterminedError&) {
-        // Where more is applied than all elements can take, that is the reason, which the last step tells.
+        // If the load exceeds what all elements can take, that is the cause: the state after the last step shows it.
         if (const double end = system_->integrator.time(); end > left_) {
           y_ = system_->integrator.y();
           yp_ = system_->integrator.yp();
@@ -96,7 +96,7 @@ class Run {
     return std::move(statistics_);
   }
 
-  /// The start alone.
+  /// Finds the initial state only.
   SimulationStatistics check() {
     begin();
     statistics_.integrator = systems_.statistics();
@@ -116,7 +116,7 @@ class Run {
     try {
       cross(0, true, {});
     } catch (const SimulationError&) {
-      // Where nothing determines the motion of a node, however sliders stick, that is the reason.
+      // If the motion of a node is undetermined even when all sliders stick, `analyse` throws the better error.
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
@@ -133,7 +133,7 @@ class Run {
     statistics_.chosen = words.chosen;
   }
 
-  /// Over a stretch and the instant at its end; returns that.
+  /// Integrates to the next discontinuity of an input, crosses it, and returns its time.
   double advance(double from) {
     const double t = stretch(from);
     std::vector<Drive::Break> breaks;
@@ -157,8 +157,8 @@ class Run {
     return t;
   }
 
-  /// What the present state and rates differ from these by comes to less than the error of a step within the time `ahead`. Then
-  /// the integrator need not begin anew: a measured signal has a corner at each of its samples, and most are that small.
+  /// True if the present y and y' differ from these by less than the error of a step within the time `ahead`. Then the
+  /// integrator need not restart: a measured signal has a corner at each sample, and most corners are that small.
   bool differs_little(const std::vector<double>& y, const std::vector<double>& yp, double ahead) const {
     for (std::size_t i = 0; i < y_.size(); ++i) {
       if (!(std::abs(y_[i] - y[i]) + ahead * std::abs(yp_[i] - yp[i]) <= tolerances_.values()[i])) return false;
@@ -166,7 +166,8 @@ class Run {
     return true;
   }
 
-  /// Over an instant at which the drive may jump (`stepped`), or at which sliders have come to an event (`fired`).
+  /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds and reports the new
+  /// state.
   void cross(double t, bool stepped, const Instant::Fired& fired) {
     if (stepped) {
       drive_.enter(t);
@@ -207,7 +208,7 @@ class Run {
     }
   }
 
-  /// The state at the end of a stretch, every balance met to rounding.
+  /// Takes the state at the end of an interval, with every balance met to round-off.
   void leave(double t) {
     system_->consistency.project(t, y_);
     take_state(t);
@@ -220,10 +221,10 @@ class Run {
     left_ = t;
   }
 
-  /// Time until something is known to happen: the next break of the drive, the end, a cycle.
+  /// Time to the next known discontinuity of an input or the end, limited by the period of the inputs [s].
   double horizon(double t) const { return std::min(course(t), time_until(drive_.next_break(), t)); }
 
-  /// The same but for what comes through delays, which is smooth but for a few times.
+  /// The same without discontinuities that come through delays: delayed signals are smooth except at a few times.
   double course(double t) const {
     const double h = time_until(std::min(drive_.next_signal_break(), settings_.stop), t);
     const double omega = drive_.fastest();
@@ -232,13 +233,13 @@ class Run {
 
   double time_until(double then, double t) const { return then > t ? then - t : settings_.stop; }
 
-  /// From t to the next break of the drive or the end, over the events in between.
+  /// Integrates from t over events to the next discontinuity or reversal of an input, or the end. Returns the time reached.
   double stretch(double t) {
     const double given = std::min(drive_.next_break(), settings_.stop);
     double until = std::min(given, given_reversals_.next(t, given));
     stopped_ = false;
     steps_ = 0;
-    if (until - t <= time_grain(t)) return until;  // a break and the stop, say, that differ by rounding: no time to step over
+    if (until - t <= time_grain(t)) return until;  // too short for a step: a discontinuity just before the stop, say
     double shrink = 1;
     if (smooth_) {
       go_on(t, until);
@@ -253,7 +254,7 @@ class Run {
       Integrator::Outcome outcome = system_->integrator.step();
       ++steps_;
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
-        // A fresh start with a shorter first step helps where the history is to blame.
+        // A restart with a shorter first step helps if the integrator's history is the cause.
         if ((shrink *= 1e-2) < 1e-7) fail(outcome);
         y_ = system_->integrator.y();
         t = system_->integrator.time();
@@ -304,28 +305,28 @@ class Run {
       switch_memories(t);
       if (settings_.profile) settings_.profile->blame(fired_);
       if (gets_nowhere(t, fired_)) report_chatter(t);
-      until = std::min(until, drive_.next_break());  // what has happened comes through delays
+      until = std::min(until, drive_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
       restart(t, until, shrink);
     }
   }
 
-  /// At the end of the last step, where events have mostly been looked for already.
+  /// The view at the end of the last step, where the events have mostly been evaluated already.
   const Dae::View& view_of_step() {
     const Integrator& integrator = system_->integrator;
     return system_->dae.view_again(integrator.time(), integrator.y().data(), integrator.yp().data());
   }
 
-  /// Of what restarts the integrator.
+  /// Reports an event that restarts the integrator.
   void tell(const Event& event) {
     if (settings_.profile) settings_.profile->blame({event.element});
     observer_.event(event);
   }
 
-  /// A cause of restarts that is no element.
+  /// Number of the cause of restarts that is no element.
   int solver() const { return static_cast<int>(network_.scene->elements.size()); }
 
-  /// Causes that fire over and over while nothing changes, in less time than the network or its drive takes for anything.
+  /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.
   bool gets_nowhere(double t, const std::vector<int>& causes) {
     if (!headway_.lost(t, causes, state_)) return false;
     const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), drive_.fastest());
@@ -357,7 +358,7 @@ class Run {
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * course(t);
     std::vector<double> ypp;
-    // Within a stretch that is short for its time a glimpse would be none.
+    // The difference step must exceed the round-off of time, even in a short interval.
     system_->consistency.second_derivative(t, std::max(glimpse * course(t), time_grain(t)), y_, yp_, ypp);
     double foreseen = 0;
     if (tolerances_.blind()) {
@@ -375,7 +376,7 @@ class Run {
       system_->consistency.derivative(t, y_, yp_);
     }
     double h = std::min({until - t, 100 * ahead, first_step(ypp, tolerances_.values())});
-    // Nothing that a step could get wrong.
+    // Without unknowns and guards a step has no error.
     if (system_->dae.unknowns() == 0 && !system_->events.sticks() && !system_->events.slips_along()) h = until - t;
     limit_step();
     if (settings_.profile) settings_.profile->restart(system_->dae);
@@ -384,7 +385,7 @@ class Run {
                                  drive_.exact_break(until));
   }
 
-  /// The same where the integrator keeps its history.
+  /// Continues across a discontinuity with the integrator's history.
   void go_on(double t, double until) {
     system_->events.begin(t, y_.data(), yp_.data());
     limit_step();
@@ -432,9 +433,9 @@ class Run {
   Switches switches_;
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
-  bool stopped_ = false; ///< the last stretch has come to its end by a step, which the integrator can go on from
-  long steps_ = 0;       ///< of the last stretch
-  bool smooth_ = false;  ///< at the last break all went on without a change that counts
+  bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
+  long steps_ = 0;       ///< in the last interval
+  bool smooth_ = false;  ///< the last discontinuity was negligible
   std::shared_ptr<System> system_;
   std::vector<double> y_, yp_;
   std::vector<double> deflections_;  ///< at the end of the last step [m]

@@ -10,8 +10,8 @@ namespace rheonet {
 
 namespace {
 
-/// Where g falls through 0 between two times, by the Illinois variant of the rule of false position (Dowell and
-/// Jarratt, BIT 11 (1971) 168): at once where it is about straight.
+/// The time at which g falls through 0 between two times, by the Illinois variant of the rule of false position (Dowell and
+/// Jarratt, BIT 11 (1971) 168): immediate where g is almost straight.
 template <class G>
 double first_below_zero(const G& g, double left, double right) {
   constexpr int most = 60;
@@ -20,7 +20,7 @@ double first_below_zero(const G& g, double left, double right) {
   if (gl <= 0 || gr >= 0) return gl <= 0 ? left : right;
   const double enough = rounding * (gl - gr);
   double best = -gr < gl ? right : left, least = std::min(gl, -gr);
-  int kept = 0;  // the side that has not moved
+  int kept = 0;  // 1: the right end stayed; -1: the left end did
   for (int k = 0; k < most; ++k) {
     const double t = left + (right - left) * (gl / (gl - gr));
     if (!(t > left && t < right)) break;
@@ -45,8 +45,8 @@ double first_below_zero(const G& g, double left, double right) {
   return best;
 }
 
-/// Deflections within the integrator's last step, each by itself: of a step of so low an order the solution at a few
-/// times tells that of every single unknown at all others.
+/// Single deflections within the integrator's last step. The order of a step is so low that values at a few times determine
+/// each unknown at all other times.
 class WithinStep {
  public:
   WithinStep(const Integrator& integrator, const Dae& dae) : integrator_(integrator), dae_(dae) {}
@@ -139,8 +139,8 @@ void Switches::follow_blocks(double t) {
 void Switches::follow(double t, Bundle& bundle, double p) {
   const Iwan& law = *bundle.law;
   if (bundle.on != law.branch()) {
-    // It has turned, perhaps more than once: what slipped sticks, unless it has come to a bound again. Or it has only
-    // ranked its pairs anew: then what slipped goes on.
+    // The bundle has reversed, perhaps more than once: a pair that slipped sticks, unless it is at a bound again. Or its
+    // pairs were only ranked anew: then a pair that slipped goes on.
     bundle.on = law.branch();
     std::vector<std::size_t> before;
     before.swap(bundle.slipping);

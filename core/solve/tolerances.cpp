@@ -14,21 +14,20 @@ namespace rheonet {
 
 namespace {
 
-// What moves along with others is resolved as it moves beside them, down to this share of how they move together and to so
-// many roundings of that: nearer to rounding a step is rejected for nothing.
+// A node that moves along with others is resolved relative to its motion against them, down to `least_relative` of the common
+// motion and to this many ulps of it: nearer to round-off, steps are rejected for nothing.
 constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
-// Of how far two nodes have gone the distance between them, which is integrated, may be off by so much, and by so many
-// roundings: those of the deflections that their velocities are derivatives of.
+// The integrated distance between two nodes may be off by this share of their displacement, and by this many ulps: those of
+// the deflections whose derivatives their velocities are.
 constexpr double least_distance = 1e-7, distance_grains = 64;
-// A position is allowed no more than so many times its own share for the sake of its velocity.
+// A tolerance of a position, loosened for the error of its velocity, is at most this multiple of its own.
 constexpr double most_of_velocity = 10;
-// Roundings of the time that a step may be off by without being rejected: the times of the few past steps that a
-// prediction is made of are each rounded by one. (Fewer than in time_grain.hpp, within which two times are one: what
-// changes faster is to be seen.)
+// Round-off of time that a step may be off by without being rejected [ulps]: each of the few past times that a prediction
+// uses is rounded by one ulp. (Fewer than in time_grain.hpp, within which two times are equal: faster changes count.)
 constexpr double time_grains = 8;
-// Roundings of a deflection that a step may be off by (its sum of two).
+// Round-off of a deflection that a step may be off by [ulps] (it is a sum of two).
 constexpr double value_grains = 4;
-// Roundings of the balance that a deflection follows from that a step may be off by.
+// Multiple of the round-off of the balance behind a deflection that a step may be off by.
 constexpr double balance_grains = 4;
 
 }  // namespace
@@ -111,7 +110,7 @@ void Tolerances::attach(Dae& dae) {
   find_held();
 }
 
-/// Most networks have no position among their unknowns, whatever their modes.
+/// Only here, because most networks have no position among their unknowns in any mode.
 void Tolerances::see_positions() {
   constexpr auto position = static_cast<std::size_t>(Sort::position);
   for (std::vector<double>* seen : {&seen_[position], &foreseen_[position], &gap_seen_, &place_seen_, &way_seen_}) {
@@ -119,7 +118,7 @@ void Tolerances::see_positions() {
   }
 }
 
-/// What sliders that stick hold together, up to where it is held by what moves as it is told to.
+/// Finds the nodes that sticking sliders hold together, up to known nodes.
 void Tolerances::find_held() {
   const Structure& structure = dae_->structure();
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
@@ -205,7 +204,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
                          const std::vector<double>& coming_size) {
   if (std::isnan(begin_)) begin_ = reached_ = t;
   restarted_ = t;
-  // What was foreseen a moment ago, before an event perhaps, still holds.
+  // Estimates made before a recent event still hold.
   if (t > forget_) forget();
   if (ahead > 0) {
     forget_ = t + 10 * ahead;
@@ -240,7 +239,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   see(y, view);
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(size_[i], std::abs(y[i]));
   find_difference_rounding(view);
-  // What blocks push back with may set in long after a restart.
+  // Forces of blocks may begin long after a restart.
   if (!network_.blocks.sensors.empty()) {
     find_slider_shares();
     find_block_rounding();
@@ -257,8 +256,8 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
   update(t, yp, view);
 }
 
-/// Scales of the kinds of which nothing is to be seen yet, even to second order in time: what the drive makes of them in
-/// `time`. They count for the first steps only.
+/// Scales of the kinds of unknowns that are still 0, even to second order in time: the effect of the inputs within `time`
+/// [s]. They count for the first steps only.
 Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest) const {
   Scales scales = largest;
   const auto of = [&](Sort sort) -> double& { return scales[static_cast<std::size_t>(sort)]; };
@@ -272,13 +271,13 @@ Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest
   }
   const Scales coming{reach.velocity, reach.velocity * time, force, reach.velocity * time};
   for (std::size_t k = 0; k < sorts; ++k) {
-    // Where the drive comes to nothing either, nothing ever moves: any scale is right, but a tolerance has to be one.
+    // If the inputs are 0 too, nothing ever moves: any scale is right, but it must not be 0.
     if (scales[k] == 0) scales[k] = coming[k] > 0 ? coming[k] : 1;
   }
   return scales;
 }
 
-/// Of each sort the largest that has been seen or is foreseen; of forces those of all elements, and what is applied.
+/// The largest magnitude of each sort, seen or foreseen; for forces including those of all elements and the applied forces.
 Tolerances::Scales Tolerances::find_largest(const std::vector<double>& slope) {
   Scales largest{};
   largest[static_cast<std::size_t>(Sort::velocity)] = known_velocity_;
@@ -294,7 +293,7 @@ Tolerances::Scales Tolerances::find_largest(const std::vector<double>& slope) {
   return largest;
 }
 
-/// 0 where nothing has been seen of it.
+/// The scale of an unknown; 0 if it has been 0 so far.
 double Tolerances::scale_of(const Quantity& q, const Scales& largest, const LeastShares& least, const std::vector<double>& slope) {
   double scale = seen(q);
   const auto resolve = [&](double beside, double share) {
@@ -310,14 +309,14 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   if (!network_.blocks.blocks.empty()) scale = std::min(scale, block_scale_[static_cast<std::size_t>(q.sort)][q.index]);
   if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
   if (q.sort != Sort::deflection) return scale;
-  // What the force allows: near a reversal a nanometre may matter, in sliding a metre does not.
+  // Limited by the scale of the force: near a reversal a nanometre may matter, in sliding a metre does not.
   const double stiffness = std::abs(slope[q.index]);
   const double own = std::max(force_seen_[q.index], stiffness * foreseen_of(q));
   const double by_force = std::max(own, floor_of_kind * largest[static_cast<std::size_t>(Sort::force)]);
   return by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale;
 }
 
-/// What is noise is allowed. `jitter`: what rounding of the time makes of it.
+/// Raises the tolerance of unknown i to its round-off. `jitter`: change of the unknown within the round-off of time.
 void Tolerances::bear_noise(std::size_t i, double t, double jitter, double largest_velocity) {
   const Quantity& q = quantity_[i];
   double& tolerance = tolerance_[i];
@@ -334,16 +333,16 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   if (q.sort == Sort::velocity && dae_->structure().mass[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
   if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
   if (q.sort == Sort::position) {
-    // A stop far from 0 may give way by no more than roundings of its place.
+    // A stop far from 0 may deflect by less than the round-off of its position.
     tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * size_[i]);
-    // The motion of what hangs on springs and friction comes of theirs, which are rounded.
+    // The positions of nodes on springs and friction follow from deflections, which are rounded.
     tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
   const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
-  // An error test compares a step with the steps since the restart. Round-off from before the restart does not enter the comparison.
+  // An error test compares a step with those since the restart: earlier round-off does not enter.
   const double adds_up = t - (q.sort == Sort::position ? begin_ : restarted_);
   tolerance = std::max(tolerance, drift.velocity * std::min(adds_up, drift.lasting));
-  // Nor can a displacement be known better than the velocities that it comes from, over the time that is foreseen.
+  // A displacement has the error of its velocity over the time for which scales are foreseen.
   if (q.sort == Sort::deflection || q.sort == Sort::position) tolerance = std::max(tolerance, relative_ * largest_velocity * ahead_);
 }
 
@@ -352,7 +351,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   if (!balance_rounding_.none()) balance_rounding_.find(view, slope);
   const bool positions = !dae_->integrated_positions().empty();
   if (positions) find_longest();
-  // Time itself is known to half a unit in the last place; what changes with it meanwhile cannot be resolved.
+  // Time is known to half an ulp: changes within that cannot be resolved.
   const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Scales largest = find_largest(slope);
   largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
@@ -363,7 +362,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const LeastShares least{.velocity = least_share(least_relative, velocity_grains),
                           .position = least_share(least_relative, position_grains),
                           .way = least_share(least_distance, distance_grains)};
-  std::optional<Scales> to_come;  // mostly not asked for
+  std::optional<Scales> to_come;  // rarely needed
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     double scale = scale_of(quantity_[i], largest, least, slope);
     if (scale == 0) {
@@ -378,7 +377,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   find_noise(slope);
 }
 
-/// A position comes of a velocity, of which an iteration leaves a share of what is allowed of it.
+/// A position integrates a velocity, of which Newton's iteration leaves a share of its tolerance as an error.
 void Tolerances::loosen_positions() {
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const Quantity& q = quantity_[i];

@@ -48,7 +48,7 @@ class Tolerances {
   void follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view);
 
   const std::vector<double>& values() const { return tolerance_; }
-  /// Of each unknown: a change below this is round-off of the forces that it follows from.
+  /// Changes below these are round-off of the forces that each unknown follows from.
   const std::vector<double>& grains() const { return grain_; }
   /// Largest velocity of all nodes, unknown or prescribed, seen or foreseen [m/s].
   double largest_velocity() const { return largest_velocity_; }
@@ -155,7 +155,7 @@ class Tolerances {
   bool any_rested_ = false;
   std::vector<double> slider_share_;                  ///< of each part: factor by which its sliders tighten tolerances
   BlockGains block_gains_;
-  std::array<std::vector<double>, sorts> block_scale_;  ///< of everything that can be an unknown: largest scale that blocks allow
+  std::array<std::vector<double>, sorts> block_scale_;  ///< largest scale that blocks allow to anything that can be an unknown
   std::vector<double> block_output_seen_;             ///< of each block: largest magnitude of its output
   /// Of each node, if there are sensors: velocity caused by the round-off of what blocks sense [m/s]; stiffness and damping
   /// around the node, without blocks, at the last restart [N/m, N s/m].
