@@ -7,7 +7,7 @@
 
 namespace rheonet {
 
-/// What was about to start beside a slider that sticks rests after all.
+/// Branches that were about to start in parallel with a sticking slider rest after all.
 void Instant::rest_beside_sliders(const Fired& fired, const State& state, const Modes& modes) const {
   if (fired.starts.empty()) return;
   Sets together(structure_.kind.size());
@@ -23,7 +23,7 @@ void Instant::rest_beside_sliders(const Fired& fired, const State& state, const 
   }
 }
 
-/// What moves as it is told to, and alike, is as good as one.
+/// Joins known nodes of equal velocity.
 void Instant::join_given(const ConvexNetwork& problem, Sets& sets) const {
   std::vector<NodeId> given;
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
@@ -36,9 +36,9 @@ void Instant::join_given(const ConvexNetwork& problem, Sets& sets) const {
   }
 }
 
-// Where a slider and friction that relaxes keep the same ends together, the slider is the sharper of the two: the friction
-// rests (s = 0) while the slider has force left. At its bound the slider can take no more, and the friction stands with a
-// mixture of rest and the slider's direction, until it would as well rest.
+// Where a slider and friction that relaxes hold the same ends together, the slider has the sharper transition: the friction
+// rests (s = 0) while the slider has force left. At its bound the slider can take no more. The friction is then in a Filippov
+// sliding mode, with a mixture of rest and the slider's direction, until it might rest as well.
 std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of,
                                    const std::vector<int>& slider_of, const std::vector<int>& side,
                                    const std::vector<double>& at_rest, const Fired& fired, Modes& modes,
@@ -49,7 +49,7 @@ std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vect
   for (std::size_t k = 0; k < slider_of.size(); ++k) {
     if (problem.direction(slider_of[k]) != 0) continue;
     const Branch& b = network_.sliders[k].branch;
-    // What moves as it is told to takes any force, and leaves that of a slider at rest between it open.
+    // Known nodes take any force, and leave the force of a slider at rest between them open.
     const bool given = structure_.kind[at(b.a)] == Kind::known && structure_.kind[at(b.b)] == Kind::known;
     if (side[k] == 0 || given) {
       firm.join(b.a, b.b);
@@ -57,7 +57,7 @@ std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vect
       (came_to_rest_[k] != 0 ? stopped : candidates).push_back(static_cast<int>(k));
     }
   }
-  // What has just come to rest has its full force still, and slips on if friction beside it would rest.
+  // A slider that has just come to rest still has its full force: it slips on if friction in parallel is in a sliding mode.
   for (const int k : stopped) {
     const Branch& b = network_.sliders[at(k)].branch;
     const auto ends = [&](const Branch& of) -> std::pair<NodeId, NodeId> { return std::minmax(firm.find(of.a), firm.find(of.b)); };
@@ -80,9 +80,9 @@ std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vect
       if (std::minmax(from, to) != std::minmax(a, b)) continue;
       const int sign = from == a ? 1 : -1;
       beyond_rest += sign * problem.force(slider_of[at(other)]);
-      eased = eased || sign * side[at(other)] != side[at(k)];  // that one has force left
+      eased = eased || sign * side[at(other)] != side[at(k)];  // the other slider has force left
     }
-    std::vector<std::pair<Standing*, int>> beside;  // and the side of the slider's bound
+    std::vector<std::pair<Standing*, int>> beside;  // friction in parallel, and the side of the slider's bound
     for (Standing& one : change.standing) {
       const int j = one.branch;
       const NodeId from = firm.find(network_.deflections[at(j)].a), to = firm.find(network_.deflections[at(j)].b);

@@ -20,7 +20,7 @@ void BlockSignals::check_sensors(const Network& network, const Structure& classi
   }
 }
 
-/// What a sensor tells is known only when all forces of the same instant are.
+/// Whether a sensor value is known only once all forces at the same time are.
 bool BlockSignals::loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified) {
   const auto firm = [&](NodeId node) { return classified.kind[at(node)] == Kind::known || classified.kind[at(node)] == Kind::massive; };
   if (sensor.what == What::velocity) return !firm(sensor.index);
@@ -85,7 +85,7 @@ void BlockSignals::settle() {
   }
 }
 
-/// What a block puts out when nothing changes.
+/// Output of a block at equilibrium.
 double BlockSignals::settle(int index, std::vector<char>& on_way) {
   const Blocks::Block& block = blocks_->blocks[at(index)];
   if (block.generates) return out_[at(index)].value;

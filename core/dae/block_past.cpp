@@ -1,4 +1,4 @@
-// What the delays among blocks look back to.
+// Outputs of blocks at earlier times, for the delays.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace rheonet {
 
 using What = Blocks::Sensor::What;
 
-/// What each delay takes in, and a channel for each of that.
+/// Finds the atoms that each delay depends on, and gives each of them a channel of the past.
 void BlockSignals::find_channels() {
   std::vector<char> taken(atoms(), 0);
   for (std::size_t k = 0; k < out_.size(); ++k) {
@@ -34,7 +34,7 @@ void BlockSignals::find_channels() {
   remembered_.resize(channel_count_);
 }
 
-/// How far back the output of a block may look. Loops always go through a state.
+/// How far back the output of a block may look [s]. The recursion ends, as every loop contains a state.
 double BlockSignals::find_reach(int index) const {
   const Blocks::Block& block = blocks_->blocks[at(index)];
   double reach = 0;
@@ -44,7 +44,7 @@ double BlockSignals::find_reach(int index) const {
   return reach + block.law.delay;
 }
 
-/// The atoms whose past a delay in front of these inputs needs.
+/// Marks the atoms whose past a delay with these inputs needs.
 void BlockSignals::take_in(const Blocks::Block& block, std::vector<char>& seen, std::vector<char>& atoms_of) const {
   for (const Blocks::Input& in : block.inputs) {
     if (!in.from_block) {
@@ -64,7 +64,7 @@ bool BlockSignals::of_time_alone(int index) const {
   });
 }
 
-/// The rates of blocks that give positions are blocks of their own, so that a state ends every way to a motion.
+/// Whether a block feeds a motion. A state ends every path, as the rates of blocks that give positions are blocks of their own.
 bool BlockSignals::feeds_motion(int index) const {
   const auto leads = [&](const auto& self, int to) -> bool {
     if (to == index) return true;
@@ -90,7 +90,7 @@ void BlockSignals::find_longest_step(const Network& network, const Structure& cl
 }
 
 bool BlockSignals::breaks(double t, const Past& past) const {
-  constexpr double rounding = 1e-12;  // of values that are the same
+  constexpr double rounding = 1e-12;  // relative difference of equal values
   const double side = time_grain(t);
   const auto differ = [](double a, double b) { return std::abs(a - b) > rounding * (std::abs(a) + std::abs(b)); };
   for (std::size_t k = 0; k < out_.size(); ++k) {
@@ -127,7 +127,7 @@ void BlockSignals::look_back(const Past& past) {
   }
 }
 
-/// What a block has put out at an earlier time.
+/// Output of a block at an earlier time.
 Dual BlockSignals::earlier(int index, double t, Look& look) const {
   const Blocks::Block& block = blocks_->blocks[at(index)];
   if (block.generates) {

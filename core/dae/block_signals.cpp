@@ -52,7 +52,7 @@ void BlockSignals::find_dependence() {
     return flags;
   };
   delay_slope_.assign(out_.size() * atoms(), 0);
-  // Of magnitudes: in `x - limiter(x)` all cancels, until it limits.
+  // By magnitudes of gains: in `x - limiter(x)` everything cancels until the limiter limits.
   find_slopes(true, delay_slope_, slope_, rate_slope_);
   depends_ = nonzero(slope_);
   std::vector<double> any = delay_slope_;
@@ -160,7 +160,7 @@ double BlockSignals::rate(std::size_t k) const {
   return block.law.gain * input(block).value - block.law.leak * state[k].value;
 }
 
-/// Given those of the outputs of delays. With `magnitudes` of the gains nothing cancels.
+/// Derivatives, given the derivatives of the outputs of delays. With `magnitudes` of the gains nothing cancels.
 void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_delays, std::vector<double>& slope,
                                std::vector<double>& rate_slope) const {
   const std::size_t n = atoms();

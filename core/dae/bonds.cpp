@@ -13,8 +13,8 @@
 
 namespace rheonet {
 
-// The problem has the nodes that sticking sliders join. The leading node of each cluster is left out, as known nodes are: its balance
-// is the sum of the balances of the other nodes. The rest falls into separate parts.
+// The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
+// the balance there is the sum of the balances of the other nodes. The rest falls into separate parts.
 Bonds::Bonds(const Network& network, const Structure& structure) : network_(network) {
   const auto inner = [&](NodeId node) { return structure.kind[at(node)] == Kind::joined; };
   Sets parts(structure.kind.size());
@@ -68,7 +68,7 @@ void Bonds::solve(double t, const std::vector<double>& left, std::vector<double>
   for (Shared& shared : shared_) {
     double sum = 0;
     for (std::size_t n = 0; n < shared.nodes.size(); ++n) sum += shared.load[n] = -left[at(shared.nodes[n])];
-    if (!std::isfinite(sum)) {  // the integrator tries a step too far: it takes no state that is not finite
+    if (!std::isfinite(sum)) {  // the integrator tries too long a step: it rejects states that are not finite
       for (const std::size_t k : shared.sliders) force[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
     }

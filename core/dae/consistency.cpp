@@ -15,10 +15,10 @@ namespace rheonet {
 
 namespace {
 
-// A change of this share of what there is keeps to the branch of every law, and its effect is far above rounding: about
-// the square root of that, so that both errors of a difference are alike.
+// Relative perturbation of a difference quotient: small enough to stay on the branch of every law, and about the square root of
+// round-off, so that the two errors of the quotient are alike.
 constexpr double probing_share = 1e-7;
-// What is this much smaller than the largest of its kind comes of that one: its growth says nothing of a rate.
+// An unknown below this share of the largest of its kind derives from that one: its growth says nothing of a rate.
 constexpr double share_that_tells = 1e-3;
 
 }  // namespace
@@ -62,8 +62,8 @@ void Consistency::eliminate(double t) {
 
 double Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
   wake();
-  // A law with a corner takes some more than a smooth one, of which a change this small, or one no smaller than the one before, is
-  // rounding.
+  // Power laws at rest take more iterations than smooth laws. With smooth laws a change this small, or above half of the one
+  // before, is round-off.
   constexpr int most_iterations = 30;
   constexpr double rounding = 1e-13;
   const std::size_t n = y.size();
@@ -71,7 +71,7 @@ double Consistency::collocate(double t, double rate, std::vector<double>& y, std
   double last = 0;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     dae_.jacobian(t, rate, y.data(), yp.data(), values_.data());
-    // Too close to singular for a better state: the polynomials stand.
+    // Too close to singular for a better state: the interpolated one stands.
     if (!elimination_.factorise(values_)) break;
     dae_.residual(t, y.data(), yp.data(), r0_.data());
     for (std::size_t i = 0; i < n; ++i) change[i] = -r0_[i];
@@ -129,9 +129,8 @@ void Consistency::report_unsolved(double t) {
       at_time(*dae_.network().scene, t), dae_.describe(worst), dae_.around(worst)));
 }
 
-/// One rate beyond all numbers makes others so that are solved with it: the equation that leads to it by itself comes
-/// first. Equation number i is that of unknown number i (see Dae): the balance of forces at a node has the number of its
-/// velocity.
+/// One infinite rate makes the rates that are solved with it infinite: report the first equation that yields one by itself.
+/// Equation number i belongs to unknown number i (see Dae): the balance of forces at a node has the number of its velocity.
 void Consistency::report_rate(double t, int unknown) {
   for (int equation = 0; equation < dae_.size(); ++equation) {
     const double right = dae_.differential(equation) ? r0_[at(equation)] : r1_[at(equation)];
@@ -165,8 +164,8 @@ void Consistency::second_derivative(double t, double dt, const std::vector<doubl
   for (std::size_t i = 0; i < y.size(); ++i) ypp[i] = (ypp[i] - yp[i]) / dt;
 }
 
-/// A few steps of power iteration with y' as a function of y. Two steps of it are compared, each unknown with itself, as
-/// that is free of units: an oscillator turns displacement into velocity and back. Sizes too are those of each kind.
+/// A few steps of power iteration with y' as a function of y. The growth of each unknown over two steps is free of units (an
+/// oscillator turns displacement into velocity and back) and gives the square of a rate. Sizes are compared within each kind.
 double Consistency::fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp) {
   constexpr int steps = 6;
   const std::size_t n = y.size();
@@ -180,7 +179,7 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
   Sizes there = largest(y);
   const Sizes soon = largest(yp);
   for (std::size_t k = 0; k < kinds; ++k) there[k] = std::max(there[k], within * soon[k]);
-  // What is about to be stretched makes velocities where there are none as yet, which are about as fast.
+  // Deflections that are about to change imply velocities of that rate where there are none yet.
   constexpr std::size_t velocity = 0, deflection = 1, position = 3;
   if (there[velocity] == 0) there[velocity] = std::max(soon[deflection], soon[position]);
   double rate = 0;

@@ -10,25 +10,25 @@ namespace rheonet {
 
 namespace {
 
-// A balance of forces is met when it is off by this much of their magnitudes.
+// Relative tolerance of a balance of forces.
 constexpr double equilibrium_rounding = 1e-13;
-// What a step can still gain, of the power: the square of a rounding, as it is of second order.
+// Least gain of a Newton step, as a share of the power: round-off squared, as the gain is of second order.
 constexpr double power_rounding = 1e-24;
 constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
 constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon();
-// So many whole steps of Newton's method where all is linear: what is left is rounding.
+// After this many full Newton steps in a row, all of them linear, the imbalance is round-off.
 constexpr int enough_full_steps = 3;
-// Where branches let go one after the other, each because of the one before it, those that were apart before all let go after
-// so many times. Fewer would change the way in which small problems are solved, for nothing.
+// Branches may release one after the other, each because of the one before it: after this many releases all branches that
+// slipped before are released. A smaller number would change how small problems are solved, without benefit.
 constexpr int short_cascade = 6;
-// So many rounds in which what is left does not fall to half: it is rounding, or more than the laws can take.
+// After this many rounds that do not halve the imbalance, it is round-off, or exceeds what the laws can take.
 constexpr int most_stagnant = 60;
-// What decides among equals, relative to the smallest of the slopes that count.
+// Regularising slope, relative to the smallest slope around: it makes the answer unique.
 constexpr double weak_share = 1e-9;
-// The most that such a slope adds to the bounds of a branch, relative to them: above the round-off of a balance, and below the
+// Largest force of such a slope, relative to the bounds of its branch: above the round-off of a balance, and below the
 // difference of two bounds that decides which of them gives way.
 constexpr double weak_force = 1e-11;
-// A law with a slope this much smaller than its other one is flat to that side.
+// A slope below this share of the law's other slope counts as flat.
 constexpr double flat_law_share = 1e-14;
 
 }  // namespace
@@ -41,8 +41,8 @@ void ConvexNetwork::fix(int node, double change) {
   u_[at(node)] = change;
 }
 
-// Nodes that are together, or were until a branch let go of them, shall not be parted by rounding: what weighs nothing takes
-// both numbers of the node that it goes with.
+// Round-off must not separate nodes that are together, or were until a branch released them: a massless node takes both numbers
+// (base and u) of the node that it follows.
 void ConvexNetwork::follow(int node, int head) {
   if (fixed_[at(node)] || inertia_[at(node)] > 0) {
     u_[at(node)] = (base_[at(head)] - base_[at(node)]) + u_[at(head)];
@@ -109,20 +109,20 @@ void ConvexNetwork::choose_weak() {
   for (const double slope : least) least_of_all = std::min(least_of_all, slope);
   const auto heavy = [&](int node) { return fixed_[at(node)] || inertia_[at(node)] > 0; };
   for (Branch& b : branches_) {
-    if (heavy(b.a) && heavy(b.b)) continue;  // decided without
+    if (heavy(b.a) && heavy(b.b)) continue;  // no regularisation needed
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
     if (!b.jumps && flatter > flat_law_share * steeper) continue;
     const double around = std::min(least[at(b.a)], least[at(b.b)]);
     double bounds = 0;
     for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
     const bool by_bounds = farthest > 0 && bounds > 0;
-    // The slope of a mass is inertia over time step: 1e-9 of it is a large force at the velocity that the mass has already.
+    // The slope of a mass is its inertia over the time step: 1e-9 of it is a large force at the mass's present velocity.
     b.weak = std::min(weak_share * around, by_bounds ? weak_force * bounds / farthest : none);
     if (b.weak == none) b.weak = weak_share * (least_of_all < none ? least_of_all : 1);
   }
 }
 
-/// Everything that moves alike at first sticks; massless nodes go with what they can stick to.
+/// Branches between equal start values stick; massless nodes follow nodes to which they can stick.
 void ConvexNetwork::stick_at_first() {
   const std::size_t n = u_.size();
   Sets sets(n);
@@ -133,7 +133,7 @@ void ConvexNetwork::stick_at_first() {
     head[k] = static_cast<int>(k);
   }
   std::vector<char> fixed(fixed_);
-  // One that must not go to one side at all comes before the others.
+  // Branches with an infinite bound come first.
   std::vector<Branch*> order;
   for (const bool strict : {true, false}) {
     for (Branch& b : branches_) {
@@ -162,7 +162,7 @@ void ConvexNetwork::stick_at_first() {
   for (std::size_t k = 0; k < n; ++k) follow(static_cast<int>(k), head[at(sets.find(static_cast<int>(k)))]);
 }
 
-/// Clusters of the nodes that sticking branches join, all at one value.
+/// Merges the nodes that sticking branches join into clusters, each at one value.
 void ConvexNetwork::merge() {
   Sets sets(u_.size());
   for (const Branch& b : branches_) {
@@ -190,7 +190,7 @@ void ConvexNetwork::merge() {
   }
 }
 
-/// The sums of forces of all free clusters; true if they are rounding.
+/// Sums the forces at all free clusters; true if the sums are round-off.
 bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
   gradient.assign(at(columns_), 0);
   std::vector<double> rounding(gradient);
@@ -200,7 +200,7 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     gradient[at(column)] += f;
     rounding[at(column)] += equilibrium_rounding * std::abs(f);
   };
-  // Values are known to their last digit only.
+  // Round-off of the values themselves.
   const auto blur = [&](int node, double slope, double x) {
     const int column = column_[at(cluster_[at(node)])];
     if (column >= 0) rounding[at(column)] += value_rounding * slope * std::abs(x);
@@ -226,7 +226,7 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
   return met;
 }
 
-/// What the last step has brought together sticks; false if there is nothing such.
+/// Branches whose ends the last step brought together stick; false if there are none.
 bool ConvexNetwork::stick_where_met() {
   bool met = false;
   for (Branch& b : branches_) {
@@ -237,8 +237,8 @@ bool ConvexNetwork::stick_where_met() {
   return met;
 }
 
-/// What was let go and has not moved, since others hold its ends, sticks: to which of its bounds it went may have been decided by
-/// a force that is no longer there. False if there is nothing such.
+/// Released branches that have not moved, as others hold their ends, stick: the force that decided at which bound they are may
+/// no longer exist. False if there are none.
 bool ConvexNetwork::stick_where_idle() {
   merge();
   bool idle = false;
@@ -255,8 +255,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   for (Branch& b : branches_) b.w = nodal_difference(b);
   released_.clear();
   std::vector<double> gradient, d;
-  int idle = 0;  // rounds in a row that brought nothing
-  double least = std::numeric_limits<double>::infinity();  // of what was left, since the last release
+  int idle = 0;  // rounds in a row without gain
+  double least = std::numeric_limits<double>::infinity();  // least imbalance since the last release
   int stagnant = 0;
   bool looked_again = false;  // since the last step
   int releases = 0;
@@ -272,7 +272,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       }
       const double descent = slope_along(d, 0);
       if (!(descent < 0) && !released_.empty()) {
-        // What was let go together holds itself back: then one at a time. If one alone does, it was rounding.
+        // Branches released together hold each other back: release the worst alone. If it holds itself back, it was round-off.
         const bool alone = released_.size() == 1;
         for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
         if (alone && (looked_again || !stick_where_idle())) return Outcome::solved;

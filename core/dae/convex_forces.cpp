@@ -9,11 +9,11 @@ namespace rheonet {
 
 namespace {
 
-// Of the forces around: more than this that is left over where nothing has a slope any more will not be taken up.
+// Share of the forces around. Where no law has a slope any more, nothing takes up a larger imbalance.
 constexpr double flat_share = 1e-9;
-// Forces within a bound by this much of it are within.
+// A force may exceed its bound by this share of it.
 constexpr double bound_rounding = 1e-12;
-// It may carry this share of a force: more means that nothing else does.
+// Share of a force that a regularising slope may carry: if it carries more, nothing else carries the force.
 constexpr double weak_limit = 1e-6;
 
 }  // namespace
@@ -33,7 +33,7 @@ void ConvexNetwork::find_bond_forces() {
   int rows = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
     left[k] += inertia_[k] * u_[k] - applied_[k];
-    // Phi is 0 at fixed nodes, and at the heaviest node of each other cluster: what rounding leaves stays there.
+    // Phi is 0 at fixed nodes, and at the heaviest node of each other cluster: the round-off of a balance stays there.
     const bool reference = column_[at(cluster_[k])] >= 0 && head_[at(cluster_[k])] == static_cast<int>(k);
     if (!fixed_[k] && !reference) row[k] = rows++;
   }
@@ -61,7 +61,7 @@ void ConvexNetwork::find_bond_forces() {
   }
 }
 
-/// Lets go of the branches whose force is beyond its jump; false if there are none.
+/// Releases the branches whose force is beyond its bounds; false if there are none.
 bool ConvexNetwork::release() {
   find_bond_forces();
   const std::vector<double>& f = bond_force_;
@@ -84,7 +84,7 @@ bool ConvexNetwork::release() {
   return !beyond.empty();
 }
 
-/// Lets go of all branches whose ends were apart before. Those that do not move stick again, like any other branch.
+/// Releases all branches that slipped before. Those branches that do not move stick again, like any other branch.
 void ConvexNetwork::release_as_before() {
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     Branch& b = branches_[k];
@@ -107,7 +107,7 @@ double ConvexNetwork::power() const {
   return sum;
 }
 
-/// True if only what decides among equals has held something back.
+/// True if nothing but regularising slopes holds some node.
 bool ConvexNetwork::run_away() {
   double scale = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
@@ -118,7 +118,7 @@ bool ConvexNetwork::run_away() {
       if (std::isfinite(f)) scale = std::max(scale, std::abs(f));
     }
   }
-  // What has inertia does not run away.
+  // A node with inertia does not run away.
   std::vector<char> heavy(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
@@ -132,9 +132,9 @@ bool ConvexNetwork::run_away() {
   return !runaways_.empty();
 }
 
-/// True if laws that come to a bound only in the limit have done so, and forces are left over.
+/// True if laws that reach a bound only in the limit have done so, and an imbalance remains.
 bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
-  // What is left when the flat ones are cut: parts of the network that only bounds hold.
+  // The parts of the network that remain when flat laws are cut: only bounds hold them.
   Sets parts(u_.size());
   for (const Branch& b : branches_) {
     const double w = b.w;
@@ -159,7 +159,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const std::size_t part = at(parts.find(static_cast<int>(k)));
-    // Too little force, and not too much: a step may have gone too far.
+    // A lack of force counts, an excess does not: a step may have gone too far.
     const bool too_little = left[part] * flat[part] <= 0;
     if (!held[part] && too_little && std::abs(left[part]) > flat_share * forces[part]) runaways_.push_back(static_cast<int>(k));
   }

@@ -1,4 +1,4 @@
-// Steps of Newton's method, and the way along them.
+// Newton's steps, and the line search along them.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,24 +11,24 @@ namespace rheonet {
 
 namespace {
 
-// A law with a slope this much smaller than its other one is flat to that side.
+// A slope below this share of the law's other slope counts as flat.
 constexpr double flat_step_share = 1e-6;
-// A search along a line. Where the step to the end of a jump is rounded, and its product: twice the half unit each.
+// Line search: relative round-off of the step to a breakpoint, and of its product: half a unit each, doubled.
 constexpr double break_rounding = 4e-16;
 constexpr double meeting_rounding = 4 * std::numeric_limits<double>::epsilon();
-// To this side of a jump: so much less than the step that leads to it, more than its rounding.
+// Distance before a breakpoint, as a share of the step that leads to it: above the round-off of that step.
 constexpr double short_of_break = 1e-14;
-// Of the slope where the stretch begins: less of it at its end may be what cancelling terms leave.
+// Share of the slope at the beginning of an interval: a smaller slope at its end may be the round-off of cancelling terms.
 constexpr double slope_rounding = 1e-12;
-// Of the slope where the search begins: less is the minimum, as the next direction takes what is left.
+// Share of the slope at the start of the search: a smaller slope counts as the minimum, as the next direction removes the rest.
 constexpr double flat_enough = 1e-10;
-// So many times a step.
+// A breakpoint this many steps away is too far to begin a search from.
 constexpr double far_off = 1e3;
-constexpr int most_sections = 100;  // of a stretch; every third halves it: ten digits at least
+constexpr int most_sections = 100;  // of an interval; every third halves it: ten digits at least
 
 }  // namespace
 
-/// With `secants`, laws that have got flat count by their slopes from where they began, or to the other side.
+/// Newton's direction. With `secants`, laws that have become flat count by their secant from w = 0, or by their other slope.
 bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, std::vector<double>& d, bool secants) {
   std::vector<Conductance> slopes;
   for (const Branch& b : branches_) {
@@ -58,14 +58,14 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
   return true;
 }
 
-/// Derivative of the convex function along d, at x + step d and to the far side of jumps there.
+/// Derivative of the convex function along d, at x + step d and on the far side of jumps there.
 double ConvexNetwork::slope_along(const std::vector<double>& d, double step) const {
   double sum = 0;
   for (const Branch& b : branches_) {
     const double dw = d[at(b.a)] - d[at(b.b)];
     if (dw == 0) continue;
     double w = b.w + step * dw;
-    // The breakpoint of this branch itself, but for rounding.
+    // The breakpoint of this branch itself, to round-off.
     if (std::abs(w) <= break_rounding * std::abs(step * dw)) w = 0;
     sum += force(b, w, dw > 0 ? 1 : -1) * dw;
   }
@@ -75,7 +75,7 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
   return sum;
 }
 
-/// Goes along d to the minimum; a branch whose jump is that minimum sticks from there on.
+/// Moves along d to the minimum; a branch whose jump is at the minimum sticks from there on.
 ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   struct Break { double step; int branch; };
   std::vector<Break> breaks;
@@ -105,7 +105,7 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   full_steps_ = 0;
   if (first != breaks.end()) {
     high = first->step;
-    // This side of the jump: the far side says nothing of the stretch.
+    // Slope before the jump: the slope beyond it says nothing of the interval.
     const double before = slope_along(d, high * (1 - short_of_break));
     if (before < 0 || high == low) {
       move(high);
@@ -113,18 +113,18 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
       return Outcome::solved;
     }
     high *= 1 - short_of_break;
-    // One that is far off, where two ends move all but alike, is none to begin a search from.
+    // A distant breakpoint, where two ends move almost alike, is no good end of an interval.
     for (double near = std::max(1.0, 2 * low); high > far_off * near; near *= 2) {
       if (!(slope_along(d, near) < 0)) high = near;
     }
   } else {
     for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
-      // The last digits of the whole step may be rounding.
+      // The last digits of a full step may be round-off.
       if (high == 1 && slope_along(d, 1) > -slope_rounding * std::abs(slope_along(d, low))) break;
       if (high > 1e200) return Outcome::unbounded;
     }
   }
-  // Within one stretch: exact at once where all is linear.
+  // Search within one smooth interval: exact at once where all laws are linear.
   const double descent = -slope_along(d, 0);
   double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
   for (int k = 0; k < most_sections && slope_high > 0; ++k) {

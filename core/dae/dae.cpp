@@ -18,7 +18,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   for (NodeId node : positions_.integrated) ix_[at(node)] = size_++;
   for (std::size_t k = 0; k < drive.blocks().states(); ++k) iz_.push_back(size_++);
 
-  // All motions given: IDA still wants an equation. y' = 0 costs nothing.
+  // All motions are given, but IDA needs an equation: y' = 0 costs nothing.
   idle_ = size_ == 0;
   if (idle_) size_ = 1;
 
@@ -77,7 +77,7 @@ void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
   rows_.push_back(r);
 }
 
-/// The Jacobian's entries while the pattern is built, each known by a ticket.
+/// The Jacobian's entries while the pattern is built, each identified by a ticket.
 struct Dae::Drafts {
   PatternBuilder builder;
   std::vector<Constant> constants, masses;
@@ -173,7 +173,7 @@ void Dae::draft_rows(Drafts& drafts) {
   }
 }
 
-/// The pattern, and in place of each ticket the entry that it has become.
+/// Builds the pattern, and replaces each ticket by its entry.
 void Dae::take_entries(Drafts& drafts) {
   std::vector<int> entry;
   pattern_ = drafts.builder.build(size_, entry);
@@ -183,7 +183,7 @@ void Dae::take_entries(Drafts& drafts) {
   };
   const auto copy = [&](auto& list) {
     take(list);
-    return std::vector(list.begin(), list.end());  // no larger than need be
+    return std::vector(list.begin(), list.end());  // without spare capacity
   };
   constants_ = copy(drafts.constants);
   masses_ = copy(drafts.masses);
@@ -204,7 +204,7 @@ void Dae::take_entries(Drafts& drafts) {
   const auto begin = [&](int column) { return with_mass.begin() + pattern_.column_start[at(column)]; };
   differentiated_.resize(at(size_));
   for (int i = 0; i < size_; ++i) {
-    // Deflections are; the balance at a massless node or a dashpot's force are not.
+    // Deflections are differentiated; the velocity of a massless node and the force of a dashpot are not.
     const bool deflection = i >= deflections_begin_ && i < deflections_end_;
     differentiated_[at(i)] = deflection || std::any_of(begin(i), begin(i + 1), [](char mass) { return mass != 0; });
   }
@@ -241,8 +241,8 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   guess_forces(t, y.data());
 }
 
-/// Positions as the view finds them. Of a node that none is asked for, and that another's position counts from in these
-/// modes alone, the state does not know it.
+/// Positions as the view computes them. The state lacks the position of a node that was not requested, but that another
+/// position is counted from in these modes.
 std::vector<double> Dae::places(const State& state) const {
   std::vector<double> place = state.position;
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {

@@ -6,7 +6,7 @@ namespace rheonet {
 
 using What = Blocks::Sensor::What;
 
-/// What an atom of the blocks (a state, or what a sensor tells) is made of, among the unknowns.
+/// The unknowns that an atom of the blocks (a state or a sensor value) depends on.
 std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
   using By = Coupling::By;
   const BlockSignals& blocks = drive_->blocks();
@@ -52,8 +52,8 @@ void Dae::build_couplings(PatternBuilder& builder) {
   }
 }
 
-/// Velocities that blocks give: in dashpots, and in loops and positions. They follow from states and positions, whose terms are
-/// plain.
+/// Entries of the velocities that blocks give: in dashpots, loops and positions. They depend on states and positions, whose
+/// terms are plain.
 void Dae::couple_motions(PatternBuilder& builder) {
   const auto mover = [&](NodeId node) -> const Network::Motion* {
     const int m = structure_->motion[at(node)];
@@ -81,7 +81,7 @@ void Dae::couple_motions(PatternBuilder& builder) {
   }
 }
 
-/// What moves by blocks, before others feel it: it needs states and positions alone.
+/// Evaluates the velocities that blocks give before the laws, as they need states and positions alone.
 void Dae::move_by_blocks(const double* y) {
   const auto by_block = [](const Network::Motion& m) { return m.block >= 0; };
   if (std::none_of(network_->motions.begin(), network_->motions.end(), by_block)) return;
@@ -95,7 +95,7 @@ void Dae::move_by_blocks(const double* y) {
   drive_->apply_blocks();
 }
 
-/// How fast a velocity that a block gives changes because the states and positions do that it follows from [m/s^2].
+/// Rate of a velocity that a block gives, due to the states and positions that it depends on [m/s^2].
 double Dae::acceleration_by(const Network::Motion& motion) const {
   const BlockSignals& blocks = drive_->blocks();
   double sum = 0;
@@ -108,7 +108,7 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
   return motion.sign * sum;
 }
 
-/// States, and what sensors tell; then all outputs.
+/// Evaluates the states and sensor values; then all outputs.
 void Dae::feel_blocks(const double* y) {
   BlockSignals& blocks = drive_->blocks();
   for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];

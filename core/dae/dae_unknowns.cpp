@@ -1,4 +1,4 @@
-// Which quantities are unknowns.
+// Numbers the unknowns.
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@ namespace rheonet {
 
 namespace {
 
-// A linear dashpot between a massless node and ground has its force among the unknowns where it is this much stiffer than another
-// one there: its velocity, small beside that of the other one, is solved to fewer digits.
+// A linear dashpot at a massless node has its force among the unknowns if it is this much stiffer than another one there: its
+// velocity, small beside the velocity of the other one, is solved to fewer digits.
 constexpr double stiff_in_series = 1e3;
-// The same of one between masses that it brings to one velocity so many times faster than the run is long: of that velocity
-// the difference is lost in rounding, which the force would be as many times as much.
+// The same for a dashpot between masses or motions whose velocities it equalises this many times faster than the run is long:
+// the difference of the velocities is lost in round-off, which the damping multiplies.
 constexpr double stiff_for_mass = 1e6;
 
 }  // namespace
@@ -27,7 +27,7 @@ void Dae::number_unknowns() {
   ix_ = iv_;
   ip_.assign(network.deflections.size(), -1);
   if_.assign(network.rates.size(), -1);
-  // Unknowns that belong together stand together: it keeps the columns of a chain near each other.
+  // Related unknowns are adjacent: this keeps the columns of a chain close to each other.
   for (NodeId node : network.node_order) {
     const int group = structure_->group[at(node)];
     const bool reference = group >= 0 && structure_->groups[at(group)].nodes.front() == node;
@@ -41,8 +41,8 @@ void Dae::number_unknowns() {
   deflections_end_ = size_;
   const auto known = [&](NodeId node) { return structure_->kind[at(node)] == Kind::known; };
   const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
-  // Velocities that laws without a flat place tell from each other, or that masses and motions give; the softest linear
-  // dashpot at each node.
+  // `told` joins nodes whose relative velocity is determined by laws without a flat part, or by masses and motions. `softest`
+  // is the softest linear dashpot at each node.
   Sets told(network.nodes());
   std::vector<double> softest(network.nodes(), std::numeric_limits<double>::infinity());
   for (NodeId node : network.node_order) {
@@ -66,14 +66,14 @@ void Dae::number_unknowns() {
       const double impulse = laws.batch->impulse(i);
       const bool linear = impulse > 0 && std::isfinite(impulse);
       rough_ = rough_ || !linear;
-      // Where the velocities are given or belong to masses the force follows from them. At a massless node the balance
-      // gives the force, and a velocity that a law with slope 0 or infinity at rest could not be solved for. One with slope
-      // 0 needs that only where nothing else tells the velocities: its force is lost in the tolerance long before its
+      // If both ends are masses or motions, their velocities give the force. At a massless node the balance gives the force,
+      // but cannot be solved for the velocity of a law of slope 0 or infinity at rest: its force is then an unknown. A law of
+      // slope 0 needs that only if nothing else determines the velocities: its force is lost in the tolerance long before its
       // velocity is.
       const bool needed = std::isfinite(impulse) || (told.find(b.a) != told.find(b.b) && !told_by_others[at(laws.first) + i]);
       const bool at_massless = massless(b.a) || massless(b.b);
-      // So does one that is much stiffer than what it is in series with: the difference of the velocities of its ends would have
-      // lost its digits. Beside ground it is the velocity itself.
+      // A linear dashpot much stiffer than its neighbours in series needs it too: the difference of the velocities of its ends
+      // would have lost its digits. At ground that difference is a velocity itself.
       const bool moving = b.a != ground && b.b != ground;
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
       const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
@@ -97,8 +97,8 @@ bool Dae::any_follows_time() const {
          std::any_of(network_->forces.begin(), network_->forces.end(), pushed);
 }
 
-/// Of each rate branch: a dilatant law that is solved for its velocity, as others like it tell that by their forces (on top of
-/// what `told` joins). Beside a law with a memory it may rest under load, where its force is 0 to more digits than there are.
+/// Marks dilatant laws in parallel with a law with a memory whose velocity other dilatant laws determine (on top of `told`).
+/// They may rest under load, where their force is 0 to more digits than there are: they are solved for their velocity.
 std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
   std::vector<char> result(structure_->rates.size(), 0);
   std::set<std::pair<NodeId, NodeId>> with_memory;

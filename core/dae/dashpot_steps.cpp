@@ -20,7 +20,7 @@ struct BranchDashpot {
   double coefficient;
 };
 
-/// Dashpots by their exponents, the largest first.
+/// Dashpots by exponent, the largest first.
 using ByExponent = std::map<double, std::vector<BranchDashpot>, std::greater<>>;
 
 ByExponent by_exponent(const Network& network) {
@@ -59,13 +59,13 @@ class Steps {
 
   bool any() const { return farthest_ > 0; }
 
-  /// Settles what dashpots of this exponent lead to from known steps. What they join elsewhere goes as one from there
-  /// on: nothing that is left can move it apart.
+  /// Determines the steps of the nodes that dashpots of this exponent join to known steps. Nodes that they join elsewhere move
+  /// as one from there on: no remaining dashpot can move them apart.
   bool settle(double exponent, const std::vector<BranchDashpot>& dashpots) {
     const std::vector<char> led = led_by(dashpots);
     double stiffest = 0;
     for (const BranchDashpot& d : dashpots) stiffest = std::max(stiffest, d.coefficient);
-    // One that is beyond the range of doubles beside the stiffest would share nothing.
+    // A dashpot that underflows relative to the stiffest would share nothing.
     for (const BranchDashpot& d : dashpots) {
       if (d.coefficient / stiffest == 0) return false;
     }
@@ -98,8 +98,8 @@ class Steps {
  private:
   bool known(NodeId node) { return known_[at(together_.find(node))] != 0; }
 
-  /// The nodes, each standing for those that go with it, that are not known and that a way over such dashpots joins to
-  /// one that is.
+  /// Marks the nodes without a known step that a path of such dashpots joins to a node with one. Each node represents those
+  /// that move with it.
   std::vector<char> led_by(const std::vector<BranchDashpot>& dashpots) {
     Sets parts(dx_.size());
     for (const BranchDashpot& d : dashpots) {
@@ -119,9 +119,9 @@ class Steps {
 
   const Structure& structure_;
   std::vector<double>& dx_;
-  Sets together_;  ///< nodes that go as one
+  Sets together_;  ///< nodes that move as one
   std::vector<char> known_;
-  double farthest_ = 0;  ///< of all steps: the measure of the others
+  double farthest_ = 0;  ///< the largest step: scale of the others
 };
 
 }  // namespace
@@ -143,7 +143,7 @@ bool step_together(double a, double b) {
 
 namespace {
 
-/// Massless nodes that rigid dashpots join, and the nodes beyond that hold them there.
+/// Massless nodes that rigid dashpots join, and the nodes around that hold them.
 class RigidParts {
  public:
   RigidParts(const Network& network, const Structure& structure, const std::vector<double>& dx)
@@ -163,7 +163,7 @@ class RigidParts {
     }
   }
 
-  /// Those that take an impulse at a node: itself, or those that hold it.
+  /// Nodes that take an impulse at `node`: the node itself, or the nodes that hold it.
   std::vector<NodeId> takers(NodeId node) {
     return light(node) ? holders_[at(parts_.find(node))] : std::vector<NodeId>{node};
   }

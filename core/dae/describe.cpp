@@ -49,7 +49,7 @@ std::string Dae::around(int unknown) const {
     if (const int node = network_->node_of[at(end)]; node >= 0) nodes.push_back(node);
   }
   std::vector<std::string> names = elements_at(*network_, nodes);
-  // A block touches no node, nor may what stands between motions.
+  // A block touches no node, and an element between motions may touch none.
   if (names.empty() && kind == Subject::Kind::element) names = {scene.elements[at(index)].name};
   return listed(names);
 }
