@@ -36,8 +36,8 @@ void Instant::join_given(const ConvexNetwork& problem, Sets& sets) const {
   }
 }
 
-// Where a slider and friction that relaxes hold the same ends together, the slider has the sharper transition: the friction
-// rests (s = 0) while the slider has force left. At its bound the slider can take no more. The friction is then in a Filippov
+// Where a slider and friction that relaxes hold the same ends together, the slider has the sharper transition. The friction
+// rests (s = 0) while the slider has force left. At its bound the slider can take no more: the friction is then in a Filippov
 // sliding mode, with a mixture of rest and the slider's direction, until it might rest as well.
 std::vector<int> Instant::let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of,
                                    const std::vector<int>& slider_of, const std::vector<int>& side,

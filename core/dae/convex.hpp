@@ -15,8 +15,8 @@ namespace rheonet {
 /// where u is the change of x from its start value. This x minimises a convex function; Newton's method on an active set, with
 /// exact line search, finds it. A branch whose law jumps at 0 sticks (joins its ends) while its force stays within the jump.
 /// Increments u are stored apart from x: the increment of a heavy node can be below one ulp of x while its inertial force still
-/// matters. Likewise steps add to w = x_a - x_b of a branch, so that a small w keeps all its digits. x is a velocity in
-/// onset.cpp, a displacement in jump.cpp.
+/// matters. Likewise steps add to w = x_a - x_b of a branch, so that a small w keeps all its digits. x stands for velocities,
+/// as in onset.cpp, or for displacements, as in jump.cpp.
 class ConvexNetwork {
  public:
   struct Law {

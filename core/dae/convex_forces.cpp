@@ -84,7 +84,7 @@ bool ConvexNetwork::release() {
   return !beyond.empty();
 }
 
-/// Releases all branches that slipped before. Those branches that do not move stick again, like any other branch.
+/// Releases all branches that slipped before. A branch that does not move sticks again, like any other branch.
 void ConvexNetwork::release_as_before() {
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     Branch& b = branches_[k];

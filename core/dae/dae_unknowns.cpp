@@ -98,7 +98,7 @@ bool Dae::any_follows_time() const {
 }
 
 /// Marks dilatant laws in parallel with a law with a memory whose velocity other dilatant laws determine (on top of `told`).
-/// They may rest under load, where their force is 0 to more digits than there are: they are solved for their velocity.
+/// These laws are solved for their velocity, as they may rest under load, where their force is 0 to more digits than there are.
 std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
   std::vector<char> result(structure_->rates.size(), 0);
   std::set<std::pair<NodeId, NodeId>> with_memory;

@@ -28,7 +28,7 @@ Drive::Drive(const Network& network, const Structure& classified, double start, 
     Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}, .anchor_time = start};
     moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
     motion.anchor = positions[static_cast<std::size_t>(m.node)];
-    // Until the first `enter` the node rests where it was before the run.
+    // Until the first `enter` the node rests at its position before the run.
     motion.piece.level = m.position ? motion.anchor : 0;
     motions_.push_back(std::move(motion));
   }
@@ -59,7 +59,7 @@ bool Drive::refine(TimePoint t) {
 }
 
 void Drive::enter(double t) {
-  // An instant within the present stretches changes none of them.
+  // An event within the present pieces changes none of them.
   const bool fresh = t >= next_break_.t;
   const TimePoint now = exact(t);
   if (fresh) searches_.clear();
@@ -72,7 +72,7 @@ void Drive::enter(double t) {
     m.anchor_time = now;
     m.piece = m.signal.piece(t);
     const double step = position_of(m, now) - before;
-    // A corner of a position signal leaves a difference of rounding, which is no step.
+    // A corner of a position signal leaves a difference of round-off, which is no step.
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
     next_break_ = std::min(next_break_, exact_end(m.signal, t));
     past_.follow(i, t, m.piece, m.by_position);
@@ -149,7 +149,7 @@ void Drive::look_ahead(double t) {
   }
   blocks_.run(false);
   if (moves_by_blocks_) {
-    // A state that has just begun to change has no rate yet, but it will.
+    // A state that begins to change may still have the rate 0 from the last `sense`: compute the rates anew.
     for (std::size_t k = 0; k < states; ++k) blocks_.state[k].derivative = blocks_.rate(k);
     blocks_.run(false);
   }
@@ -173,7 +173,7 @@ void Drive::apply_blocks() {
   }
 }
 
-/// What sensors tell of a state, with the rates of positions.
+/// Sensor values of a state, with the rates of positions.
 void Drive::sense_network(const State& state) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k] = state.blocks[k];
@@ -249,24 +249,24 @@ double Drive::next_reversal(int a, int b, double t, double limit) {
 
 double Drive::search_reversal(int a, int b, double t, double limit, double grain) const {
   constexpr double never = std::numeric_limits<double>::infinity();
-  double side = 0, zero = never;  // the side that w was last on, and where it was exactly 0 since
+  double side = 0, zero = never;  // the last sign of w, and the time from which w has been exactly 0
   for (double now = t; now < limit;) {
     const Flow f = flow(a, b, now, limit);
     const double sign = f.w > 0 ? 1 : f.w < 0 ? -1 : 0;
     const double where = std::min(zero, now);
     if (side * sign < 0 && where - t > 2 * grain) return where;
     if (sign == 0) {
-      // On the crossing itself; or resting for good, as two equal motions do.
+      // On the crossing itself, or at rest for good, like two equal motions.
       zero = where;
       now += std::max(now - zero, grain);
       continue;
     }
     side = sign;
     zero = never;
-    // |w| falls at most as fast as |w| - fall tau - bound tau^2/2: it is safe to go on to where that is 0.
+    // w| falls at most as fast as |w| - fall tau - bound tau^2/2: a stride to the zero of this bound misses no crossing.
     const double fall = std::max(0.0, -side * f.dw);
     const double root = std::hypot(fall, std::sqrt(2 * f.bound) * std::sqrt(std::abs(f.w)));
-    // Beyond the range of double precision no stride is safe: the search would go on by the grain of time.
+    // Beyond the range of double precision no stride is safe: the search would advance by the round-off of time.
     if (!std::isfinite(root)) return never;
     const double stride = fall + root > 0 ? 2 * std::abs(f.w) / (fall + root) : never;
     now += std::max(stride, grain);

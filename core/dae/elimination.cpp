@@ -34,7 +34,7 @@ bool Elimination::factorise(const std::vector<double>& values) {
   return factor_->dense ? factorise_dense(values) : factorise_sparse(values);
 }
 
-/// Rows hold newtons or metres a second, and so do unknowns: each row is divided by its largest entry, and then each column, so that
+/// Rows and unknowns have different units (N, m/s): each row is divided by its largest entry, and then each column, so that
 /// pivots can be compared.
 bool Elimination::scale(const std::vector<double>& values) {
   Factor& f = *factor_;

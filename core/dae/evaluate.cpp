@@ -6,8 +6,8 @@
 
 namespace rheonet {
 
-/// How far prescribed motions take the ends of a branch apart from the last event on. Positions may be large beside a deflection,
-/// which their difference would round.
+/// Relative displacement of the ends of a branch due to prescribed motions since the last event. It is computed without
+/// positions, which may be large beside a deflection: their difference would round it.
 double Dae::known_way(const Branch& ends, double t) const {
   const auto way = [&](NodeId node) {
     const int motion = structure_->motion[at(node)];
@@ -16,7 +16,7 @@ double Dae::known_way(const Branch& ends, double t) const {
   return way(ends.a) - way(ends.b);
 }
 
-/// Velocities, deflections, and what the rate laws are evaluated with.
+/// Gathers velocities, deflections, and the arguments of the rate laws.
 void Dae::gather(double t, const double* y) {
   viewed_ = {};
   drive_->evaluate(t);
@@ -40,7 +40,7 @@ void Dae::gather(double t, const double* y) {
   if (drive_->blocks().any()) feel_blocks(y);
 }
 
-/// Sums, at the nodes that stand for others, of the forces of the branches and of the applied forces.
+/// Sums the forces of the branches and the applied forces, at the nodes that represent joined ones.
 void Dae::sum_forces() {
   std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
   std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
@@ -127,12 +127,12 @@ void Dae::magnitudes(double* r) const {
     add(b.b, f);
   };
   for (std::size_t j = 0; j < ip_.size(); ++j) {
-    // Friction that has slid far, and turned, has a small force of a large deflection.
+    // Friction that has slid far and reversed has a small force at a large deflection.
     add_branch(structure_->deflections[j], std::max(std::abs(view_.f[j]), deflection_share * std::abs(df_[j] * view_.p[j])));
   }
   for (std::size_t k = 0; k < if_.size(); ++k) {
     const Branch& b = structure_->rates[k];
-    // The difference of two velocities is known to the last digit of each.
+    // The difference of two velocities has the round-off of each.
     const double speed = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]);
     add_branch(b, if_[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
     if (if_[k] >= 0) r[if_[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
@@ -143,8 +143,8 @@ void Dae::magnitudes(double* r) const {
     add(structure_->rigid[at(f.a)], drive_->force[k]);
     if (f.b >= 0) add(structure_->rigid[at(f.b)], drive_->force[k]);
   }
-  // With what rounding leaves of a force a velocity changes: that of a dilatant law without bound, where its force is near
-  // 0; that of a pseudoplastic one there by much of its own.
+  // The round-off of a force changes a velocity. Near f = 0 the velocity of a dilatant law changes without bound, the velocity
+  // of a pseudoplastic law by a large share of itself.
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t k = at(laws.first) + i;
@@ -185,8 +185,8 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
   share_jacobian(cj, yp, values, false);
 }
 
-/// A power law other than Newton's has slope 0 at rest, and its equation no solution there to first order. A secant up to
-/// the forces now at work takes its place: Newton's iteration gets away from rest with it.
+/// A power law other than Newton's has slope 0 at rest, where its equation has no solution to first order. A secant up to the
+/// forces now acting takes its place: with it Newton's iteration leaves rest.
 void Dae::stiffen_resting_laws() {
   double scale = -1;
   Drive::Reach reach;
@@ -246,7 +246,7 @@ void Dae::time_derivative(double* r) const {
       add(b.b, -rate_d_[k] * dw);
     }
   }
-  for (const Row& row : rows_) {  // loops through branches that are held still, all of them
+  for (const Row& row : rows_) {  // loops in which all branches are held at rest
     if (differential_[at(row.row)]) continue;
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];

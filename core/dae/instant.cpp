@@ -18,13 +18,13 @@ namespace rheonet {
 
 namespace {
 
-// How far ahead it is looked: a share of the time until something is known to happen, and of the network's own times.
+// Step h of the mode-selection problem, as a share of the time to the next known discontinuity, and of the network's own times.
 constexpr double share_of_horizon = 1e-7;
 constexpr double least_of_network = 1e-12;
 constexpr double share_of_network = 1e-3;
-// Energies that differ by this share are equal.
+// Relative difference of equal energies.
 constexpr double link_rounding = 1e-9;
-// Jumps in a row that refine each other.
+// Jumps in a row, each of which refines the one before.
 constexpr int most_jumps = 3;
 
 }  // namespace
@@ -39,7 +39,7 @@ Instant::Instant(const Network& network, const Structure& classified, Drive& dri
       came_to_rest_(network.sliders.size(), Modes::stuck),
       slack_(classified.kind.size(), 0) {}
 
-// What slips one way must come to rest, and break away, before it slips the other way.
+// A slider that slips must come to rest, and break away, before it slips the other way.
 double Instant::bound(std::size_t k, int side) const {
   const Slip& law = network_.sliders[k].law;
   return broken_[k] || slipping_[k] == side ? law.coulomb : law.breakaway;
@@ -53,7 +53,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   std::vector<double> dx(structure_.kind.size(), 0);
   if (stepped) position_steps(t, dx, state, change.notes);
   const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
-  // A force that comes through a delay is no step of the drive, which does no work then.
+  // A step that arrives through a delay is no step of the inputs: these do no work then.
   const bool delayed = take_delayed_steps(t, state, change);
   if (delayed && !driven) stepped = false;
   change.heat += halt(t, fired.sliders, modes, state, change.notes);
@@ -64,13 +64,13 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     if (event && !stepped_) came_to_rest_[k] = modes.slider[k];
     slipping_[k] = event ? 0 : modes.slider[k];
   }
-  // Until something breaks away all that is out of balance between steps of the drive is an error of the integrator's.
+  // Between steps of the inputs, any imbalance before something breaks away is an error of the integrator's steps.
   bool smooth = !stepped_ && !delayed;
   std::fill(slack_.begin(), slack_.end(), 0.0);
   if (smooth) take_back_excess(modes, force);
-  // What breaks away under more than its force of sliding lets go of the difference: others may follow.
+  // A slider that breaks away above its sliding force releases the difference: others may follow.
   for (bool again = true; again;) {
-    // A long way leaves a rounding of its own: a second jump takes the rest.
+    // A large displacement leaves its own round-off: a second jump removes it.
     drive_.sense(t, state);
     for (int k = 0; smooth && k < most_jumps && settle_errors(t, state, force); ++k) drive_.sense(t, state);
     for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
@@ -79,7 +79,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
     }
     if (smooth) keep_slipping(force);
     smooth = false;
-    change.standing.clear();  // what would stand if nothing let go
+    change.standing.clear();  // these were held before the last break-away
     const std::vector<int> broken =
         onset(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
     for (int k : broken) broken_[at(k)] = 1;
@@ -90,7 +90,7 @@ Instant::Change Instant::cross(double t, double horizon, bool stepped, const Fir
   return change;
 }
 
-/// Friction that turns counts its deflection from there.
+/// Friction that reverses counts its deflection from there.
 void Instant::count_from_turns(State& state) const {
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -102,8 +102,8 @@ void Instant::count_from_turns(State& state) const {
   }
 }
 
-/// Between steps of the drive what a slider bears beyond its bound is an error of the integrator's steps. It has its bound then,
-/// and the balance at its ends is off by the rest, which nothing need jump for.
+/// Between steps of the inputs, a slider's force beyond its bound is an error of the integrator's steps. The force is set to
+/// the bound, and the imbalance at its nodes is accepted: nothing need jump for it.
 void Instant::take_back_excess(const Modes& modes, std::vector<double>& force) {
   for (std::size_t k = 0; k < force.size(); ++k) {
     const int side = force[k] > 0 ? 1 : -1;
@@ -114,7 +114,7 @@ void Instant::take_back_excess(const Modes& modes, std::vector<double>& force) {
   }
 }
 
-/// Nor does one that slips come to rest for an error of the steps: it keeps its force, and the balance at its ends is off by it.
+/// Integration error alone does not stop a slipping slider: keep its force and accept the residual at its nodes.
 void Instant::keep_slipping(std::vector<double>& force) {
   for (std::size_t k = 0; k < force.size(); ++k) {
     const double full = slipping_[k] * network_.sliders[k].law.coulomb, lack = slipping_[k] * (full - force[k]);
@@ -124,8 +124,8 @@ void Instant::keep_slipping(std::vector<double>& force) {
   }
 }
 
-/// Steps that come through a delay stretch what feels them, all at once. Nothing moves at its ends then: what it stores
-/// more by that counts as given back, against what it has taken up at the step itself and has not stored (see jump).
+/// Steps that arrive through delays change the deflections of delayed branches at once. Nothing moves at their ends then: the
+/// energy that they store thereby is deducted from the heat that was counted at the step itself (see jump).
 bool Instant::take_delayed_steps(double t, State& state, Change& change) {
   Past& past = drive_.past();
   bool any = false;
@@ -152,7 +152,7 @@ void Instant::check_load(double t, double then, const State& state, const std::v
   if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways(), state);
 }
 
-/// A time in which neither the drive nor the network itself changes its course, unless that is less than can be told [s].
+/// A time in which neither the inputs nor the network change course, but not below the resolution of time [s].
 double Instant::time_ahead(double t, double horizon, const State& state) const {
   const std::size_t nodes = structure_.kind.size();
   std::vector<double> stiffness(nodes, 0), damping(nodes, 0);
@@ -190,7 +190,7 @@ double Instant::time_ahead(double t, double horizon, const State& state) const {
     if (m == 0 && damping[n] > 0) fastest = std::max(fastest, stiffness[n] / damping[n]);
   }
   double ahead = share_of_horizon * horizon;
-  // In less time than that what springs do would be lost in the rounding of what dashpots do.
+  // In a shorter time the round-off of the dashpots' forces would hide the changes of the springs' forces.
   if (fastest > 0) ahead = std::clamp(ahead, least_of_network / fastest, share_of_network / fastest);
   return std::max(std::min(ahead, drive_.past().shortest() / 2), time_grain(t));
 }
@@ -199,8 +199,8 @@ double Instant::given_velocity(NodeId node) const {
   return structure_.motion[at(node)] < 0 ? 0 : drive_.velocity[at(structure_.motion[at(node)])];
 }
 
-/// Masses that sliders bring to rest against each other go on with their common momentum: what was left of their relative
-/// velocity is the rounding of the event. Rigid links do so at once, and the energy that this takes is heat.
+/// Masses that sliders bring to rest against each other go on with their common momentum: what remains of their relative
+/// velocity is the round-off of the event. Rigid links do so at once, and the energy that this takes is heat.
 double Instant::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
                      std::vector<std::string>& notes) const {
   refuse_torn_links(t);
@@ -294,7 +294,7 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
       const double force = laws.batch->force_at(i, w);
       add_branch(b, va < vb ? -force : force);
       if (!(laws.batch->growth(i).exponent < 1)) continue;
-      // Solved for its force, with which the velocities agree to their rounding: near rest they make another one of it.
+      // This law is solved for its force, to the round-off of velocities: near rest that round-off changes the force.
       const double left = Dae::rounding_share * (std::abs(va) + std::abs(vb));
       const double rounding = std::max(laws.batch->force_at(i, w + left) - force, force - laws.batch->force_at(i, w - left));
       for (const NodeId node : {b.a, b.b}) result.rounding[at(node)] += rounding;
@@ -307,8 +307,8 @@ Instant::Nodal Instant::nodal(const State& state, const std::vector<double>& sli
   return result;
 }
 
-/// What has stopped has no velocity: what is left of one is the margin of its event, which may outweigh all that changes
-/// within the time looked ahead. What sticks to an end without mass, or stands, goes along.
+/// A branch that has stopped has no velocity: the dead band of its guard leaves one, which may outweigh all changes within the
+/// look-ahead time. Nodes that stick to its massless end, or are held there, stop with it.
 void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state) {
   if (std::none_of(fired.turns.begin(), fired.turns.end(), [&](int j) { return may_stand(j); })) return;
   Sets together(structure_.kind.size());
@@ -338,7 +338,7 @@ void Instant::stop_at_turns(const Fired& fired, const Modes& modes, State& state
       if (together.find(static_cast<NodeId>(n)) == stops) state.velocity[n] = velocity;
     }
   }
-  // The forces that went with it (of a pseudoplastic dashpot far more than change ahead) leave a balance, and are none to come.
+  // The balances lack the forces of that velocity (large for a pseudoplastic dashpot): accept the imbalance.
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];

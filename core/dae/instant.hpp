@@ -124,7 +124,7 @@ class Instant {
   std::vector<NodeId> given_in(Sets& sets) const;
   void keep_slipping(std::vector<double>& force);
   void take_back_excess(const Modes& modes, std::vector<double>& force);
-  /// Slope of a law times its deflection [N]: its force has the round-off of this product.
+  /// Slope of a law times its deflection [N]: the force of the law has the round-off of this product.
   static double force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p);
   Nodal together(const Nodal& single) const;
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;

@@ -15,7 +15,7 @@ namespace rheonet {
 
 namespace {
 
-// Forces that balance but for this share of their magnitudes balance.
+// Relative tolerance of a balance of forces.
 constexpr double jump_rounding = 1e-12;
 
 }  // namespace
@@ -50,7 +50,7 @@ void Instant::position_steps(double t, std::vector<double>& dx, State& state, st
   }
 }
 
-/// Of what moves together within an instant, at the node that speaks for it.
+/// Sums over the nodes that move as one at an event, at the node that represents them.
 Instant::Nodal Instant::together(const Nodal& single) const {
   const std::vector<double> none(single.sum.size(), 0);
   Nodal result{none, none, none};
@@ -63,7 +63,7 @@ Instant::Nodal Instant::together(const Nodal& single) const {
   return result;
 }
 
-// Within an instant forces stay finite: masses keep their places, dashpots with them, and what has neither goes where the
+// At an event forces stay finite: masses and the nodes held by dashpots keep their places. Floating nodes move to where the
 // forces balance, along the laws' own curves and against the friction of the sliders.
 std::optional<Instant::Jump> Instant::find_jump(const std::vector<double>& dx, const State& state,
                                                 const std::vector<double>& force, bool along) const {
@@ -178,7 +178,7 @@ bool Instant::settle_errors(double t, State& state, std::vector<double>& force) 
   const std::vector<double> still(structure_.kind.size(), 0);
   const std::optional<Jump> back = find_jump(still, state, force), along = find_jump(still, state, force, true);
   if (!along || along->outcome != ConvexNetwork::Outcome::solved || back->outcome != ConvexNetwork::Outcome::solved) return false;
-  // What has hardly any slope as it goes would go far for nothing.
+  // A law with almost no slope in its present direction would move far for nothing.
   constexpr double far = 1e3;
   if (farthest(*along) > far * farthest(*back)) return false;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
@@ -212,7 +212,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
       const double step = moved(network_.deflections[j].a) - moved(network_.deflections[j].b);
       if (step == 0) continue;
       if (laws.batch->delay(i) > 0) {
-        delayed += laws.batch->force_along(i, state.p[j], 0, slope) * step;  // as it does not know of the step yet
+        delayed += laws.batch->force_along(i, state.p[j], 0, slope) * step;  // the law does not know of the step yet
         continue;
       }
       stored -= laws.batch->stored_energy(i, state.p[j]);
@@ -233,7 +233,7 @@ bool Instant::jump(double t, bool stepped, const std::vector<double>& dx, State&
     const Network::Force& load = network_.forces[k];
     work += drive_.force[k] * (moved(load.a) - (load.b < 0 ? 0 : moved(load.b)));
   }
-  // A step of the drive does what work it takes; without one, what is lost becomes heat.
+  // A step of the inputs does the work that it takes; without a step, lost energy becomes heat.
   change.heat += delayed + (stepped ? heat : std::max(0.0, work - stored - delayed));
   displace(t, *found, state);
   return true;

@@ -1,4 +1,4 @@
-// Forces of dashpots between nodes that move almost alike.
+// Forces of dashpots between nodes of almost equal velocity.
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -39,13 +39,13 @@ void Dae::find_loose_dashpots() {
   }
 }
 
-/// B (v_a - v_b) has the round-off of both velocities, which the balance of a massless node shows: the other forces there do not have
-/// it. The corrections of the forces that restore the balances, each as a share of its own round-off, are of least norm:
+/// B (v_a - v_b) has the round-off of both velocities, unlike the other forces: a massless node does not balance. The
+/// corrections of the forces that restore the balances, each as a share of its own round-off, are of least norm:
 ///
 ///     minimise sum of (df/s)^2,  s = B u (|v_a| + |v_b|),  subject to  sum of +-df = -imbalance  at each massless node
 ///
-/// The multipliers of the balances are the potentials of a network of conductances s^2. Its round-off grounds each node. An
-/// imbalance that round-off does not explain stays as it is.
+/// The multipliers of the balances are the potentials of a network of conductances s^2. The round-off of its balance grounds
+/// each node. An imbalance that round-off does not explain stays as it is.
 void Dae::balance_loose_dashpots() {
   constexpr double unit = std::numeric_limits<double>::epsilon();
   std::vector<double>& magnitude = work_;

@@ -6,7 +6,7 @@ namespace rheonet {
 
 namespace {
 
-/// The members of `list` in the order of their keys, which are below `size`; those of one key stay as they are.
+/// The members of `list` sorted by their keys, which are below `size`; members of equal key keep their order.
 template <class Key>
 std::vector<int> sorted(const std::vector<int>& list, int size, Key key) {
   std::vector<int> next(static_cast<std::size_t>(size) + 1, 0), result(list.size());

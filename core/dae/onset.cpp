@@ -16,39 +16,39 @@ namespace rheonet {
 
 namespace {
 
-// Forces that balance but for this share of their magnitudes balance.
+// Relative tolerance of a balance of forces.
 constexpr double onset_rounding = 1e-12;
-// A law whose slope is this share of that to the other side has none.
+// A slope below this share of the law's other slope counts as 0.
 constexpr double flat = 1e-6;
-// A rate of change times a time that is this much smaller than the value is lost in the difference of two values.
+// A change below this share of a value is lost in the difference of two values: rate times time replaces the difference.
 constexpr double difference_limit = 1e-6;
-// What is steeper than what is around it by this much cannot be told from a rigid link, as long as its force is no more than
-// this share of the others.
+// Slopes above `rigid_ratio` times those around are treated as rigid, as long as the force is no more than `rigid_share` of the
+// other forces.
 constexpr double rigid_ratio = 1e12;
 constexpr double rigid_share = 1e-6;
-// A slider may slip within the look-ahead time although it still sticks at the instant itself: its force reaches the bound only
-// later. A second look, at this share of the time, tells both cases apart. If the slider sticks there, the look-ahead time
-// shrinks by `nearer` until it sticks within all of it.
+// A slider may slip within the look-ahead time although it still sticks at the event itself: its force reaches the bound only
+// later. A second solution, at the share `at_once` of the time, distinguishes both cases. If the slider sticks there, the
+// look-ahead time shrinks by `nearer` until it sticks within all of it.
 constexpr double at_once = 1e-15, nearer = 1e-3;
 
 }  // namespace
 
-// Over a short time h the network is, with velocities v at its end, all forces counted from those at its beginning, and E, c
-// the slope and creep of a law in the direction of w,
+// Over a short time h, with velocities v at its end, all forces counted from those at its beginning, and E, c the slope and
+// creep of a law in the direction of w, the network satisfies
 //
-//     (m/h) (v - v0) + sum of +-[ B (w - w0),  h E (w - c),  a slider's within its bounds ] = dF - what is unbalanced now
+//     (m/h) (v - v0) + sum of +-[ B (w - w0),  h E (w - c),  a slider's within its bounds ] = dF - present imbalance
 //
-// Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level at which the velocity of
-// each slider lives.
+// Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level (acceleration, velocity or
+// rate of force) that determines the velocity of each slider.
 struct Instant::Onset {
   double t, h;
   const Fired* fired;
   const Modes* modes;
   const std::vector<double>* force;  // of the sliders
-  const Nodal* now;                  // forces and their rounding
+  const Nodal* now;                  // forces and their round-off
   ConvexNetwork problem;
-  std::vector<double> slope_around;  // of each node that can move, of what is neither a slider nor a power law
-  std::vector<int> law;              // of each deflection branch, in the problem; -1: a load, which has no direction to choose
+  std::vector<double> slope_around;  // of each node that can move: largest slope there, without sliders and power laws
+  std::vector<int> law;              // of each deflection branch: its branch of the problem; -1: delayed, hence a load
   std::vector<double> creep, at_rest;  // of each deflection branch
   std::vector<int> slider, bound_side;
 
@@ -84,7 +84,7 @@ std::vector<int> Instant::onset(double t, double h, const Fired& fired, State& s
   }
   for (std::size_t k = 0; k < onset.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    // At its bound, while others hold its ends: it sticks, and the forces of all of them are those of least norm.
+    // A slider at its bound, while others hold its ends, sticks: the forces of all of them are those of least norm.
     const bool sticks = held.find(b.a) == held.find(b.b) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
     const int direction = sticks ? 0 : problem.direction(onset.slider[k]);
     modes.slider[k] = static_cast<signed char>(direction);
@@ -117,7 +117,7 @@ Instant::Onset Instant::look_ahead(double t, double h, const Fired& fired, const
   return onset;
 }
 
-/// Some slider begins to slip although its force was within its bounds.
+/// Whether some slider begins to slip although its force was within its bounds.
 bool Instant::breaks_loose(const Onset& onset) const {
   for (std::size_t k = 0; k < onset.slider.size(); ++k) {
     const ConvexNetwork::Bounds bounds = onset.problem.bounds(onset.slider[k]);
@@ -141,14 +141,14 @@ void Instant::add_nodes(Onset& onset, const State& state) const {
   onset.problem.fix(slot(ground), 0);
 }
 
-/// How the motions and the loads change.
+/// Adds the changes of the motions and the loads.
 void Instant::add_drive(Onset& onset) {
   const double h = onset.h;
   const std::vector<double> load = drive_.force, load_rate = drive_.force_rate;
   drive_.evaluate(onset.t + h);
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
-    // A difference of two near velocities says nothing. The acceleration is that of the end, as of everything else here:
-    // how it changes may be all that changes the force of a slider that sticks.
+    // Not a difference of two close velocities, which is round-off. The acceleration is the one at the end of h, like all else
+    // here: its change may be all that changes the force of a sticking slider.
     onset.problem.fix(slot(network_.motions[m].node), h * drive_.acceleration[m]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
@@ -174,15 +174,15 @@ void Instant::add_deflection_laws(Onset& onset, const State& state) const {
       const double p = state.p[k + i], creep = onset.creep[k + i];
       double forward = h * laws.batch->slope(i, p, 1);
       double backward = h * laws.batch->slope(i, p, -1);
-      // What stood still does so no longer, and what passed through rest has: the event knows better than this first-order
-      // look at both sides.
+      // The event decides the direction of a branch that starts from rest or has passed through rest, not this first-order
+      // problem: both sides get the slope of that direction.
       if (contains(onset.fired->starts, branch) || reversed(*onset.fired, branch)) {
         (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
       }
       onset.at_rest[k + i] = -h * laws.batch->slope(i, p, 0) * creep;
       onset.meet(structure_, b, std::max(forward, backward));
       double high = -forward * creep, low = std::min(high, -backward * creep);
-      // What has stopped does not go on as before: again the event knows better.
+      // A branch that has stopped does not go on in its old direction: again the event decides.
       if (contains(onset.fired->turns, branch) && may_stand(branch)) {
         (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
       }
@@ -191,7 +191,7 @@ void Instant::add_deflection_laws(Onset& onset, const State& state) const {
       onset.law[k + i] = onset.problem.add(slot(b.a), slot(b.b), law);
     }
   }
-  // What feels velocities later is a load that changes as it will, whatever moves now.
+  // A delayed branch is a load: its change follows from the past, whatever moves now.
   for (std::size_t d = 0; d < drive_.felt.size(); ++d) {
     const Past::Delayed& delayed = drive_.past().delayed()[d];
     const double df = h * delayed_slope(delayed.branch, state) * (drive_.felt[d] - onset.creep[at(delayed.branch)]);
@@ -227,14 +227,14 @@ void Instant::add_sliders(Onset& onset) const {
     const Branch& b = network_.sliders[k].branch;
     const double force = (*onset.force)[k];
     ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
-    // At its bound the rate alone decides, not the rounding of the event.
+    // At its bound the rate alone decides, not the round-off of the event.
     const double limit = bound(k, force > 0 ? 1 : -1);
     const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
     const bool fired = contains(onset.fired->sliders, static_cast<int>(k));
     if (onset.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
       (force > 0 ? law.high : law.low) = 0;
     } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
-      // How the velocity of a massless node goes on this first-order look does not see: the event knows better.
+      // How the velocity of a massless node continues, this first-order problem does not see: the event decides.
       (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
     }
     onset.slider[k] = onset.problem.add(slot(b.a), slot(b.b), law);
@@ -243,7 +243,7 @@ void Instant::add_sliders(Onset& onset) const {
   }
 }
 
-/// Friction at its bound, which it leaves with this slope where the velocity is below that of its creep, and keeps above.
+/// Friction at its bound: it leaves the bound with this slope at velocities below its creep, and keeps its force above.
 ConvexNetwork::Law Instant::released(ConvexNetwork::Law law, double slope, double creep) {
   const double side = creep > 0 ? 1 : -1;
   (side > 0 ? law.high : law.low) = -slope * creep;
@@ -260,9 +260,8 @@ ConvexNetwork::Law Instant::released(ConvexNetwork::Law law, double slope, doubl
   return law;
 }
 
-/// What a law of velocity alone adds to its force at w0 when the velocity changes from there; where it has no finite slope,
-/// one that leads away, towards forces of about `scale` [N]. Where it is steeper than `steepest` [N s/m] it is as good as
-/// rigid, and has that slope.
+/// Change of the force of a rate law when the velocity changes from w0. A law without a finite slope there gets one that leads
+/// away, towards forces of about `scale` [N]. Slopes above `steepest` [N s/m] are treated as rigid, and replaced by it.
 ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest) {
   const double impulse = batch.impulse(i);
   if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
@@ -271,7 +270,7 @@ ConvexNetwork::Law Instant::law_of(const RateBatch& batch, std::size_t i, double
   const auto force = [&batch, i, rigid, steepest](double w) {
     return std::abs(w) < rigid ? steepest * w : batch.force_at(i, w);
   };
-  // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
+  // The tangent of B |w|^n is n f/w, its secant f/w: the larger one never overshoots.
   const auto steeper = [force](double w, double f) { return f == 0 ? 0 : f / w * std::max(1.0, std::log2(force(2 * w) / f)); };
   const double f0 = force(w0), slope = w0 != 0 ? steeper(w0, f0) : std::min(steepest, scale / batch.velocity_at(i, scale));
   return {.backward = slope, .forward = slope, .rounding = std::abs(f0), .of_change = true,
@@ -292,7 +291,7 @@ void Instant::take_directions(const Onset& onset, const State& state, Change& ch
     if (problem.direction(onset.slider[k]) == 0) stuck.join(b.a, b.b);
   }
   const std::vector<NodeId> given = given_in(stuck);
-  // By sliders that stick, and by what moves as it is told to.
+  // By sticking sliders, or by known nodes of equal velocity.
   const auto kept_together = [&](const Branch& b) {
     const NodeId a = stuck.find(b.a), c = stuck.find(b.b), of_a = given[at(a)], of_b = given[at(c)];
     return a == c || (of_a >= 0 && of_b >= 0 && same_velocity(problem, of_a, of_b));
@@ -303,8 +302,8 @@ void Instant::take_directions(const Onset& onset, const State& state, Change& ch
       if (index[at(j)] < 0 || laws.batch->events(i) == 0 || contains(fired.starts, j) || reversed(fired, j)) continue;
       const Branch& b = network_.deflections[at(j)];
       const double w = problem.difference(slot(b.a), slot(b.b));
-      // Where a law could stand the balance has decided, and the least velocity counts: beside a pseudoplastic dashpot it
-      // comes with a force.
+      // Where a law can be held at rest the balance has decided, and the smallest velocity counts: a pseudoplastic dashpot in
+      // parallel has a force at it.
       const auto [low, high] = problem.bounds(index[at(j)]);
       const bool at_rest = low < high && may_stand(j)
                                ? problem.joined(slot(b.a), slot(b.b)) || kept_together(b)
@@ -331,7 +330,7 @@ bool Instant::same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) co
   return std::abs(problem.difference(slot(a), slot(b))) <= velocity_grain * speeds;
 }
 
-/// Of each node that speaks for a set one of the set that moves as it is told to; -1 where there is none.
+/// For each set, at the index of the node that represents it: a known node of the set, or -1.
 std::vector<NodeId> Instant::given_in(Sets& sets) const {
   std::vector<NodeId> result(structure_.kind.size(), -1);
   for (std::size_t n = 0; n < result.size(); ++n) {
@@ -340,8 +339,8 @@ std::vector<NodeId> Instant::given_in(Sets& sets) const {
   return result;
 }
 
-/// At its bound friction has no slope to begin with, and is still about to leave it in the direction that it had. It could
-/// as well stay there for good, but the least disturbance would end that. Beside a slider that sticks it rests instead.
+/// Whether friction at its bound, where its slope is 0, is about to leave the bound in its present direction. It could stay,
+/// but the least disturbance would end that. In parallel with a sticking slider it rests instead.
 bool Instant::relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i, double p) {
   const int direction = batch.direction(i);
   if (direction == 0 || !(batch.slope(i, p, direction) <= flat * batch.slope(i, p, -direction))) return false;

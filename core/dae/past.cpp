@@ -12,10 +12,10 @@ namespace rheonet {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-// What has come through so many delays is smooth enough for the integrator: no order of it sees the derivative that jumps.
+// After this many delays a discontinuity is smooth enough: no order of the integrator sees the derivative that jumps.
 constexpr int most_delays = 6;
 
-/// The last one that has begun by t; nullptr if none has (before the run).
+/// The last item that has begun by t; nullptr if none has (before the run).
 template <class Items>
 auto* current(Items& items, double t) {
   const auto after = std::upper_bound(items.begin(), items.end(), t, [](double x, const auto& item) { return x < item.t; });
@@ -134,7 +134,7 @@ void Past::remember(double t, const std::vector<double>& velocity, const std::ve
     if (track.motion < 0) jumps = append(track.curve, t, {velocity[static_cast<std::size_t>(track.node)], unknown}) || jumps;
   }
   for (std::size_t k = 0; k < channels_.size(); ++k) jumps = append(channels_[k], t, channels[k]) || jumps;
-  // What jumps is as sharp as at first, whatever it has come through.
+  // A jump is as sharp as a fresh one, whatever delays it has come through.
   if (jumps) {
     breaks_.back().level = 0;
     find_next_break();
@@ -152,7 +152,7 @@ void Past::moved(double t, const std::vector<double>& distance) {
   find_next_break();
 }
 
-/// What lies further back than the longest delay, and the points that its interpolation takes, is needed no more.
+/// Deletes all that lies further back than the longest delay and the points that its interpolation uses.
 void Past::forget(double t) {
   const double needed = t - longest_ - time_grain(t);
   while (!breaks_.empty() && breaks_.front().t < needed) breaks_.pop_front();
@@ -162,7 +162,7 @@ void Past::forget(double t) {
     std::vector<Point>& points = runs.front().points;
     const auto first = std::lower_bound(points.begin(), points.end(), needed, [](const Point& p, double x) { return p.t < x; });
     const std::ptrdiff_t spare = (first - points.begin()) - static_cast<std::ptrdiff_t>(step_points);
-    // Now and then many at once: each costs a move of all that stay.
+    // Rarely, and many at once: each deletion moves all points that stay.
     if (spare > static_cast<std::ptrdiff_t>(points.size() / 2)) points.erase(points.begin(), points.begin() + spare);
   };
   for (Track& track : tracks_) {
@@ -186,7 +186,7 @@ std::size_t Past::held() const {
   return sum;
 }
 
-/// To be called when a break has been added or has become sharper. One that is forgotten has come through all delays.
+/// To be called when a discontinuity has been added or has become sharper. Deleted ones have come through all delays.
 void Past::find_next_break() {
   next_break_ = never;
   for (const double delay : delays_) {
@@ -197,10 +197,10 @@ void Past::find_next_break() {
   }
 }
 
-/// Points around t, half of them on each side where there are so many. Next to each other they are no nearer than a part of
-/// the interval that t is in: between points that are far apart a polynomial through near ones is their noise.
+/// Points around t, half of them on each side if there are enough. Neighbours are no nearer than a share of the interval that t
+/// is in: between distant points, a polynomial through close ones amplifies their errors.
 Past::Stencil Past::stencil(const std::vector<Point>& points, double t, double now, bool beyond) {
-  constexpr double near = 8;  // to a part of the interval
+  constexpr double near = 8;  // least distance: this fraction of the interval
   const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t wanted = beyond ? step_points - 1 : step_points;
@@ -226,14 +226,14 @@ Past::Stencil Past::stencil(const std::vector<Point>& points, double t, double n
 /// The polynomial through the points around t; beyond the last one the present is the next.
 Past::Felt Past::interpolate(const Run& run, double t, double now, bool last) {
   const std::vector<Point>& points = run.points;
-  if (points.empty()) return {0, 1};  // it has just begun
+  if (points.empty()) return {0, 1};  // the run has just begun
   const bool beyond = last && t > points.back().t + time_grain(t) && now > t;
   const Stencil chosen = stencil(points, t, now, beyond);
   const std::size_t count = chosen.count;
   Dual times[step_points];
   for (std::size_t k = 0; k < count; ++k) times[k] = points[chosen.index[k]].t;
   const std::size_t all = beyond ? count + 1 : count;
-  if (beyond) times[count] = Dual(now, 1);  // it goes on as t does
+  if (beyond) times[count] = Dual(now, 1);  // the present advances as t does
   const auto through = [&](double Point::*what, double last) {
     Dual values[step_points];
     for (std::size_t k = 0; what && k < count; ++k) values[k] = points[chosen.index[k]].*what;
@@ -241,7 +241,7 @@ Past::Felt Past::interpolate(const Run& run, double t, double now, bool last) {
     return rheonet::interpolate(times, values, all, Dual(t, 1));
   };
   Felt felt{through(&Point::v, 0), beyond ? through(nullptr, 1) : Dual(0)};
-  // The slope of a polynomial is less exact than rates that are known.
+  // Known rates are more exact than the slope of a polynomial.
   const auto rate_known = [&](std::size_t i) { return !std::isnan(points[i].rate); };
   if (!beyond && std::all_of(chosen.index.begin(), chosen.index.begin() + static_cast<std::ptrdiff_t>(count), rate_known)) {
     felt.known.derivative = through(&Point::rate, 0).value;
@@ -254,8 +254,7 @@ Past::Felt Past::look(const std::deque<Run>& runs, double t, double aside, doubl
   return run ? interpolate(*run, t, now, run == &runs.back()) : Felt{before, 0};
 }
 
-// At the instant of a break it counts from which side one looks: a step of the integrator that ends there belongs to what
-// was before.
+// At a discontinuity the side counts: a step of the integrator that ends there belongs to the interval before it.
 Past::Felt Past::velocity(NodeId node, double t, double aside, double now) const {
   if (node == ground) return {0, 0};
   const Track& track = tracks_[static_cast<std::size_t>(track_of_[static_cast<std::size_t>(node)])];
@@ -271,11 +270,11 @@ Past::Felt Past::velocity(NodeId node, double t, double aside, double now) const
 Past::Felt Past::felt(std::size_t k, double t) const {
   const Delayed& d = delayed_[k];
   const Felt a = velocity(d.a, t - d.delay, aside(t), t), b = velocity(d.b, t - d.delay, aside(t), t);
-  // Free ends are remembered at the same instants, so that the present counts as much for one as for the other.
+  // Free ends are stored at the same times, so the present has the same weight for both.
   return {a.known - b.known, d.free_a ? a.present : b.present};
 }
 
-// t - delay has the rounding of t, also where it is nearly 0.
+// t - delay has the round-off of t, even where it is nearly 0.
 double Past::aside(double t) const { return t > since_ + time_grain(t) ? -time_grain(t) : time_grain(t); }
 
 Past::Felt Past::channel(std::size_t k, double t, double aside, double now) const {

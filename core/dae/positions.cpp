@@ -52,7 +52,7 @@ class PositionFinder {
     for (const Branch& b : network_.rates) meet(b);
   }
 
-  /// What is known, or has to be an unknown of its own.
+  /// Starts from known nodes, and from nodes whose position is an unknown of its own.
   void begin() {
     for (NodeId node : network_.node_order) {
       if (structure_.kind[at(node)] != Kind::known) continue;
@@ -78,7 +78,7 @@ class PositionFinder {
     spread();
   }
 
-  /// What sticks moves as one: no deflection comes between.
+  /// Nodes joined by sticking sliders move as one: no deflection comes between.
   void reach(NodeId node) {
     reached_[at(node)] = 1;
     order_.push_back(node);
@@ -132,10 +132,10 @@ class PositionFinder {
   const Structure& structure_;
   const std::vector<char>& needed_;
   std::vector<std::vector<int>> tight_, stuck_;   // at each node: branches whose deflection is their displacement; sliders
-  std::vector<std::vector<NodeId>> beside_;       // across what creeps or slides
+  std::vector<std::vector<NodeId>> beside_;       // neighbours across creep, sliders and rate laws
   std::vector<char> reached_;
   std::vector<NodeId> order_;
-  std::size_t spread_ = 0, looked_ = 0;           // of the order
+  std::size_t spread_ = 0, looked_ = 0;           // positions in order_
   Positions result_;
 };
 

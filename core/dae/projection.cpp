@@ -12,26 +12,26 @@ namespace rheonet {
 
 namespace {
 
-// The least share of the largest of its kind that counts.
+// Least scale of an unknown, as a share of the largest of its kind.
 constexpr double share_of_kind = 1e-6;
-// What Newton's method may leave where it gets no further.
+// Relative imbalance that is accepted where Newton's method makes no progress.
 constexpr double loose_balance = 1e-10;
 constexpr int most_whole_steps = 20;
-constexpr int most_idle = 3;  // of them in a row that do not halve what is left
-// With secants an unknown comes nearer by a power of what is left: slowly at first.
+constexpr int most_idle = 3;  // steps in a row that do not halve the imbalance
+// With secants the error of an unknown falls by a power law: slowly at first.
 constexpr int most_secant_steps = 300;
 constexpr int most_idle_secants = 40;
-// Damped steps. Each unknown against its own size: a change of this share is the rounding of some tens of terms.
+// Damped steps: a relative change of an unknown this small is the round-off of some tens of terms.
 constexpr double change_rounding = 1e-14;
-// After a whole step, what is left of it would be lost in the last digits of the unknown.
+// After a full step, a relative change below this is lost in the last digits of the unknown.
 constexpr double last_digits = 1e-15;
-// Where no part of a step down to this one gains, none does: the slopes are rounding, or there is no solution.
+// If no step damped down to this share reduces Newton's correction, its slopes are round-off or there is no solution.
 constexpr double least_damping = 1e-6;
-// Then a change this small is what such slopes leave.
+// Relative change that is accepted then, as derivatives of round-off leave it.
 constexpr double loose_change = 1e-9;
 constexpr int most_damped_steps = 500;
 
-/// As long as it lives slopes are secants.
+/// While it exists, slopes are secants.
 struct Secants {
   explicit Secants(Dae& d) : dae(d) { dae.use_secants(true); }
   ~Secants() { dae.use_secants(false); }
@@ -42,9 +42,9 @@ struct Secants {
 
 }  // namespace
 
-/// Solves the algebraic equations for y; the integrals of the differential ones stay, M (y - before) = 0. Mostly the
-/// equations are as good as linear here, and whole steps of Newton's method reach the rounding of their terms at once. Else
-/// secants, where laws are infinitely steep or flat at rest; else damped steps.
+/// Solves the algebraic equations for y; the integrals of the differential ones stay, M (y - before) = 0. Mostly the equations
+/// are almost linear, and full Newton steps reach the round-off of their terms at once. If they fail, secants follow where laws
+/// are infinitely steep or flat at rest, and then damped steps.
 class Consistency::Projection {
  public:
   Projection(Consistency& consistency, double t, std::vector<double>& y)
@@ -99,7 +99,7 @@ class Consistency::Projection {
     }
   }
 
-  /// Nothing is left of the equations but what rounding leaves.
+  /// Whether the residuals are round-off.
   bool within_rounding(const std::vector<double>& y) {
     find_defects(y);
     dae_.magnitudes(magnitude_.data());
@@ -110,13 +110,13 @@ class Consistency::Projection {
     return true;
   }
 
-  /// Where velocities that follow from balances of forces have to agree, as friction is held still, they need not to less than
-  /// what the rounding of these forces makes of them: all may be at rest, and have no size of their own.
+  /// Where friction held at rest makes velocities from force balances agree, they agree only to the round-off that these forces
+  /// give them: all may be at rest, without a size of their own.
   void add_unknown_velocities() {
     const Pattern& pattern = dae_.pattern();
     for (std::size_t column = 0; column < n_; ++column) {
       if (c_.kind_[column] != velocity || differential(column)) continue;
-      double own = 0;  // of its balance, which has its number
+      double own = 0;  // diagonal entry: its balance has its number
       for (int e = pattern.column_start[column]; e < pattern.column_start[column + 1]; ++e) {
         if (at(pattern.row[at(e)]) == column) own = std::abs(c_.values_[at(e)]);
       }
@@ -128,13 +128,13 @@ class Consistency::Projection {
     }
   }
 
-  /// Newton's step for what is left of the equations.
+  /// Newton's step for these residuals.
   void find_change(std::vector<double>& change) const {
     for (std::size_t i = 0; i < n_; ++i) change[i] = -defect_[i];
     c_.elimination_.solve(change);
   }
 
-  /// At rest nothing but rest solves the equations, and that exactly.
+  /// Tries rest: if rest solves the equations exactly, it is the solution.
   bool rests() {
     trial_ = y_;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -147,7 +147,7 @@ class Consistency::Projection {
     return true;
   }
 
-  /// False if they do not get there.
+  /// Full Newton steps; false if they do not converge.
   bool whole_steps(int most, int patience) {
     std::vector<double> best = y_;
     double least = std::numeric_limits<double>::infinity();
@@ -159,7 +159,7 @@ class Consistency::Projection {
       for (std::size_t i = 0; i < n_; ++i) {
         if (!differential(i) && defect_[i] != 0) error = std::max(error, std::abs(defect_[i]) / magnitude_[i]);
       }
-      // One balance may have got so small that its own rounding shows, while another gains much.
+      // A small balance may have reached its round-off already, while another one still gains much.
       idle = error < least / 2 ? 0 : idle + 1;
       if (error < least) {
         least = error;
@@ -205,8 +205,8 @@ class Consistency::Projection {
     c_.report_unsolved(t_);
   }
 
-  /// Newton's step is no more than what rounding of the equations' terms makes of the unknowns. That of a large force may go a
-  /// long way: through the deflection that it stretches to another one, and from there to a velocity that hardly has a force.
+  /// Whether Newton's step is within the effect of round-off of the equations' terms. The round-off of a large force may reach
+  /// far: through the deflection of its spring to another deflection, and from there to a velocity with hardly any force.
   bool lost_in_rounding() {
     constexpr double grains = 4 * std::numeric_limits<double>::epsilon(), several = 4;
     constexpr unsigned patterns = 8;  // of signs, as contributions may cancel
@@ -231,11 +231,11 @@ class Consistency::Projection {
     return true;
   }
 
-  /// What is small beside others of its kind is not small by itself: it may be their rounding.
+  /// An unknown that is small beside others of its kind may be their round-off.
   void find_scales() {
     std::array<double, kinds> largest{};
     largest[velocity] = known_velocity_;
-    // A deflection counts by the force that it makes.
+    // A deflection counts by the force that it causes.
     double largest_force = 0;
     for (double r : magnitude_) largest_force = std::max(largest_force, r);
     const std::vector<double>& slope = dae_.slopes();
@@ -259,11 +259,11 @@ class Consistency::Projection {
   }
 
   void finish() {
-    // A velocity that is rounding on the way there becomes 0. A mass keeps the smallest velocity.
+    // A velocity that is round-off becomes 0. A mass keeps the smallest velocity.
     for (std::size_t i = 0; i < n_; ++i) {
       if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_grain * fastest_) y_[i] = 0;
     }
-    // Integrals that nothing moves stay as they were to the last digit.
+    // Integrals that nothing changes keep their last digit.
     trial_ = y_;
     for (std::size_t i = 0; i < n_; ++i) {
       if (c_.kind_[i] == deflection || c_.kind_[i] >= position) y_[i] = before_[i];
@@ -277,11 +277,11 @@ class Consistency::Projection {
   std::vector<double>& y_;
   std::size_t n_;
   const std::vector<double> before_;
-  std::vector<double>& defect_;     ///< what is left of each equation
-  std::vector<double>& magnitude_;  ///< of the terms of each
+  std::vector<double>& defect_;     ///< residual of each equation
+  std::vector<double>& magnitude_;  ///< sum of the magnitudes of its terms
   std::vector<double> change_, trial_, next_;
   std::vector<double> scale_;                  ///< of each unknown
-  double known_velocity_ = 0, fastest_ = 0;  ///< the latter at first, of all nodes
+  double known_velocity_ = 0, fastest_ = 0;  ///< the largest known velocity, and the largest of all at first
 };
 
 void Consistency::project(double t, std::vector<double>& y) {

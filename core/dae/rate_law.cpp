@@ -11,7 +11,7 @@ ConvexNetwork::Law rate_law(const RateBatch& batch, std::size_t i, double scale)
   const double secant = scale / batch.velocity_at(i, scale);
   return {.backward = secant, .forward = secant, .beyond = [&batch, i](double w, double& slope) {
             const double f = batch.force_at(i, w);
-            // Of B |w|^n the tangent is n f/w, the secant f/w: the larger one never overshoots.
+            // The tangent of B |w|^n is n f/w, its secant f/w: the larger one never overshoots.
             slope = f / w * std::max(1.0, std::log2(batch.force_at(i, 2 * w) / f));
             return f;
           }};
@@ -25,7 +25,7 @@ Drive::Reach coming_reach(const Drive& drive, const std::vector<double>& velocit
 
 double coming_force(const RateBatch& batch, std::size_t i, const Drive::Reach& reach) {
   const double force = std::max(reach.force, batch.force_at(i, reach.velocity));
-  return force > 0 ? force : 1;  // nothing ever moves: any will do
+  return force > 0 ? force : 1;  // nothing ever moves: any value will do
 }
 
 }  // namespace rheonet

@@ -16,13 +16,13 @@ namespace rheonet {
 
 namespace {
 
-// A load within such a share of what elements can take is beyond it, the least share that there is one for: friction comes to
-// its bound in the limit only, and what follows it gives up before.
+// A load within such a share of the elements' largest forces is an overload; the least share that shows an overload applies.
+// Friction reaches its bound in the limit only, and the integrator gives up before.
 constexpr std::array shares = {1e-9, 1e-6, 1e-4, 1e-2};
-// What is left of a way that is full.
+// Residual capacity of a saturated edge, as a share of the largest capacity.
 constexpr double flow_rounding = 1e-12;
 
-/// Ways by which forces go through a network, from where loads push to what holds it. Nodes are numbered from 0.
+/// Flow of forces through a network, from where loads push to where nodes are held. Nodes are numbered from 0.
 class ForceFlow {
  public:
   explicit ForceFlow(std::size_t nodes) : graph_(nodes + 2), source_(nodes), sink_(nodes + 1) {}
@@ -32,7 +32,7 @@ class ForceFlow {
   void push(std::size_t node, double force) { add(source_, node, force, 0); }
   void take(std::size_t node, double most) { add(node, sink_, most, 0); }
 
-  /// The nodes from which not all that pushes comes away: of all such sets the one with the least left to hold it.
+  /// The source side of a minimum cut: the nodes from which not all that pushes can flow away.
   std::vector<char> overloaded() {
     boost::boykov_kolmogorov_max_flow(graph_, source_, sink_);
     std::vector<char> reached(boost::num_vertices(graph_), 0);
@@ -78,7 +78,7 @@ class ForceFlow {
 
 }  // namespace
 
-/// Force that each node is pushed with, by loads and by laws that answer later [N].
+/// Force that pushes each node, from loads and delayed laws [N].
 std::vector<double> Instant::pushes(const State& state) const {
   std::vector<double> push(structure_.kind.size(), 0);
   const auto add = [&](NodeId node, double f) {
@@ -101,8 +101,8 @@ std::vector<double> Instant::pushes(const State& state) const {
   return push;
 }
 
-/// The nodes that are pushed away to one side: those beyond the elements that bear the largest force they can take, but for a
-/// share of it.
+/// The nodes that are pushed away to one side: the source side of the minimum cut, if elements can take their largest force
+/// less a share of it.
 std::vector<char> Instant::pushed_away(const std::vector<double>& push, int side, double share) const {
   double any = 0;
   for (const double f : push) any += 2 * std::abs(f);
@@ -122,7 +122,7 @@ std::vector<char> Instant::pushed_away(const std::vector<double>& push, int side
   return flow.overloaded();
 }
 
-/// What can hold something at once, and the largest force that it can take [N].
+/// Elements that can hold a node at an event, and the largest force that each can take [N].
 std::vector<Instant::Bounded> Instant::bounded() const {
   std::vector<Bounded> result;
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
@@ -138,14 +138,14 @@ std::vector<Instant::Bounded> Instant::bounded() const {
   return result;
 }
 
-/// What has no largest force takes its other end along, or is held by that: there a node runs away by rounding only.
+/// An element without a largest force takes its other end along, or is held by it: there only round-off makes a node run away.
 std::vector<char> Instant::carried(const std::vector<int>& runaways) const {
   const std::size_t count = structure_.kind.size();
   Sets together(count);
   for (const Bounded& b : bounded()) {
     if (std::isinf(b.bound)) together.join(b.branch.a, b.branch.b);
   }
-  std::vector<char> held(count, 0), goes(count, 0), all(count, 0);  // the first two of each set, by the node that speaks for it
+  std::vector<char> held(count, 0), goes(count, 0), all(count, 0);  // the first two of each set, at the node that represents it
   for (NodeId n = 0; at(n) < count; ++n) {
     if (!massless(n)) held[at(together.find(n))] = 1;
   }

@@ -7,8 +7,8 @@ namespace rheonet {
 
 namespace {
 
-// A pivot off the diagonal is taken where that is smaller than this share of the largest of its column. (KLU's 1e-3 costs three
-// digits of what is stiff.)
+// A pivot off the diagonal is taken if the diagonal entry is below this share of the largest entry of its column. (KLU's 1e-3
+// costs stiff elements three digits.)
 constexpr double pivot_share = 0.1;
 
 }  // namespace
@@ -35,7 +35,7 @@ bool SparseFactors::factorise(double* values) {
 
 bool SparseFactors::refactorise(double* values) {
   if (!numeric_ || !klu_refactor(columns(), rows(), values, symbolic_, numeric_, &common_)) return false;
-  // A pivot this small beside others may be one for its place alone: an estimate of the condition tells.
+  // A pivot may be small for its place alone, by its units: the estimated condition number decides.
   static const double small = std::pow(std::numeric_limits<double>::epsilon(), 2.0 / 3);
   klu_rcond(symbolic_, numeric_, &common_);
   if (common_.rcond >= small) return true;

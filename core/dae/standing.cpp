@@ -21,7 +21,7 @@ void Dae::find_parallels() {
   }
   for (auto& [ends, branches] : by_ends) {
     if (branches.size() < 2) continue;
-    // A branch of the tree has no loop of its own whose equation could be given up: it leads.
+    // A branch of the tree has no loop equation of its own that it could give up: it leads.
     const auto leader = std::find_if(branches.begin(), branches.end(), [&](int j) { return in_tree[at(j)] != 0; });
     if (leader != branches.end()) std::iter_swap(branches.begin(), leader);
     for (std::size_t k = 1; k < branches.size(); ++k) {
@@ -33,7 +33,7 @@ void Dae::find_parallels() {
 
 void Dae::stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing) {
   if (standing.empty()) return;
-  // Holding a branch changes neither its deflection nor the force of any other: one look does for all.
+  // Holding a branch changes neither its deflection nor the force of another branch: one view suffices.
   view(t, y, yp);
   Sets firm(structure_->kind.size());
   const auto heavy = [&](NodeId node) {
@@ -100,8 +100,8 @@ std::vector<int> Dae::release_parallel(int branch, double w) {
   return released_branches;
 }
 
-/// In both the motion forth has the same part, which is how far a rate is on the way from the one back to the one forth. Each is
-/// multiplied by the other's way: what has hardly any force has hardly any way either, and tells nothing of that part.
+/// Both laws have the same share of forward motion: the place of p' between its backward and its forward rate. Each share is
+/// multiplied by the other law's difference of these rates: without force that is 0, and the law determines no share.
 Dae::Shared Dae::share(const Follower& follower, double own_rate, double leader_rate) const {
   std::size_t i = 0, l = 0;
   const DeflectionBatch& own = batch_of(follower.branch, i);
@@ -115,7 +115,7 @@ Dae::Shared Dae::share(const Follower& follower, double own_rate, double leader_
     return forward.value - backward.value;
   };
   const double lead_way = way(lead, l, p_lead), longer = std::max(way(own, i, p_own), lead_way);
-  // Without force neither direction relaxes anything: nothing to mix.
+  // Without force neither direction relaxes anything: there is no mixture.
   const bool nothing = longer == 0 || (lead_way == 0 && !follower.alone);
   const auto difference = [&](const Dual& p, const Dual& p_of_lead, const Dual& rate, const Dual& rate_of_lead) {
     Dual forward, backward, lead_forward, lead_backward;

@@ -14,7 +14,7 @@ namespace rheonet {
 
 namespace {
 
-// Initial values that differ by this share are one: a user may give one of them in another unit, with fewer digits.
+// Relative difference of equal initial values: a user may give one of them in another unit, with fewer digits.
 constexpr double same_value = 1e-9;
 
 /// The initial displacement (`d0`) that an element was given; NaN if none.
@@ -28,7 +28,7 @@ double initial_displacement(const Network& network, const Branch& branch) {
   return not_given;
 }
 
-/// Those that start with a given displacement; also of springs and dashpots that are rigid links, or have no force.
+/// Branches that start with a given displacement, also springs and dashpots that are rigid links or have no force.
 std::vector<Branch> displaced_branches(const Network& network) {
   std::vector<Branch> result;
   const auto add = [&](const Branch& b) {
@@ -46,7 +46,7 @@ std::vector<Branch> displaced_branches(const Network& network) {
   return result;
 }
 
-/// Gives nodes whose position the user left open the one that follows from the initial displacement of an element.
+/// Sets the positions that the user left open and that follow from the initial displacements of elements.
 void follow_displacements(const Network& network, std::vector<double>& x, std::vector<char>& fixed) {
   const Scene& scene = *network.scene;
   const std::vector<Branch> displaced = displaced_branches(network);
@@ -76,7 +76,7 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
       }
     }
     if (again) continue;
-    // Displacements between nodes that are all free: one of them stays at 0.
+    // The remaining displacements join free nodes only: one of these nodes stays at 0.
     for (const Branch* b : open) {
       if (!b) continue;
       fixed[static_cast<std::size_t>(b->b)] = 1;
@@ -86,7 +86,7 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
   }
 }
 
-/// At the start; not_given if a block gives it.
+/// Velocity at the start; not_given if a block gives it.
 double initial_velocity(const Network::Motion& motion) {
   if (motion.block >= 0) return not_given;
   return motion.position ? motion.signal.piece(0).rate(0) : motion.signal.value(0);
@@ -101,7 +101,7 @@ bool contradicts(const SceneNode& node, double velocity) {
   return !std::isnan(node.velocity) && std::abs(node.velocity - velocity) > same_value * std::abs(velocity);
 }
 
-/// A node that a block moves has no velocity of its own, and begins where the block does.
+/// A node moved by a block has no velocity of its own, and starts where the block does.
 void follow_block(const Network& network, const Network::Motion& motion, double& x, bool given) {
   const SceneNode& node = network.node(motion.node);
   const std::string& name = network.scene->elements[static_cast<std::size_t>(motion.element)].name;
@@ -116,7 +116,7 @@ void follow_block(const Network& network, const Network::Motion& motion, double&
   x = motion.from;
 }
 
-/// Where nodes start [m], and whether that is given or follows from what is.
+/// Start positions of the nodes [m], and whether each of them is given or implied.
 struct Places {
   std::vector<double> x;
   std::vector<char> fixed;
@@ -158,7 +158,7 @@ void follow_motion(const Network& network, const Network::Motion& motion, Places
   }
 }
 
-/// With laws at the deflections that they start with.
+/// The state with laws at the deflections that they start with.
 State first_state(const Network& network, const std::vector<double>& x, const Drive& drive) {
   State state;
   state.position = x;
@@ -180,7 +180,7 @@ State first_state(const Network& network, const std::vector<double>& x, const Dr
   return state;
 }
 
-/// What rigid links join to a motion or to the ground has no velocity of its own.
+/// Nodes that rigid links join to a motion or to the ground have no velocity of their own.
 void refuse_velocities_against_links(const Network& network) {
   struct Leader {
     NodeId node = -1;  ///< -1 for none

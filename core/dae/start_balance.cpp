@@ -39,7 +39,7 @@ class StartBalance {
         lets_go_(structure.groups.size(), 0),
         before_(structure.groups.size(), 0),
         after_(before_) {
-    // The position of what is heavy or held by dashpots is its own: 0 unless given.
+    // Masses, and nodes held by dashpots, have positions of their own: 0 unless given.
     for (std::size_t n = 0; n < fixed_.size(); ++n) fixed_[n] = fixed_[n] || structure.group[n] < 0;
     find_branches();
     find_loads();
@@ -65,9 +65,9 @@ class StartBalance {
     std::size_t i;
     Branch ends;
     bool by_place;  ///< its force follows from the displacement of its ends, not from an initial force
-    bool given;     ///< the one or the other is known
+    bool given;     ///< its initial force or displacement is known
     bool forced;    ///< the netlist gives it to the element itself (`f0`, `d0`); an f0 of 0 demands nothing of others
-    double step;    ///< of its displacement at the start, as far as motions make it
+    double step;    ///< of its displacement at the start, due to motions
   };
   struct Side {
     int member;
@@ -98,7 +98,7 @@ class StartBalance {
       if (slider.law.breakaway > 0) let_go(slider.branch);
     }
     if (network_.bundles == nullptr) return;
-    // What a slider is in lets go as it does.
+    // A bundle contains sliders, and gives way as they do.
     for (std::size_t j = at(network_.first_bundle); j < network_.deflections.size(); ++j) let_go(network_.deflections[j]);
   }
 
@@ -134,7 +134,7 @@ class StartBalance {
     return m.by_place ? m.batch->force_along(m.i, p, step, slope) : force(m, p);
   }
 
-  /// What the members that are given leave to the others: the sum of the forces that they must have, at this group.
+  /// Sum of the forces that the members that are not given must have at this group.
   double left_to_others(int g) {
     double left = before_[at(g)];
     for (const Side& side : around_[at(g)]) {
@@ -148,7 +148,7 @@ class StartBalance {
     return std::any_of(around_[at(g)].begin(), around_[at(g)].end(),
                        [&](const Side& s) { return members_[at(s.member)].forced; });
   }
-  /// What follows its place is joined to another group whose place is given.
+  /// Whether a law that follows positions joins this group to another one whose position is given.
   bool beside_given_place(int g) const {
     const std::vector<Side> places = open(g, true);
     return std::any_of(places.begin(), places.end(), [&](const Side& s) {
@@ -166,7 +166,7 @@ class StartBalance {
     return result;
   }
 
-  /// Where one thing is left open at a group with an initial force, it follows: its place, or another initial force.
+  /// If one value is left open at a group with an initial force, it follows: its position, or another initial force.
   bool follow(int g) {
     if (lets_go_[at(g)] || !(any_forced(g) || beside_given_place(g))) return false;
     const std::vector<Side> places = open(g, true), forces = open(g, false);
@@ -175,7 +175,7 @@ class StartBalance {
     return demand(g, forces.front(), left_to_others(g));
   }
 
-  /// Of several initial forces that are left open each takes an equal part.
+  /// If several initial forces are left open, each takes an equal part.
   bool share(int g) {
     if (!any_forced(g) || lets_go_[at(g)] || !open(g, true).empty()) return false;
     const std::vector<Side> forces = open(g, false);
@@ -204,16 +204,16 @@ class StartBalance {
     return true;
   }
 
-  /// Groups that are joined by laws which follow their places, and what holds them.
+  /// Groups joined by laws that follow their positions, and the laws around them.
   struct Region {
     std::vector<int> groups = {};
-    std::unordered_map<int, int> number = {};  ///< of each of them, where it is in `groups`
-    bool anchored = false;          ///< such a law joins it to a place that is known
+    std::unordered_map<int, int> number = {};  ///< of each group: its index in `groups`
+    bool anchored = false;          ///< such a law joins it to a known position
     std::vector<Side> places = {};  ///< those laws, each once
     std::vector<Side> forces = {};  ///< initial forces that are left open, between it and the rest
   };
 
-  /// Absent if one of its groups cannot be moved as a whole: some of its nodes have a place, or what sliders let go is open.
+  /// Empty if one of its groups cannot move as a whole: a node there has a position, or a slider may give way.
   std::optional<Region> region_of(int g) const {
     Region region{.groups = {g}, .number = {{g, 0}}};
     for (std::size_t k = 0; k < region.groups.size(); ++k) {
@@ -253,8 +253,8 @@ class StartBalance {
     return found == region.number.end() ? -1 : found->second;
   }
 
-  /// Shifts groups to where the laws that depend on their places balance the rest. Initial forces left open are 0, but where
-  /// nothing else holds what the groups are loaded with.
+  /// Shifts groups to where the laws that depend on their positions balance the rest. Initial forces left open are 0, unless
+  /// nothing else carries the loads of the groups.
   bool place(int g) {
     const std::optional<Region> region = region_of(g);
     if (!region) return false;
@@ -273,7 +273,7 @@ class StartBalance {
     };
     for (std::size_t k = 0; k < region->groups.size(); ++k) {
       for (const Side& side : around_[at(region->groups[k])]) {
-        if (side.sign < 0 && number_of(*region, far_end(side)) >= 0) continue;  // has been seen from its other end
+        if (side.sign < 0 && number_of(*region, far_end(side)) >= 0) continue;  // already visited from its other end
         Member& m = members_[at(side.member)];
         const double change = shift_of(m.ends.a) - shift_of(m.ends.b);
         (m.by_place && !m.given ? state_.p : state_.offset)[at(side.member)] += change;
@@ -287,7 +287,7 @@ class StartBalance {
     return true;
   }
 
-  /// Of each group of the region [m]; the first one stays where nothing holds the region in its place.
+  /// Shift of each group of the region [m]; the first one stays if nothing anchors the region.
   Eigen::VectorXd balanced_shifts(const Region& region) {
     constexpr int most_iterations = 50;
     const auto size = static_cast<Eigen::Index>(region.groups.size());
@@ -327,7 +327,7 @@ class StartBalance {
     return shift;
   }
 
-  /// All that leads away from it leads to one place.
+  /// Whether all branches of a group lead to one place.
   bool hangs(int g) const {
     const auto place = [&](const Side& s) {
       const NodeId node = structure_.rigid[at(far_end(s))];
@@ -338,7 +338,7 @@ class StartBalance {
   }
 
   void require_balance(int g) {
-    // A loose end contradicts nothing that is given, nor does what sliders may let go of.
+    // A loose end contradicts no given value, and neither does a node where a slider may give way.
     const bool loaded = before_[at(g)] != 0 || after_[at(g)] != 0;
     if (around_[at(g)].empty() || (!loaded && hangs(g)) || lets_go_[at(g)]) return;
     const auto all = [&](bool Member::*what) {
@@ -355,7 +355,7 @@ class StartBalance {
       sum_after += side.sign * then;
       magnitude += std::max(std::abs(now), std::abs(then));
     }
-    // Balanced before the first instant, or after it.
+    // Balanced before the first event, or after it.
     if (std::min(std::abs(sum_before), std::abs(sum_after)) > tolerance_ * magnitude) report(g);
   }
 
@@ -382,10 +382,10 @@ class StartBalance {
   const Structure& structure_;
   State& state_;
   std::vector<char> fixed_;
-  double tolerance_;                       ///< less than the accuracy asked for contradicts nothing
+  double tolerance_;                       ///< forces within the accuracy asked for agree
   std::vector<Member> members_;            ///< of each deflection branch
   std::vector<std::vector<Side>> around_;  ///< of each group: the branches that lead away
-  std::vector<char> lets_go_;              ///< of each group: sliders there may
+  std::vector<char> lets_go_;              ///< of each group: a slider there may give way
   std::vector<double> before_, after_;     ///< of each group: what is applied just before and after the start [N]
   std::vector<std::string> chosen_;
 };

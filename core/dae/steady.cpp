@@ -29,7 +29,7 @@ SteadyStart Settling::go() {
   enter_drive();
   refuse_stretching();
   hold_what_is_free();
-  // What breaks away lets go of the difference to its force of sliding: then all is to be found anew.
+  // A slider that breaks away releases the difference to its sliding force: then everything is to be found anew.
   do {
     while (!find_velocities()) {
     }
@@ -74,7 +74,7 @@ void Settling::enter_drive() {
   }
 }
 
-/// A spring whose ends move at different velocities for ever.
+/// Refuses springs whose ends move at different velocities for ever.
 void Settling::refuse_stretching() const {
   std::vector<std::vector<std::pair<NodeId, const Branch*>>> around(velocity_.size());
   for_each_rigid([&](const Branch& b) {
@@ -91,7 +91,7 @@ void Settling::refuse_stretching() const {
     for (std::size_t r = 0; r < reached.size(); ++r) {
       const NodeId node = reached[r];
       if (known(node) && velocity_[at(node)] != velocity_[n]) report_stretching(first, node, from);
-      if (node != first && known(node)) continue;  // its own turn comes
+      if (node != first && known(node)) continue;  // the search from it covers the rest
       for (const auto& [other, branch] : around[at(node)]) {
         if (seen[at(other)]) continue;
         seen[at(other)] = 1;
@@ -117,7 +117,7 @@ void Settling::report_stretching(NodeId first, NodeId last, const std::vector<co
       network_.node_name(last), with_unit(velocity_[at(last)], Quantity::velocity)));
 }
 
-/// What nothing joins to a prescribed motion or to ground keeps the velocity of its centre of mass.
+/// Nodes that nothing joins to a prescribed motion or to ground keep the velocity of their centre of mass.
 void Settling::hold_what_is_free() {
   Sets sets(velocity_.size());
   for (const Branch& b : network_.deflections) sets.join(b.a, b.b);
@@ -164,7 +164,7 @@ void Settling::report_acceleration(const std::vector<NodeId>& nodes) const {
       kind(), names.size() > 1 ? "s" : "", listed(names), loads.size() > 1 ? "s" : "", listed(loads)));
 }
 
-/// Start values that the steady state contradicts.
+/// Notes the start values that the steady state contradicts.
 void Settling::note_what_gave_way() {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     const SceneNode& node = network_.node(static_cast<NodeId>(n));
@@ -182,7 +182,7 @@ void Settling::note_what_gave_way() {
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const double f0 = element.values[k];
       if (parameters[k].kind != Parameter::Kind::initial || parameters[k].quantity != Quantity::force) continue;
-      // That of a spring says where it is free of force.
+      // The initial force of a spring says where it is free of force.
       if (std::isnan(f0) || laws_[j].rigid() || std::abs(f - f0) <= rounding * std::abs(f0)) continue;
       note(fmt::format("`{}` has the force {}, not its start value, {}", element.name, with_unit(f, Quantity::force),
                        with_unit(f0, Quantity::force)));

@@ -4,12 +4,12 @@
 
 namespace rheonet {
 
-/// The forces at the start values that displacements have to balance.
+/// The forces at the start values, which displacements have to balance.
 struct Settling::Forces {
   std::vector<double> load;           // on each node
   std::vector<double> elastic;        // of each deflection branch, where it is elastic
   Sets hang;                          // nodes that hold each other in place
-  std::vector<std::string> sticking;  // what does so by friction
+  std::vector<std::string> sticking;  // elements that do so by friction
 
   void push(const Branch& b, double f) {
     load[at(b.a)] -= f;
@@ -53,8 +53,8 @@ Settling::Forces Settling::forces_at_start() {
   return forces;
 }
 
-/// Displacements from the start values to where the forces balance that go with the velocities. False if sliders have
-/// broken away on the way there.
+/// Finds the displacements from the start values to where the forces at these velocities balance. False if sliders have broken
+/// away on the way there.
 bool Settling::find_places() {
   Forces forces = forces_at_start();
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
@@ -115,7 +115,7 @@ void Settling::take_places(const ConvexNetwork& problem) {
   }
 }
 
-/// Of nodes that hang together, but on nothing whose place is given, one keeps its own. Returns their names.
+/// In each set of nodes that hold each other but are held by no known node, fixes one. Returns the names of these nodes.
 std::vector<std::string> Settling::fix_places(ConvexNetwork& problem, Sets& hang) const {
   std::vector<char> placed(velocity_.size(), 0);
   const auto fix = [&](NodeId node) {
@@ -126,7 +126,7 @@ std::vector<std::string> Settling::fix_places(ConvexNetwork& problem, Sets& hang
     if (known(static_cast<NodeId>(n))) fix(static_cast<NodeId>(n));
   }
   std::vector<std::string> open;
-  // One that the user has placed goes before any other.
+  // Nodes that the user has placed come first.
   for (const bool given : {true, false}) {
     for (std::size_t n = 0; n < velocity_.size(); ++n) {
       const NodeId node = static_cast<NodeId>(n);

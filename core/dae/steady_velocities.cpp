@@ -6,14 +6,14 @@ namespace rheonet {
 
 namespace {
 
-// A law at its bound has this share of its slope below: it is let go in the direction in which its force stays.
+// Slope of a law at its bound, as a share of its slope below: the law then moves on in the direction that keeps its force.
 constexpr double slope_at_bound = 1e-6;
-// So many times what the forces would do to any one element that resists: nothing resists there.
+// A node this many times faster than the forces would move any resisting element meets no resistance.
 constexpr double far_share = 1e5;
 
 }  // namespace
 
-/// One node of each set speaks for it: one whose velocity is given if there is one.
+/// Chooses the node that represents each set: one whose velocity is given if there is one.
 void Settling::lead(Sets& sets) {
   std::vector<NodeId> first(velocity_.size(), -1);
   for (const bool given : {true, false}) {
@@ -26,8 +26,8 @@ void Settling::lead(Sets& sets) {
   for (std::size_t n = 0; n < velocity_.size(); ++n) leader_[n] = first[at(sets.find(static_cast<NodeId>(n)))];
 }
 
-/// Velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
-/// accelerates. False if sliders have broken away under more than their force of sliding.
+/// Finds the velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
+/// accelerates. False if sliders have broken away under more than their sliding force.
 bool Settling::find_velocities() {
   Sets rigid(velocity_.size());
   for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
@@ -80,7 +80,7 @@ bool Settling::find_velocities() {
   return true;
 }
 
-/// True if any of the sliders that go in these directions had held more than their force of sliding until now.
+/// True if any of the sliders that move in these directions had held more than its sliding force until now.
 bool Settling::break_away(const std::vector<int>& direction) {
   bool any = false;
   for (std::size_t k = 0; k < direction.size(); ++k) {
@@ -96,7 +96,7 @@ ConvexNetwork Settling::velocity_problem() const {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     const NodeId node = static_cast<NodeId>(n);
     if (leader_[n] != node) {
-      problem.fix(slot(node), 0);  // its leader speaks for it
+      problem.fix(slot(node), 0);  // its leader represents it
     } else if (held(node)) {
       problem.fix(slot(node), velocity_[n]);
     }
@@ -105,7 +105,7 @@ ConvexNetwork Settling::velocity_problem() const {
   return problem;
 }
 
-/// Where nothing loads the network and nothing in it slides (`scale` is 0), each element is judged by what it comes to.
+/// Without loads and sliding friction (`scale` is 0), each element has a scale of its own.
 void Settling::add_rates(ConvexNetwork& problem, double scale) const {
   const Drive::Reach reach = coming_reach(drive_, velocity_);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
@@ -118,7 +118,7 @@ void Settling::add_rates(ConvexNetwork& problem, double scale) const {
   }
 }
 
-/// The largest velocity at which a force takes any element that resists motion, or that is given.
+/// The largest velocity that this force gives to a resisting element, or that is given.
 double Settling::natural_speed(double force) const {
   double speed = 0;
   for (double v : velocity_) speed = std::max(speed, std::abs(v));
@@ -131,7 +131,7 @@ double Settling::natural_speed(double force) const {
   return speed;
 }
 
-/// Values beyond `far` have run away.
+/// Solves the problem; values beyond `far` have run away.
 void Settling::solve(ConvexNetwork& problem, double far) const {
   const ConvexNetwork::Outcome outcome = problem.solve();
   if (outcome == ConvexNetwork::Outcome::solved) return;
@@ -149,8 +149,8 @@ void Settling::take_velocities(const ConvexNetwork& problem) {
   for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(leader(static_cast<NodeId>(n)));
 }
 
-/// The same once more, with all that sticks rigid and all that slips a force: nothing is left of what has decided among
-/// equals. Where velocities are open without that, they stay as they are.
+/// Solves once more, with sticking elements rigid and slipping ones as forces: this removes the effect of regularising slopes.
+/// Velocities that are undetermined without these slopes stay as they are.
 void Settling::refine_velocities(double scale) {
   Sets joined(velocity_.size());
   for (std::size_t j = 0; j < laws_.size(); ++j) {

@@ -11,8 +11,8 @@
 
 namespace rheonet {
 
-/// Known nodes have one velocity: now, and as far as they are functions of time also until the next break of one. The time
-/// at which they have not.
+/// The time at which two known nodes have different velocities, if any: now, or, for functions of time, until the next
+/// discontinuity of one.
 std::optional<Instant::Parting> Instant::parting(double t, NodeId a, NodeId b) const {
   constexpr double rounding = 1e-12;  // of the largest velocity: one may be given by its position
   const double fast = drive_.reach().velocity;
@@ -64,7 +64,7 @@ void Instant::refuse_torn_links(double t) const {
   }
 }
 
-/// What rigid links join to a prescribed node steps as it does, whatever its mass: it is as good as prescribed.
+/// Nodes that rigid links join to a prescribed node step with it, whatever their mass: they count as prescribed.
 Structure Instant::take_along(double t, std::vector<double>& dx) const {
   Structure led = structure_;
   Sets linked = joined_by_links(network_);
@@ -82,7 +82,7 @@ Structure Instant::take_along(double t, std::vector<double>& dx) const {
   }
   for (std::size_t n = 0; n < dx.size(); ++n) {
     const NodeId first = leader[at(linked.find(static_cast<NodeId>(n)))];
-    if (first < 0 || structure_.group[n] >= 0) continue;  // what floats goes along by itself: see find_jump
+    if (first < 0 || structure_.group[n] >= 0) continue;  // floating nodes move along anyway: see find_jump
     dx[n] = dx[at(first)];
     led.kind[n] = Kind::known;
   }

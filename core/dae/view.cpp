@@ -5,7 +5,7 @@
 
 namespace rheonet {
 
-/// The same at each node for itself: what sticks carries what is left.
+/// Sums the forces at each node by itself: sticking sliders carry the remainder.
 void Dae::share_among_joined(double t) {
   std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
   std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
