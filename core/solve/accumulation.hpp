@@ -36,7 +36,7 @@ class Accumulation {
     double energy = 0;     ///< largest recent stored energy less the heat released since [J]
     double forgotten = 0;  ///< how many times `energy` has been dissipated
   };
-  /// Counts the sign changes of a quantity; values below `of_any_size` of its largest magnitude are ignored.
+  /// Detects sign changes of a quantity; values below `of_any_size` of its largest magnitude are ignored.
   struct Swing {
     double largest = 0;    ///< magnitude so far
     signed char side = 0;  ///< sign of its last value that was not ignored
@@ -51,8 +51,7 @@ class Accumulation {
   };
   int part_of(const Branch& b) const;
   void account(double step, const Dae::View& view);
-  /// How much of the run's error it still remembers, relative to the error of the run so far [1, length/time]; 0 if it does
-  /// not oscillate.
+  /// Errors that it remembers over the run, in multiples of those of all steps so far; 0 if it does not oscillate.
   double remembered(const Part& part) const;
 
   const Network& network_;

@@ -67,8 +67,7 @@ void BalanceRounding::find_forces(const Dae::View& view, const std::vector<doubl
 
 void BalanceRounding::find(const Dae::View& view, const std::vector<double>& slope) {
   find_forces(view, slope);
-  // Kruskal's maximum spanning tree, stiffest branches first: two places are held together by the softest branch on the path
-  // between them.
+  // Kruskal's maximum spanning tree: the softest branch on the tree's path between two places holds them together.
   std::iota(order_.begin(), order_.end(), 0);
   std::sort(order_.begin(), order_.end(), [&](int i, int j) {
     return std::abs(slope[at(branches_[at(i)].branch)]) > std::abs(slope[at(branches_[at(j)].branch)]);

@@ -36,8 +36,7 @@ class BalanceRounding {
   std::vector<double> force_;   ///< of each component: largest round-off of its forces [N]
   std::vector<double> rounding_;
   std::vector<int> order_;
-  // Maximum spanning tree: of each place its parent, the slope of the branch to the parent [N/m], and the size of its
-  // subtree.
+  // Maximum spanning tree: each place's parent, slope of the branch to it [N/m], and size of the subtree.
   std::vector<int> up_, size_;
   std::vector<double> by_;
 };

@@ -12,15 +12,14 @@ namespace {
 // Least share of its own magnitude to which a quantity is resolved for the output of a block: an output that is still small
 // may grow. (A servo with a gain of 40 needs 0.05.)
 constexpr double least_for_output = 1e-2;
-// The same in units of its round-off.
+// Its tolerance is at least this many ulps.
 constexpr double output_grains = 64;
 
 }  // namespace
 
-/// Scales from blocks. A gain turns a small error of its input into a large error of its output: each quantity that a
-/// recorded output depends on gets an equal share of the error allowed in the output. A position that a force depends on may
-/// be off by the allowed error of the force over its slope: a stop in the way of a far-travelling mass deflects little. A
-/// mass that reaches the stop at speed v causes a force v sqrt(k m).
+/// Scales from blocks. A gain turns a small error of its input into a large error of its output: the quantities behind a
+/// recorded output share its allowed error equally. A position behind a force may be off by the allowed error of the force
+/// over its slope: a stop in the way of a far-travelling mass deflects little. Contact at speed v causes a force v sqrt(k m).
 void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < sorts; ++k) block_scale_[k].assign(seen_[k].size(), std::numeric_limits<double>::infinity());

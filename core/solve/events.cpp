@@ -111,8 +111,7 @@ double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) cons
   return k < sliders_.size() ? slider_function(sliders_[k], view) : limit_function(k - sliders_.size());
 }
 
-/// True for a sticking slider between prescribed motions of which a block gives at least one: it slips as soon as they move
-/// its ends apart.
+/// True for a sticking slider between prescribed motions, of blocks in part: it slips as soon as they move its ends apart.
 bool NetworkEvents::moved_apart(int k) const {
   const Structure& structure = dae_.structure();
   const Branch& ends = structure.sliders[at(k)];
@@ -284,8 +283,7 @@ double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
   return modes_.slider[at(one.slider)] * (view.acceleration[at(b.a)] - view.acceleration[at(b.b)]);
 }
 
-/// Finds the slipping sliders whose speed had a minimum within the step: each may almost stop, or stop and move on. True if
-/// any.
+/// Finds the slipping sliders whose speed had a minimum within the step, where they may have stopped. True if any.
 bool NetworkEvents::any_dips(const Dae::View& end) {
   bool any = false;
   for (Slipping& one : slipping_) {

@@ -23,16 +23,14 @@ class NetworkEvents final : public EventFunctions {
   /// `modes` are the present ones; all must outlive this.
   NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
 
-  /// Call at the beginning of an interval between discontinuities. A guard that is violated there is so by round-off: it
-  /// gets a margin, so that it does not fire at once. Throws SimulationError where a slider slips against its force by more
-  /// than round-off.
+  /// Call at the beginning of an interval between discontinuities. A guard violated there by round-off gets a margin, so that
+  /// it does not fire at once. Throws SimulationError where a slider slips against its force by more than round-off.
   void begin(double t, const double* y, const double* yp);
 
   /// A law or slider that moves against the direction of its mode, at this speed [m/s].
   struct Turned { int branch; double speed; bool slides = false; };
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
-  /// Slipping sliders whose velocity would change sign when the sliders `stopped` come to rest, because the residual
-  /// velocity of those is taken from a shared node.
+  /// Slipping sliders that reverse as the sliders `stopped` stop, because a node of both loses the residual slip velocity.
   std::vector<int> stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp, const std::vector<int>& stopped);
 
   /// True if a slider sticks that may break away, a law is held at rest, or a block has a limiter.

@@ -18,14 +18,12 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
 /// [s]. A power law at rest has slope 0 or infinity: there the rate is that of the state at t + `ahead` [s].
 double fastest_rate(const Dae& dae, Consistency& consistency, double t, double horizon, const Motion& motion, double ahead);
 
-/// The longest first step [s] whose error, estimated from the second derivatives of the unknowns, is within their
-/// tolerances (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, II.4). Infinite where all
-/// second derivatives are 0.
+/// The longest first step [s] whose error, estimated from second derivatives, is within the tolerances (E. Hairer, S. P.
+/// Norsett, G. Wanner, Solving Ordinary Differential Equations I, II.4). Infinite where all second derivatives are 0.
 double first_step(const std::vector<double>& ypp, const std::vector<double>& tolerance);
 
-/// Angle of an oscillation per step [rad] at which the polynomial through the steps in a delay history misses a sine by a
-/// tenth of the accuracy. A quantity that follows a prescribed motion is in no error test, but the delay history
-/// interpolates it.
+/// Angle of an oscillation per step [rad] at which the polynomial of a delay history misses a sine by a tenth of the
+/// accuracy. The history interpolates prescribed motions too, which no error test sees.
 double remembered_angle(double accuracy);
 
 }  // namespace rheonet

@@ -10,8 +10,7 @@
 
 namespace rheonet {
 
-/// Detects runs that make no progress: events that repeat at one place (chattering) or ever faster (accumulation points),
-/// failures of the integrator, and steps below the round-off of time.
+/// Detects runs without progress: events that repeat at one place (chattering) or ever faster (accumulating), and failures.
 class Headway {
  public:
   /// Events of one cause without a change of the state before the run is suspected to make no progress.
@@ -32,8 +31,7 @@ class Headway {
   double since() const { return since_; }
   /// Causes that fired since then, the most frequent first.
   std::vector<int> busiest() const;
-  /// A message with the names of the busiest elements and a remedy. Causes that are no elements of the network are left
-  /// out.
+  /// A message that names the busiest elements and a remedy.
   std::string describe(const Network& network, double t) const;
 
   /// Counts a failure of the integrator at t. True when the last failures all lie `within` this time [s]: the solution

@@ -148,7 +148,7 @@ struct Integrator::Implementation {
     lost_by_step = lost + (length - (sum - reached));
   }
 
-  /// After a step.
+  /// Takes over the round-off of IDA's time after a step, and corrects the stop time by it.
   void keep_time() {
     lost = lost_by_step;
     IDAGetCurrentTime(ida, &reached);
@@ -183,8 +183,7 @@ struct Integrator::Implementation {
     require(IDAGetDky(ida, t - lost_by_step, 1, np), "IDAGetDky");
   }
 
-  /// Finds the events of the last step; true if there are any. If events are located, the step is shortened to the first of
-  /// them.
+  /// True if the last step has passed an event. If events are located, the step is shortened to the first of them.
   bool meets_event() {
     if (fired.empty()) {
       refine(time);
@@ -210,7 +209,7 @@ struct Integrator::Implementation {
   /// Jarratt, BIT 11 (1971) 168), applied to the function that falls first.
   void go_to_event() {
     constexpr double grains = 100;  // tolerance of the event time, in ulps
-    constexpr int most = 60;        // afterwards by bisection
+    constexpr int most = 60;        // iterations, then bisection
     double begin = previous, end = time;
     const double near = grains * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
     for (std::size_t k = 0; k < left.size(); ++k) {

@@ -52,8 +52,7 @@ class Integrator {
 
   /// Restarts at t from a consistent state, with first step h [s]. No step passes `stop`.
   void restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop);
-  /// Continues from the stop time to another one with the same history: use it where the discontinuity at the stop time is
-  /// negligible.
+  /// Continues with the same history past the stop time, if the discontinuity there is negligible, to another stop time.
   void go_on(TimePoint stop);
   /// Limits the step size [s]; infinite for no limit.
   void limit_step(double longest);

@@ -7,10 +7,9 @@
 
 namespace rheonet {
 
-/// Detects runs over many small kinks. A bundle of many spring-slider pairs makes a kink whenever a pair yields; where a mass
-/// smooths its effect, such kinks upset the error test more than the solution. Where most steps cross kinks, their errors
-/// have either sign and largely cancel, so tolerances may be larger (Accumulation::dense_share). A step that resolves each
-/// kink separately needs the full tolerance.
+/// Detects runs over many small kinks: a bundle of spring-slider pairs makes one whenever a pair yields. Where masses smooth
+/// them, kinks upset the error test more than the solution. If most steps cross some, their errors have either sign and
+/// largely cancel: tolerances may be larger (Accumulation::dense_share). Resolving each kink needs the full tolerance.
 class Kinks {
  public:
   /// The network must outlive this.

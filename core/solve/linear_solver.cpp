@@ -9,8 +9,7 @@ namespace rheonet {
 
 namespace {
 
-// Earlier pivots are reused while the coefficients grow by no more than this factor times their growth when the pivots were
-// chosen.
+// Pivots are reused while coefficients grow by no more than this factor times their growth when the pivots were chosen.
 constexpr double much_more = 1e3;
 // Growth beyond this, with new pivots, means that no better pivots exist.
 constexpr double largest_growth = 1e6;

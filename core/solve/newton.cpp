@@ -82,7 +82,7 @@ bool Newton::solve(const Step& step, double* correction, const double* weight, d
 
 /// Iterates, starting from the residual of the correction.
 Newton::Verdict Newton::iterate(const Step& step, double* correction, const double* weight, double enough) {
-  // A Jacobian of another cj gives changes too large or too small: the mean of both cj corrects half of that (as in IDA).
+  // A Jacobian of another cj gives changes too large or too small: half of that is corrected (as in IDA).
   const double scale = 2 / (1 + step.cj / jacobian_cj_);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (iteration > 0 && !evaluate(step, correction)) break;

@@ -23,8 +23,7 @@ double Tolerances::force_noise(int rate) const {
   return std::max(noise, std::numeric_limits<double>::min());
 }
 
-/// Dead band of the relative velocity of a branch [m/s]. A branch that has hardly moved yet gets one relative to the largest
-/// velocity of the network.
+/// Dead band of the relative velocity of a branch [m/s]: relative to the network's largest while the branch has hardly moved.
 double Tolerances::noise_of(bool given, double flow, const Branch& b, double of_difference) const {
   const Structure& structure = dae_->structure();
   // Round-off of forces causes a velocity, through dashpots, only at nodes without mass.
@@ -51,8 +50,7 @@ void Tolerances::find_noise(const std::vector<double>& slope) {
   find_slip_noise(slope);
 }
 
-/// Finds the errors of forces due to steps and round-off. Near rest, a dilatant law turns a small force into a large
-/// velocity.
+/// Errors of forces due to steps and round-off. Near rest, a dilatant law turns a small force into a large velocity.
 void Tolerances::find_force_errors(const std::vector<double>& slope) {
   force_error_.clear();
   if (!dae_->rough()) return;

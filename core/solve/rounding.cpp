@@ -41,9 +41,8 @@ void Tolerances::find_parts() {
   for (std::size_t n = 0; n < structure.kind.size(); ++n) part_.push_back(parts.find(static_cast<NodeId>(n)));
 }
 
-/// Flags the unknowns that jitter with the round-off of time: those in parts with dashpots or friction, which follow their
-/// inputs directly. With springs, masses and ideal sliders alone a motion depends on step sizes, not on time; delays change
-/// that.
+/// Flags the unknowns that jitter with the round-off of time: in parts with dashpots or friction, which follow their inputs
+/// directly. With springs, masses and ideal sliders alone, without delays, a motion depends on step sizes, not on time.
 void Tolerances::find_jitter() {
   const Structure& structure = dae_->structure();
   std::vector<char> dissipates(structure.kind.size(), 0);
@@ -68,8 +67,7 @@ int Tolerances::part_of(const Branch& b) const {
   return part_[at(dae_->structure().kind[at(b.a)] == Kind::known ? b.b : b.a)];
 }
 
-/// Largest force and velocity of each part of the network; stiffness and damping around each node; law of each deflection
-/// branch.
+/// Largest force and velocity of each part; stiffness and damping around each node; law of each deflection branch.
 struct Tolerances::Loads {
   std::vector<double> force, speed;        ///< N, m/s
   std::vector<double> stiffness, damping;  ///< N/m, N s/m

@@ -26,8 +26,7 @@ namespace rheonet {
 
 namespace {
 
-// Treat jumps below 0.1 x accuracy as continuous: unknowns outside the error test have errors as large at the end of an
-// interval.
+// Treat jumps in delay histories below 0.1 x accuracy as continuous: unknowns outside the error test have such errors.
 constexpr double jump_share = 0.1;
 // When the integrator fails, the loads at this share of the time to the next known discontinuity are checked for overload.
 constexpr double soon = 0.1;
@@ -166,8 +165,8 @@ class Run {
     return true;
   }
 
-  /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds and reports the new
-  /// state.
+  /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds the new state, reports
+  /// both.
   void cross(double t, bool stepped, const Instant::Fired& fired) {
     if (stepped) {
       drive_.enter(t);

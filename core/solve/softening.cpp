@@ -71,8 +71,7 @@ void Softening::begin(const Drive& drive, const std::vector<double>& velocity) {
   }
 }
 
-/// The velocity [m/s] below which the round-off of time hides that such a law stops a mass: m w' = -B w^n takes the time m
-/// w^(1-n)/B.
+/// The velocity [m/s] below which round-off of time hides that the law stops a mass: m w' = -B w^n takes m w^(1-n)/B.
 double Softening::slowest_stop(std::size_t rate, const Growth& growth) const {
   constexpr double grains = 16;  // shortest resolved duration, in units of the round-off of time
   const auto [B, n] = growth;
@@ -81,8 +80,7 @@ double Softening::slowest_stop(std::size_t rate, const Growth& growth) const {
 }
 
 void Softening::apply(const Tolerances& tolerances) {
-  // Velocities that follow such a law directly jump with each change of its regularisation: change it by a factor of 2 or
-  // more.
+  // Velocities that follow such a law directly jump with each change of it: let it change by this factor at least.
   constexpr double other = 2;
   const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
   const double unresolved = tolerances.unresolved();

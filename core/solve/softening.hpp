@@ -9,8 +9,7 @@
 
 namespace rheonet {
 
-/// Regularisation of power laws near rest: the velocity up to which each is linear, because its slope at rest would be 0 or
-/// infinite.
+/// Regularises power laws, whose slope at rest would be 0 or infinite: each is linear up to some velocity.
 class Softening {
  public:
   /// The network must outlive this.
@@ -21,8 +20,7 @@ class Softening {
   /// Call at the start of a run, with the velocities of all nodes [m/s]. A dilatant law has slope 0 at rest and would leave
   /// its ends free: it is linear up to the round-off of the velocity expected from the inputs, which gives it some slope.
   void begin(const Drive& drive, const std::vector<double>& velocity);
-  /// Makes each law linear up to the velocity that is not resolved. A law is changed only if that velocity has changed by a
-  /// factor of 2.
+  /// Makes each law linear up to the velocity resolved. A law changes only if that velocity has changed by a factor of 2.
   void apply(const Tolerances& tolerances);
 
  private:

@@ -16,8 +16,7 @@ constexpr double last_share = 3e-3, most_steepening = 1 / 30.0;
 // Finest resolution of the relative velocity of two ends that move together: relative to the tolerance of their common
 // velocity, and in ulps of that velocity.
 constexpr double least_share = 1e-5, carried_grains = 256;
-// Round-off of a force is accepted up to this multiple of a negligible force, about the promised accuracy: more would keep
-// Newton's iteration from converging.
+// Accepted round-off of a force over a negligible force, about the promised accuracy: more would hinder convergence.
 constexpr double noisy = 10;
 
 }  // namespace

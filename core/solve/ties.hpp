@@ -8,9 +8,9 @@
 
 namespace rheonet {
 
-/// Checks the balance of node groups that only constant forces hold (ties), in the state last viewed. Where the forces do not
-/// balance, or the load changes, throws SimulationError, after a call of `overloaded`, which may throw a better one. Returns
-/// a note for each tie: its motion is undetermined.
+/// Checks that ties (node groups that only constant forces hold) balance in the state last viewed, and keep balancing. If
+/// not, throws SimulationError, after `overloaded`, which may throw a better one. Returns a note on each tie: its motion is
+/// open.
 std::vector<std::string> check_ties(const Dae& dae, double t, const std::function<void()>& overloaded);
 
 }  // namespace rheonet

@@ -17,15 +17,15 @@ namespace {
 // A node that moves along with others is resolved relative to its motion against them, down to `least_relative` of the common
 // motion and to this many ulps of it: nearer to round-off, steps are rejected for nothing.
 constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
-// The integrated distance between two nodes may be off by this share of their displacement, and by this many ulps: those of
-// the deflections whose derivatives their velocities are.
+// An integrated distance between two nodes may be off by this share of their displacement, and by this many ulps of it: their
+// velocities are derivatives of deflections with that round-off.
 constexpr double least_distance = 1e-7, distance_grains = 64;
-// A tolerance of a position, loosened for the error of its velocity, is at most this multiple of its own.
+// A position's tolerance, loosened for the error of its velocity, is at most this multiple of its own.
 constexpr double most_of_velocity = 10;
 // Round-off of time that a step may be off by without being rejected [ulps]: each of the few past times that a prediction
 // uses is rounded by one ulp. (Fewer than in time_grain.hpp, within which two times are equal: faster changes count.)
 constexpr double time_grains = 8;
-// Round-off of a deflection that a step may be off by [ulps] (it is a sum of two).
+// Round-off of a deflection that a step may be off by [ulps] (a sum of two terms).
 constexpr double value_grains = 4;
 // Multiple of the round-off of the balance behind a deflection that a step may be off by.
 constexpr double balance_grains = 4;

@@ -13,13 +13,13 @@
 
 namespace rheonet {
 
-/// Absolute tolerances of all unknowns. Each is a relative tolerance times the scale of the unknown: its largest magnitude so
-/// far in the run.
+/// Absolute tolerances of all unknowns: a relative tolerance times the scale of each, its largest magnitude in the run so
+/// far.
 ///
 /// The scale of a deflection is its force over its slope: a nanometre of presliding counts as much as a metre of sliding. No
 /// scale is below `floor_of_kind` times the largest of its kind, so that small quantities that may still grow are not
-/// resolved to every digit. Around a slider that comes to rest, forces are resolved relative to its own force, because their
-/// errors add up in it.
+/// resolved to every digit. Around a slider that comes to rest, forces are resolved relative to its own, which contains their
+/// errors.
 class Tolerances {
  public:
   /// Least relative tolerance, a few ulps: IDA accepts no less.
@@ -29,7 +29,7 @@ class Tolerances {
 
   /// Switches to these equations; the magnitudes seen so far are kept.
   void attach(Dae& dae);
-  /// True if all unknowns of some kind (velocity, force, ...) have been 0 so far, or a block's state has: then scales must be
+  /// True if all unknowns of some kind (velocity, force, ...), or a block's state, have been 0 so far: scales must be
   /// foreseen.
   bool blind() const;
   /// Call before a restart at t. With `ahead` > 0 [s], scales are also taken from `coming_size`, the estimate of how large
@@ -54,8 +54,7 @@ class Tolerances {
   double largest_velocity() const { return largest_velocity_; }
   /// Velocity below which nothing is resolved, except by dilatant laws [m/s].
   double unresolved() const;
-  /// A force is negligible up to this multiple of its allowed error in a step (0.04 of the accuracy or less): power laws may
-  /// be linear there.
+  /// A force is negligible below this multiple of its error allowed in a step (0.04 of the accuracy; 0.12 over dense kinks).
   static constexpr double soft_share = 20;
   /// Velocity at which the force of a pseudoplastic dashpot is negligible by `soft_share`, or is mostly round-off [m/s].
   /// Infinite as long as the dashpot has had no force.
@@ -73,8 +72,7 @@ class Tolerances {
  private:
   enum class Sort : char { velocity, deflection, force, position, block };
   static constexpr std::size_t sorts = 5;
-  /// Least scale of a quantity relative to the largest of its kind. Small enough that a nanometre is still resolved beside
-  /// metres.
+  /// Least scale relative to the largest of its kind: small enough that a nanometre is resolved beside metres.
   static constexpr double floor_of_kind = 1e-8;
   /// The quantity of an unknown: velocity or position of a node, deflection or force of a branch, or state of a block.
   struct Quantity { Sort sort; unsigned index; };
