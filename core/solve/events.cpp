@@ -82,7 +82,7 @@ void NetworkEvents::find_pseudoplastic() {
 }
 
 // In parallel with a pseudoplastic dashpot, a velocity within the dead band still causes a considerable force. There the
-// velocity is expressed by the dashpot's force, and the dead band by the noise of that force.
+// velocity is expressed by the dashpot's force, and its dead band by that of the force.
 NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& view) const {
   const Flow plain{view.flow[at(law.branch)], tolerances_.noise(law.branch)};
   if (law.beside < 0) return plain;

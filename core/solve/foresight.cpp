@@ -21,7 +21,7 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
         for (std::size_t i = 0; i < n; ++i) size[i] = std::max(size[i], std::abs(y[i]));
         return size;
       }
-    } catch (const SimulationError&) {  // no state of the network: it was a guess
+    } catch (const SimulationError&) {  // the guess is no state of the network
     }
   }
   for (std::size_t i = 0; i < n; ++i) size[i] += ahead * (std::abs(motion.yp[i]) + ahead / 2 * std::abs(motion.ypp[i]));
@@ -37,7 +37,7 @@ double fastest_rate(const Dae& dae, Consistency& consistency, double t, double h
     consistency.project(t + ahead, y);
     consistency.derivative(t + ahead, y, yp);
     return consistency.fastest_rate(t + ahead, horizon, y, yp);
-  } catch (const SimulationError&) {  // no state of the network: it was a guess
+  } catch (const SimulationError&) {  // the guess is no state of the network
     return consistency.fastest_rate(t, horizon, motion.y, motion.yp);
   }
 }
