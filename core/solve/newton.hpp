@@ -57,7 +57,7 @@ class Newton {
   double foreseen_ = 0;     // estimate of the remaining error over the last change
   double first_change_ = 0; // norm of the first change
   std::vector<double> change_;
-  std::vector<double> last_change_;  // of rough equations
+  std::vector<double> last_change_;  // for power laws only (Dae::rough)
   Counts counts_;
 };
 

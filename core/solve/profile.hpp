@@ -24,7 +24,7 @@ class Profile {
     Counts& operator+=(const Counts& other);
   };
 
-  /// Call after a restart of the integrator: from here on steps belong to these equations.
+  /// Call at a restart of the integrator: from here on steps belong to these equations.
   void restart(const Dae& dae);
   /// Attributes the next restart to these elements.
   void blame(const std::vector<int>& elements);

@@ -43,7 +43,7 @@ struct SimulationSettings {
 struct SimulationStatistics {
   Integrator::Statistics integrator;
   std::vector<std::string> notes;
-  std::vector<std::string> chosen;  ///< see StartReport
+  std::vector<std::string> chosen;  ///< see StartWords
 };
 
 /// Integrates from start to stop. `needed` marks the nodes whose positions are requested. Throws SimulationError, with the
