@@ -15,10 +15,10 @@ class Consistency {
   /// Solves the algebraic equations; the integrals of the differential ones keep their values. Throws SimulationError.
   void project(double t, std::vector<double>& y);
 
-  /// Moves a state between two steps, which the integrator interpolates to its tolerance only, onto the equations: F(t, y, y')
-  /// = 0, where y' changes by `rate` (the inverse of the step) times the change of y. Without this the force of a steep law
-  /// would be meaningless at a velocity that is exact to the tolerance only. Returns the last relative change of the unknown
-  /// that changed most: above round-off if the iteration did not converge.
+  /// Moves a state between two steps, which the integrator interpolates to its tolerance only, onto the equations, with F(t, y,
+  /// y') = 0: y' changes by `rate` (the inverse of the step) times the change of y. Without this the force of a steep law would
+  /// be meaningless at a velocity that is exact to the tolerance only.
+  /// Returns the last relative change of the unknown that changed most: above round-off if the iteration did not converge.
   double collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp);
 
   /// y' of every unknown, algebraic ones too, from the equations and their derivatives in time. Throws SimulationError.

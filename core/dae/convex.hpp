@@ -56,7 +56,7 @@ class ConvexNetwork {
   Bounds bounds(int branch) const { return {branches_[at(branch)].law.low, branches_[at(branch)].law.high}; }
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound if only others keep its ends together.
   int direction(int branch) const;
-  /// After `solve`: sticking branches join these nodes.
+  /// Whether sticking branches join these nodes. After `solve`.
   bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
   /// Iterations of the last `solve`.
   std::size_t rounds() const { return rounds_; }

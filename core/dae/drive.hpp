@@ -79,9 +79,9 @@ class Drive {
   // For each delayed branch of `past`: it feels `felt` plus `felt_now` times the present velocity of its free ends [m/s].
   std::vector<double> felt, felt_now;
 
-  /// First time after t, but not after `limit`, at which the velocity of motion a less that of motion b changes its sign (-1:
-  /// ground) [s]; infinite if there is none. No crossing is missed, however close the next one is. The result is cached: a call
-  /// before that time, with the same `limit`, costs nothing.
+  /// First time after t [s], but not after `limit`, at which the velocity of motion a less that of motion b changes its sign
+  /// (-1 is ground); infinite if there is none. No crossing is missed, however close the next one is. The result is cached: a
+  /// call before that time, with the same `limit`, costs nothing.
   double next_reversal(int a, int b, double t, double limit);
 
   /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.

@@ -61,7 +61,7 @@ class Instant {
   /// Applies the jump to the state; true if anything moved.
   bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
-  /// The same if the imbalance is no more than an error of the integrator's steps: friction that gives way to it does not
+  /// As `jump`, if the imbalance is no more than an error of the integrator's steps: friction that gives way to it does not
   /// reverse. Returns false if the forces do not balance that way.
   bool settle_errors(double t, State& state, std::vector<double>& force) const;
   double farthest(const Jump& jump) const;
