@@ -7,7 +7,7 @@
 
 namespace rheonet {
 
-/// Parameters that several blocks have, of either sign. `description` is what they mean in that block.
+/// Parameters shared by several blocks; either sign is valid. `description` is the meaning in the block.
 
 inline Parameter block_gain(const char* description, std::optional<double> fallback = {}) {
   return {.name = "gain",

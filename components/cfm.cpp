@@ -9,8 +9,8 @@ namespace {
 
 constexpr double at_bound = 1e-12;
 
-// Combined friction model: df/dt = E (w - f/B), E as for the solid friction model with s the sign of the total w. Along the
-// deflection p with p' = w - f/B the force is that model's: df/dp = E. At rest s = 0 and E = sigma.
+// Combined friction model: df/dt = E (w - f/B), E as in the solid friction model with s the sign of the total velocity w.
+// Over the deflection p, p' = w - f/B, the force is that of the solid friction model: df/dp = E. At rest s = 0, E = sigma.
 struct Cfm : SolidFriction {
   static constexpr bool creeping = true;
   double B;  // N s/m
@@ -37,7 +37,7 @@ struct Cfm : SolidFriction {
   void event_functions(double p, double dp, double w, double noise, double* g) const {
     g[0] = g[1] = 1;
     if (standing) {
-      // Beyond what the two sides give the motion begins, or beside a slider rest.
+      // The sliding mode ends when dp leaves the range of both rates: motion begins, or rest where a slider blocks it.
       Dual forward, backward;
       hold_rates(p, forward, backward);
       const double margin = 1e-7 * (forward.value - backward.value) + noise;
@@ -87,9 +87,9 @@ struct Cfm : SolidFriction {
     if (direction == 0) rest(p);
     return p;
   }
-  // Without shape both directions have the same slope, and nothing drives the velocity back to 0.
+  // For i = 0 both directions have the same slope: nothing drives the velocity back to 0, so there is no sliding mode.
   bool can_hold() const { return i > 0; }
-  // Both sides give dp/dt = -E f/(sigma B). Beside a slider at its bound one of them is rest, where E = sigma.
+  // Motion to either side gives dp/dt = -E f/(sigma B), with E = sigma on a side that a slider in parallel blocks.
   void hold_rates(const Dual& p, Dual& forward, Dual& backward) const {
     const Dual f = force(p), rest = -f / B;
     forward = lean < 0 ? rest : slope(f, 1) / sigma * rest;
@@ -117,14 +117,14 @@ struct Cfm : SolidFriction {
   }
   double dissipated_power(double p, double dp, double w) const {
     const double f = force(p), creeping_off = f / B;
-    if (along_sigma) return f * (w - dp);  // all of what does not bend the bristles
+    if (along_sigma) return f * (w - dp);  // all power that does not bend the bristles
     return f * creeping_off + heating(p, w - creeping_off);
   }
 
  private:
   bool along_sigma = false;  // s = 0: df/dp = sigma
-  bool standing = false;     // held at w = 0 by both directions
-  int lean = 0;              // or by one of them and a slider
+  bool standing = false;     // in a Filippov sliding mode at w = 0
+  int lean = 0;              // side on which a slider in parallel is at its bound: -1, 1, or 0 for none
 
   Dual slope(const Dual& f, double direction) const {
     const Dual u = 1 - direction / Fc * f;
@@ -142,7 +142,7 @@ struct Cfm : SolidFriction {
     along_sigma = standing = false;
     begin(p, f, direction);
   }
-  // Below Fc/B the dashpot within takes up more than the motion brings: the force leaves its bound.
+  // Below the velocity Fc/B the inner dashpot takes up more than the motion supplies: the force leaves its bound.
   void release(double p) {
     begin(p, s * Fc, s);
     held = false;

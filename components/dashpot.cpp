@@ -10,12 +10,12 @@ namespace {
 struct Dashpot {
   double B;  // N (s/m)^n
   double n;  // flow index
-  double w_soft = 0;  // m/s: linear below
-  double f_soft = 0;  // N: the force there
+  double w_soft = 0;  // m/s: the law is linear below
+  double f_soft = 0;  // N: force at w_soft
 
   explicit Dashpot(std::span<const double> v) : B(v[0]), n(v[1]) {}
 
-  // Below n = 1 the slope df/dw is infinite at rest, but dw/df is not.
+  // For n < 1 the slope df/dw is infinite at rest, but dw/df is finite.
   bool by_force() const { return n < 1; }
   Growth growth() const { return {B, n}; }
 

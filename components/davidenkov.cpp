@@ -9,17 +9,17 @@
 namespace rheonet {
 namespace {
 
-// Davidenkov's hysteresis. With x the travel on the first loading, and X = n/(n - 1) Fc/sigma the travel to its bound,
+// Davidenkov's hysteresis. With x the travel on the first loading, and X = n/(n - 1) Fc/sigma the travel to the bound,
 //
 //     g(x) = sigma (x - x^n/(n X^(n-1))),   g(X) = Fc,   g'(X) = 0;  Fc beyond
 //
-// and every branch after a reversal at (p_r, f_r) is the same curve, twice as large: f = f_r + 2 s g(s (p - p_r)/2)
-// (Masing). In a cycle of amplitude a that is Davidenkov's loop sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with
-// eta = (2 X)^(1-n). A branch that comes back to the point where an earlier one turned goes on as that one would have
-// (Madelung): so the reversals that are still open are all its memory.
+// and every branch after a reversal at (p_r, f_r) is the same curve scaled by 2: f = f_r + 2 s g(s (p - p_r)/2) (Masing).
+// In a cycle of amplitude a this is Davidenkov's loop sigma [d -/+ (eta/n) ((a +/- d)^n - 2^(n-1) a^n)] with
+// eta = (2 X)^(1-n). A branch that returns to the point where an earlier branch turned continues that earlier branch
+// (Madelung), so the memory consists of the reversals that are still open.
 //
-// It is a bundle of Prandtl elements of all travels up to X (Iwan): from there the energies. With z = x/X on the first
-// loading, half of that after a reversal, heat comes at Fc z^n per travel.
+// The law is a bundle of Prandtl elements of all yield travels up to X (Iwan), which gives the energies. With z = x/X on
+// the first loading, and half of that after a reversal, the heat per travel is Fc z^n.
 struct Davidenkov {
   static constexpr bool creeping = false;
 
@@ -33,15 +33,15 @@ struct Davidenkov {
   double X;      // m
 
   double s = 1;                // direction of motion
-  bool virgin = true;          // the outermost of `open` is the unloaded state, where no loop begins
-  std::vector<Reversal> open;  // outermost first, the present branch begins at the last; none: it flows at its bound
+  bool virgin = true;          // the outermost entry of `open` is the unloaded state, where no loop begins
+  std::vector<Reversal> open;  // outermost first; the present branch begins at the last. Empty: the force is at its bound
 
   explicit Davidenkov(std::span<const double> v) : sigma(v[0]), Fc(v[1]), n(v[2]), X(n / (n - 1) * Fc / sigma) {
     begin(0, std::isnan(v[3]) ? 0 : v[3]);
   }
 
-  // g(x) = sigma x secant(x/X) and g'(x) = sigma tangent(x/X): 1 - z^(n-1)/n and 1 - z^(n-1), without their cancellation
-  // where n is near 1.
+  // g(x) = sigma x secant(x/X) and g'(x) = sigma tangent(x/X): 1 - z^(n-1)/n and 1 - z^(n-1), without cancellation for n
+  // near 1.
   double secant(double z) const { return -std::expm1((n - 1) * std::log(z) - std::log(n)); }
   double tangent(double z) const { return -std::expm1((n - 1) * std::log(z)); }
 
@@ -53,7 +53,7 @@ struct Davidenkov {
     if (open.empty()) return T(s * Fc);
     const Reversal& r = open.back();
     const double z = s / size() * (value_of(p) - r.p) / X;
-    // Behind the point of reversal lies no state of the branch. Iterates of a solver may: go on along the tangent.
+    // A branch has no states behind its reversal. Solver iterates may go there: continue along the tangent.
     if (z <= 0) return r.f + sigma * (p - r.p);
     if (z >= 1) return T(r.f + s * size() * Fc);
     return r.f + s * size() * sigma * X * z * secant(z) + sigma * tangent(z) * (p - value_of(p));
@@ -69,12 +69,12 @@ struct Davidenkov {
   bool constant() const { return open.empty(); }
   int direction() const { return s < 0 ? -1 : 1; }
 
-  // z where z secant(z) = wanted, for 0 < wanted < (n-1)/n. As ln over ln z the left side is concave and nowhere steeper
-  // than 1: from z = wanted, which is too small, Newton's method goes up and not beyond the root, and the size of z plays
-  // no part. At worst, next to z = 1 where the slope is 0, each step halves what is missing.
+  // Root of z secant(z) = wanted, for 0 < wanted < (n-1)/n. The logarithm of the left side is a concave function of ln z
+  // with a slope of at most 1. Started from z = wanted, which is too small, Newton's method therefore rises without passing
+  // the root, whatever the size of z. At worst, near z = 1 where the slope is 0, each step halves the error.
   double part_under(double wanted) const {
     constexpr double rounding = 4e-16;  // of z, relative
-    constexpr int most_steps = 100;     // twice the bits of a double, by halves
+    constexpr int most_steps = 100;     // twice the bits of a double, for steps that halve the error
     double z = wanted;
     for (int i = 0; i < most_steps && z < 1; ++i) {
       const double step = secant(z) / tangent(z) * std::log(wanted / (z * secant(z)));
@@ -84,7 +84,7 @@ struct Davidenkov {
     return z;
   }
 
-  // Unloaded, then loaded to f: p is the place where that ends.
+  // Loads from the unloaded state to the force f, reached at deflection p.
   void begin(double p, double f) {
     s = f < 0 ? -1 : 1;
     virgin = std::abs(f) < Fc;
@@ -105,14 +105,14 @@ struct Davidenkov {
     return p;
   }
 
-  // Travel at which the present branch ends: it meets the one before it, or its bound.
+  // Travel at which the present branch ends, because it meets the branch before it or reaches the bound.
   double closing() const {
     if (open.size() == 1) return size() * X;
     const double loop = std::abs(open.back().p - open[open.size() - 2].p);
-    return virgin && open.size() == 2 ? 2 * loop : loop;  // the first loading goes on from the mirror of its reversal
+    return virgin && open.size() == 2 ? 2 * loop : loop;  // the first loading continues from the mirror point of its reversal
   }
-  // Loops narrower than this are none: their ends cannot be told apart. In travel some roundings of the place; in force,
-  // even for n near 1 where X is long, z (1 - ln z) = 3e-12 of Fc.
+  // Narrower loops are ignored, because their ends cannot be distinguished. In travel the width is a few units of round-off
+  // of the deflection; in force, even for n near 1 where X is long, z (1 - ln z) = 3e-12 of Fc.
   double narrow(double p) const {
     constexpr double narrow_part = 1e-13, place_rounding = 1e-15;
     return narrow_part * X + place_rounding * std::abs(p);
@@ -133,7 +133,7 @@ struct Davidenkov {
       open.push_back({p, s * Fc, stored_energy(p)});
     } else if (travelled(p) > narrow(p)) {
       open.push_back({p, force(p), stored_energy(p)});
-    } else if (size() == 2) {  // turned where it had just turned: as if it had not
+    } else if (size() == 2) {  // turned again where it had just turned: undo the reversal
       open.pop_back();
     }
     s = -s;
@@ -162,7 +162,7 @@ struct Davidenkov {
   bool hold(double, int) { return false; }
   bool holds() const { return false; }
 
-  // The memory of a motion from p to p + step; returns the heat.
+  // Updates the memory for a motion from p to p + step; returns the heat.
   double follow(double p, double step) {
     if (step == 0) return 0;
     set_direction(p, step, step < 0 ? -1 : 1);
@@ -179,14 +179,14 @@ struct Davidenkov {
   }
   double jump(double p, double step) { return follow(p, step); }
 
-  // The share z of the way to the bound.
+  // Part z of the travel to the bound.
   double part(double p) const { return std::clamp(travelled(p) / (size() * X), 0.0, 1.0); }
-  // Heat on the present branch up to a travel of x.
+  // Heat on the present branch up to the travel x.
   double heat_until(double x) const {
     return Fc * std::max(x, 0.0) * std::pow(std::clamp(x / (size() * X), 0.0, 1.0), n) / (n + 1);
   }
   double stored_energy(double p) const {
-    if (open.empty()) return sigma * X * X * (n - 1) / (2 * (n + 1));  // all its elements have yielded
+    if (open.empty()) return sigma * X * X * (n - 1) / (2 * (n + 1));  // all elements of the bundle have yielded
     const double x = std::min(travelled(p), size() * X);
     const double work = s * open.back().f * x + sigma * x * x * (0.5 - std::pow(part(p), n - 1) / (n * (n + 1)));
     return open.back().stored + work - heat_until(x);

@@ -5,7 +5,7 @@
 namespace rheonet {
 namespace {
 
-/// The shape of a signal in the box of a symbol, as on the screen of an oscilloscope.
+/// The shape of a signal in the box of a symbol, as an oscilloscope shows it.
 struct Trace {
   std::string operator()(const Signal::Constant&) const { return "M.14 .4 H.86"; }
   std::string operator()(const Signal::Step&) const { return "M.14 .68 H.42 V.32 H.86"; }

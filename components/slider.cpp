@@ -46,7 +46,7 @@ const RegisterComponent register_slider({
                         "M.8 .62 L.74 .7"},
 });
 
-// A dashpot below some velocity, as programs have it that know no sticking.
+// Surrogate used by programs without sticking: viscous below some velocity.
 const RegisterAlternative smoothed({.type = "slider",
                                     .name = "smoothed",
                                     .becomes = "cfm",

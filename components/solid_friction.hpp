@@ -16,9 +16,9 @@ namespace rheonet {
 ///
 ///     u^q = u_ref^q - q sigma x/Fc    (i = 1: u = u_ref exp(-sigma x/Fc)),     f = s Fc (1 - u),   0 <= u <= 2
 ///
-/// For i < 1 the bound u = 0 is reached at a finite x; from there on the friction is `held` at s Fc until it is released.
+/// For i < 1 the force reaches the bound u = 0 at a finite x, and is then `held` at s Fc until it is released.
 struct SolidFriction {
-  /// At the bound but for so much of it: at the bound.
+  /// Fraction of the bound: a force closer to the bound is set to the bound, because the difference is round-off.
   static constexpr double yield_rounding = 1e-15;
 
   double sigma;  ///< N/m
@@ -32,41 +32,41 @@ struct SolidFriction {
   double u_ref = 1;  ///< 1 - s f_ref/Fc
   bool held = false;
 
-  /// Force at deflection p [N]; |force| <= Fc wherever the law itself can go.
+  /// Force at deflection p [N]; |force| <= Fc for all states of the law.
   template <class T>
   T force(const T& p) const {
     using std::expm1, std::log1p, std::pow;
     if (held) return T(s * Fc);
     if (i == 0) {
-      // A straight line up to the bound, and on: a step that goes beyond finds its way back to where the law yields.
+      // A straight line up to the bound and beyond, so that a step past the bound can return to the yield point.
       const T f = f_ref + sigma * (p - p_ref);
       return std::abs(s * value_of(f) - Fc) <= yield_rounding * Fc ? T(f + (s * Fc - value_of(f))) : f;
     }
     const double q = 1 - i;
     const T z = (sigma / Fc * s) * (p - p_ref);
-    if (u_ref == 0) {  // leaving the bound backwards (i < 1), or on it for good
+    if (u_ref == 0) {  // at the bound: leaves it backwards (i < 1) or stays there (i >= 1)
       if (i >= 1 || value_of(z) >= 0) return T(s * Fc);
       const T u = pow(T(-q * z), 1 / q);
       return value_of(u) < 2 ? T(s * Fc * (1 - u)) : beyond(z, -std::pow(2, q) / q);
     }
-    // Where u = 2 the force is -s Fc: no state of the law lies beyond. Iterates of a solver may: go on along the tangent.
+    // At u = 2 the force is -s Fc, the last state of the law. Solver iterates may pass it: continue along the tangent.
     const double z2 = q == 0 ? std::log(u_ref / 2) : (std::pow(u_ref, q) - std::pow(2, q)) / q;
     if (value_of(z) < z2) return beyond(z, z2);
     const T y = z * std::pow(u_ref, -q);
     if (q * value_of(y) >= 1) return T(s * Fc);
-    // Counted from f_ref, so that a small force keeps all its digits.
+    // Computed relative to f_ref, so that a small force keeps all its digits.
     const T f = f_ref - (s * Fc * u_ref) * expm1(q == 0 ? T(-y) : T(log1p(T(-q * y)) / q));
     return s * value_of(f) < Fc ? f : T(s * Fc);
   }
 
-  /// The same for a deflection that goes all the way at once, with no event at the bound.
+  /// Force after a deflection made in one step, without an event at the bound; limited to the bound.
   template <class T>
   T force_reached(const T& p) const {
     const T f = force(p);
     return s * value_of(f) > Fc ? T(s * Fc) : f;
   }
 
-  /// Slope df/dp with which a motion in `direction` begins at deflection p.
+  /// Slope df/dp at deflection p at the beginning of a motion in `direction`.
   double slope_along(double p, int direction) const {
     const double u = 1 - direction * force(p) / Fc;
     return u > 0 ? sigma * std::pow(u, i) : 0;
@@ -80,12 +80,12 @@ struct SolidFriction {
     return i < 1 ? Fc / sigma * std::pow(u_ref, 1 - i) / (1 - i) : std::numeric_limits<double>::infinity();
   }
 
-  /// Starts a new branch at deflection p in direction `direction`; the force stays as it is.
+  /// Begins a new branch at deflection p in `direction`; the force does not change.
   void turn(double p, double direction) {
     begin(p, force(p), direction);
   }
 
-  /// A branch that begins at deflection p with force f.
+  /// Begins a branch in `direction` at deflection p with force f.
   void begin(double p, double f, double direction) {
     s = direction;
     p_ref = p;
@@ -101,7 +101,7 @@ struct SolidFriction {
     if (jump == 0) return 0;
     const double direction = jump < 0 ? -1 : 1;
     if (direction != s) turn(p, direction);
-    // Work done along the curve, by the midpoint rule: good to 1e-6 of it, for the energy account alone.
+    // Work along the curve by the midpoint rule, accurate to 1e-6 of it; used in the energy account alone.
     constexpr int slices = 1000;
     double work = 0;
     for (int k = 0; k < slices; ++k) work += force_reached(p + jump * (k + 0.5) / slices) * jump / slices;
@@ -110,7 +110,7 @@ struct SolidFriction {
     return work - (stored_energy(p + jump) - before);
   }
 
-  /// Bristles that bend elastically store f^2/(2 sigma); the rest of the work f dp becomes heat: f w (1 - u^i) >= 0.
+  /// Elastically bent bristles store f^2/(2 sigma); the rest of the work f dp becomes heat: f w (1 - u^i) >= 0.
   double stored_energy(double p) const {
     const double f = force(p);
     return f * f / (2 * sigma);

@@ -13,27 +13,27 @@ namespace rheonet {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// For laws that begin as a spring and come to flow as a slider: why a force f0 at the start [N; NaN: not given] cannot
-/// be, if it lies beyond the bound Fc [N].
+/// For laws that start as a spring and flow as a slider: the error of a start force f0 [N; NaN: not given] beyond the bound
+/// Fc [N]; absent if f0 is valid.
 inline std::optional<Misfit> beyond_bound(double f0, double Fc) {
   if (std::isnan(f0) || std::abs(f0) <= Fc) return {};
   return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
 }
 
-/// Values of the `spring` of stiffness sigma [N/m] with which a law begins at the force f0 [N; NaN: 0].
+/// Values of a `spring` of stiffness sigma [N/m] that starts with the force f0 [N; NaN: 0].
 inline std::vector<double> as_spring(double sigma, double f0) {
   return {sigma, 0, std::isnan(f0) ? 0 : f0, not_given};
 }
 
-/// The same where the law's parameters are stiffness, coulomb, one for its shape, f0.
+/// The same check for laws with the parameters stiffness, coulomb, a shape parameter and f0.
 inline std::optional<Misfit> start_within_bound(std::span<const double> v) { return beyond_bound(v[3], v[1]); }
 
-/// Its effects: without friction there is no force, without elasticity it is rigid up to its bound.
+/// Effects of such a law: without dry friction it has no force, without elasticity it is rigid up to its bound.
 inline std::vector<Brought> friction_effects() {
   return {{Effect::dry_friction, "coulomb", 0}, {Effect::elasticity, "stiffness", infinity}};
 }
 
-/// The limits that such a law has whatever its shape is; `others` follow them.
+/// The limits of such a law for any shape, followed by `others`.
 inline std::vector<Limit> spring_to_slider(std::vector<Limit> others = {}) {
   std::vector<Limit> limits = {
       {.when = "stiffness = 0 or coulomb = 0", .becomes = "",

@@ -31,7 +31,7 @@ struct Vfm : MemorylessLaw {
   DeflectionBatch::Steady steady() const { return {0, B, std::numeric_limits<double>::infinity()}; }
   double settle(double, double f, int) const { return f / sigma; }
   double stored_energy(double p) const { return sigma * p * p / 2; }
-  // With a delay, what goes in and is not stored.
+  // With a delay, the dissipated power is the power supplied less the power stored.
   double dissipated_power(double p, double dp, double w) const {
     const double f = force(p);
     return lag == 0 ? f * f / B : f * (w - dp);
