@@ -27,7 +27,7 @@ class ClaimValues {
   const Scene& scene_;
 };
 
-/// Index of the record in Scene::claimed, which holds each record once; the record is added if it is not there yet.
+/// Index of `record` in Scene::claimed, which holds each record once; adds the record if it is new.
 int claimed_index(const Record& record, Scene& scene);
 
 }  // namespace rheonet

@@ -54,7 +54,7 @@ CycleRange cycles_of(const Number& number) {
           std::max(number.hertz, number.hertz - number.pi) + exponent_rounding};
 }
 
-/// Whether `number`, next to one that counts cycles, may count cycles as well: a count, a duration, the inverse of a time,
+/// Whether `number`, next to one that counts cycles, may count cycles as well: a count, a duration, the inverse of a typed time,
 /// or a mechanical quantity without an angle.
 bool may_count_cycles(const Number& number) {
   const Dimension& dimension = number.dimension;

@@ -15,7 +15,7 @@ namespace rheonet {
 
 /// Exponents of a*b; the value is a.value * b.value.
 Number product(const Number& a, const Number& b);
-/// Exponents of a^n; the value stays that of a.
+/// Exponents of a^n; the value is a.value, not raised.
 Number raised(const Number& a, double n);
 
 /// Whether two terms of a sum, a comparison or a list of arguments have the same dimension and count the same angle unit.

@@ -226,7 +226,7 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
   return false;
 }
 
-/// The name of a block means its output. A name near that of a parameter, or of a unit, gets its message elsewhere.
+/// The name of a block means its output. A name that is a unit, or near that of a parameter, is reported elsewhere.
 bool SignalPlan::is_unknown_name(const Environment& environment, Context& context) const {
   if (shape_ != Shape::constant || main_.identifiers().size() != 1) return false;
   const std::string& name = main_.identifiers().front();

@@ -23,7 +23,7 @@ bool check_accuracy(double accuracy, Spot spot, Mistakes& mistakes) {
 
 void read_output(const TomlEntry* output, const Environment& environment, Context& context, Scene& scene) {
   Mistakes& mistakes = context.mistakes;
-  const double length = scene.stop - scene.start;  // NaN if they have a mistake
+  const double length = scene.stop - scene.start;  // NaN if start or stop has a mistake
   const auto spread = [&](double points) {
     scene.output_intervals = static_cast<std::int64_t>(points) - 1;
     scene.output_every = length / (points - 1);
