@@ -227,9 +227,7 @@ Drive::Flow Drive::flow(int a, int b, double t, double limit) const {
     const Piece& p = m.piece;
     result.w += sign * (m.by_position ? p.rate(t) : p.value(t));
     result.dw += sign * (m.by_position ? p.curvature(t) : p.rate(t));
-    const double spin = std::abs(p.omega) + std::abs(p.chirp) * (std::abs(limit - p.origin) + std::abs(t - p.origin));
-    const double bend = std::abs(p.amplitude) * (spin * spin + std::abs(p.chirp));
-    result.bound += m.by_position ? bend * spin + 3 * std::abs(p.amplitude * p.chirp) * spin : bend;
+    result.bound += m.by_position ? p.largest_third(t, limit) : p.largest_curvature(t, limit);
   };
   add(a, 1);
   add(b, -1);
@@ -276,24 +274,20 @@ double Drive::search_reversal(int a, int b, double t, double limit, double grain
 
 Drive::Reach Drive::reach() const {
   Reach result;
-  const auto lasts = [&](const Piece& p) { return std::abs(std::min(p.end, stop_) - p.origin); };
-  const auto value = [&](const Piece& p) { return std::abs(p.level) + std::abs(p.slope) * lasts(p) + std::abs(p.amplitude); };
-  const auto rate = [&](const Piece& p) {
-    return std::abs(p.slope) + std::abs(p.amplitude) * (std::abs(p.omega) + std::abs(p.chirp) * lasts(p));
-  };
-  for (const Motion& m : motions_) result.velocity = std::max(result.velocity, m.by_position ? rate(m.piece) : value(m.piece));
-  for (const Force& f : forces_) result.force = std::max(result.force, value(f.piece));
+  for (const Motion& m : motions_) {
+    const double end = std::min(m.piece.end, stop_);
+    const double fastest = m.by_position ? m.piece.largest_rate(m.piece.origin, end) : m.piece.largest(m.piece.origin, end);
+    result.velocity = std::max(result.velocity, fastest);
+  }
+  for (const Force& f : forces_) result.force = std::max(result.force, f.piece.largest(f.piece.origin, std::min(f.piece.end, stop_)));
   return result;
 }
 
 double Drive::fastest() const {
   double omega = 0;
-  const auto look = [&](const Piece& p) {
-    if (p.amplitude != 0) omega = std::max(omega, std::abs(p.omega) + std::sqrt(std::abs(p.chirp)));
-  };
-  for (const Motion& m : motions_) look(m.piece);
-  for (const Force& f : forces_) look(f.piece);
-  for (const BlockSignals::Generator& g : blocks_.generators()) look(*g.piece);
+  for (const Motion& m : motions_) omega = std::max(omega, m.piece.fastest());
+  for (const Force& f : forces_) omega = std::max(omega, f.piece.fastest());
+  for (const BlockSignals::Generator& g : blocks_.generators()) omega = std::max(omega, g.piece->fastest());
   return omega;
 }
 

@@ -1,5 +1,6 @@
 #include "core/netlist/finite_signal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <variant>
@@ -39,6 +40,11 @@ struct FiniteShape {
 
 }  // namespace
 
-bool is_finite(const Signal& signal) { return std::visit(FiniteShape{}, signal.shape()); }
+bool is_finite(const Signal& signal) {
+  if (!std::visit(FiniteShape{}, signal.shape())) return false;
+  return !signal.curves() || std::all_of(signal.curves()->begin(), signal.curves()->end(), [](const Curve& curve) {
+    return std::isfinite(curve.largest_rate()) && std::isfinite(curve.largest_curvature()) && std::isfinite(curve.largest_third());
+  });
+}
 
 }  // namespace rheonet

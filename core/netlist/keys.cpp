@@ -64,6 +64,10 @@ void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what
   mistakes.error(later.spot, what + " has both `" + first.key + "` and `" + later.key + "`", std::move(hint));
 }
 
+bool expect_boolean(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::boolean, "true or false", what, mistakes, std::move(hint));
+}
+
 bool expect_table(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint) {
   return expect_kind(value, TomlValue::Kind::table, "a table", what, mistakes, std::move(hint));
 }

@@ -50,6 +50,7 @@ void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what
 /// Each reports a value of another kind; `what` names the value: "`title`".
 bool expect_table(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint = {});
 bool expect_string(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint = {});
+bool expect_boolean(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint = {});
 bool expect_array(const TomlValue& value, const std::string& what, Mistakes& mistakes, std::string hint = {});
 
 /// Whether `name` is a valid name of an element or node (letters, digits, `_` and `-`); if not, a mistake at `spot`.

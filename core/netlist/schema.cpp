@@ -195,6 +195,7 @@ Json signal_schema() {
   properties["table"] = {{"anyOf", {std::move(points), text("name of a CSV file")}},
                          {"description", "[time, value] points: linear between them, held after the last"}};
   properties["columns"] = list_of(text("of the times and of the values, as the first row of the CSV file of a `table` names them"), 2);
+  properties["smooth"] = {{"type", "boolean"}, {"description", "a `table` runs along monotone cubics between its points"}};
   const std::pair<const char*, const char*> keys[] = {
       {"amplitude", "factor on the signal"},
       {"frequency", "cycles a second [Hz; rad/s and rpm are converted]"},

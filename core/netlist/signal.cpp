@@ -105,8 +105,30 @@ Stretch sine(double t, double amplitude, double frequency, double phase, double 
   return piece;
 }
 
+std::shared_ptr<const std::vector<Curve>> curves_of(const Signal::Shape& shape) {
+  const auto* table = std::get_if<Signal::Table>(&shape);
+  if (!table || !table->smooth) return nullptr;
+  std::vector<Curve> curves;
+  std::vector<double> times, values;
+  const auto finish = [&] {
+    if (times.size() > 1) curves.emplace_back(std::move(times), std::move(values));
+    times.clear();
+    values.clear();
+  };
+  for (std::size_t i = 0; i < table->times.size(); ++i) {
+    // As breakpoints are rounded.
+    const double time = table->time + table->times[i];
+    if (!times.empty() && time <= times.back()) finish();
+    times.push_back(time);
+    values.push_back(table->offset + table->values[i]);
+  }
+  finish();
+  return std::make_shared<const std::vector<Curve>>(std::move(curves));
+}
+
 struct PieceAt {
   double t;
+  const std::vector<Curve>* curves;
 
   Stretch operator()(const Signal::Constant& s) const { return constant(s.value); }
 
@@ -181,9 +203,21 @@ struct PieceAt {
     if (next == s.times.begin()) return constant(s.offset + s.values.front(), TimePoint(s.time, *next));
     if (next == s.times.end()) return constant(s.offset + s.values.back());
     const auto i = static_cast<std::size_t>(next - s.times.begin());
+    if (curves) return along_curve(s, next);
     Stretch piece = constant(s.offset + s.values[i - 1], TimePoint(s.time, *next));
     piece.origin = s.time + s.times[i - 1];
     piece.slope = (s.values[i] - s.values[i - 1]) / (s.times[i] - s.times[i - 1]);
+    return piece;
+  }
+
+ private:
+  /// Up to the next jump or the last point; `next` is the first point after t.
+  Stretch along_curve(const Signal::Table& s, std::vector<double>::const_iterator next) const {
+    const auto after_jump = std::adjacent_find(next, s.times.end(), [&](double a, double b) { return s.time + b <= s.time + a; });
+    const double last = after_jump == s.times.end() ? s.times.back() : *after_jump;
+    const auto later = std::upper_bound(curves->begin(), curves->end(), t, [](double now, const Curve& c) { return now < c.first(); });
+    Stretch piece = constant(0, TimePoint(s.time, last));
+    piece.curve = &*std::prev(later);
     return piece;
   }
 };
@@ -225,18 +259,21 @@ struct SeenFrom {
 }  // namespace
 
 double Piece::value(double t) const {
+  if (curve) return curve->value(t);
   const double tau = t - origin;
   const double wave = amplitude == 0 ? 0 : amplitude * std::sin(phase + (omega + chirp * tau / 2) * tau);
   return level + slope * tau + wave;
 }
 
 double Piece::rate(double t) const {
+  if (curve) return curve->rate(t);
   if (amplitude == 0) return slope;
   const double tau = t - origin;
   return slope + amplitude * (omega + chirp * tau) * std::cos(phase + (omega + chirp * tau / 2) * tau);
 }
 
 double Piece::curvature(double t) const {
+  if (curve) return curve->curvature(t);
   if (amplitude == 0) return 0;
   const double tau = t - origin;
   const double angle = phase + (omega + chirp * tau / 2) * tau;
@@ -245,6 +282,7 @@ double Piece::curvature(double t) const {
 }
 
 double Piece::integral(double from, double to) const {
+  if (curve) return curve->area(to) - curve->area(from);
   const double length = to - from;
   const double a = from - origin;
   const double b = to - origin;
@@ -258,24 +296,61 @@ double Piece::integral(double from, double to) const {
 double Piece::rounding(double t) const {
   // Number of operations that lead to a breakpoint, an angle or a value, each with half a unit in the last place of error.
   constexpr double operations = 8;
+  constexpr double eps = std::numeric_limits<double>::epsilon();
+  if (curve) return operations * eps * (curve->largest() + curve->largest_rate() * (std::abs(t) + std::abs(curve->first())));
   const double tau = std::abs(t - origin);
   const double angle = std::abs(phase) + (std::abs(omega) + std::abs(chirp) * tau / 2) * tau;
   const double fastest = std::abs(slope) + std::abs(amplitude) * (std::abs(omega) + std::abs(chirp) * tau);
   const double sizes = std::abs(level) + std::abs(slope) * tau + std::abs(amplitude) * (1 + angle) +
                        fastest * (std::abs(t) + std::abs(origin));
-  return operations * std::numeric_limits<double>::epsilon() * sizes;
+  return operations * eps * sizes;
 }
+
+double Piece::largest(double a, double b) const {
+  if (curve) return curve->largest();
+  return std::abs(level) + std::abs(slope) * std::max(std::abs(a - origin), std::abs(b - origin)) + std::abs(amplitude);
+}
+
+double Piece::largest_rate(double a, double b) const {
+  if (curve) return curve->largest_rate();
+  return std::abs(slope) + std::abs(amplitude) * spin(a, b);
+}
+
+double Piece::largest_curvature(double a, double b) const {
+  if (curve) return curve->largest_curvature();
+  const double w = spin(a, b);
+  return std::abs(amplitude) * (w * w + std::abs(chirp));
+}
+
+double Piece::largest_third(double a, double b) const {
+  if (curve) return curve->largest_third();
+  const double w = spin(a, b);
+  return std::abs(amplitude) * (w * w + 3 * std::abs(chirp)) * w;
+}
+
+double Piece::fastest() const {
+  // Of a sine the ratio is exact.
+  if (curve) return curve->largest_rate() > 0 ? curve->largest_curvature() / curve->largest_rate() : 0;
+  return amplitude == 0 ? 0 : std::abs(omega) + std::sqrt(std::abs(chirp));
+}
+
+double Piece::spin(double a, double b) const {
+  return std::abs(omega) + std::abs(chirp) * std::max(std::abs(a - origin), std::abs(b - origin));
+}
+
+Signal::Signal(Shape shape) : shape_(std::make_shared<const Shape>(std::move(shape))), curves_(curves_of(*shape_)) {}
 
 Signal Signal::seen_from(double start) const { return Signal(std::visit(SeenFrom{start}, *shape_)); }
 
-Piece Signal::piece(double t) const { return std::visit(PieceAt{t}, *shape_); }
+Piece Signal::piece(double t) const { return std::visit(PieceAt{t, curves_.get()}, *shape_); }
 
 TimePoint exact_end(const Signal& signal, double t) {
-  const Stretch piece = std::visit(PieceAt{t}, signal.shape());
+  const Stretch piece = std::visit(PieceAt{t, signal.curves()}, signal.shape());
   return {piece.end, piece.end_rest};
 }
 
 double change(const Piece& piece, TimePoint from, TimePoint to) {
+  if (piece.curve) return value(piece, to) - value(piece, from);
   Piece wave = piece;
   wave.level = wave.slope = 0;
   return piece.slope * to.since(from) + (value(wave, to) - value(wave, from));

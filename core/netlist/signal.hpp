@@ -5,11 +5,15 @@
 #include <variant>
 #include <vector>
 
+#include "core/netlist/curve.hpp"
+
 namespace rheonet {
 
 /// One smooth piece of a signal. With tau = t - origin:
 ///
 ///     value(t) = level + slope tau + amplitude sin(phase + omega tau + chirp tau^2 / 2)
+///
+/// or a curve through points.
 ///
 /// A piece may be evaluated slightly outside its range (the integrator extrapolates to the end of a step); it continues
 /// smoothly there.
@@ -21,6 +25,7 @@ struct Piece {
   double phase = 0;      ///< rad
   double omega = 0;      ///< rad/s
   double chirp = 0;      ///< rad/s^2
+  const Curve* curve = nullptr;  ///< if given, the value is that of this curve; the Signal owns it
   double end = std::numeric_limits<double>::infinity();  ///< s: the next discontinuity of the signal or a derivative
 
   double value(double t) const;
@@ -32,6 +37,16 @@ struct Piece {
   /// Bound on the round-off of value(t), including that of t and of breakpoints: where two pieces meet continuously their
   /// values differ by at most the sum of both bounds.
   double rounding(double t) const;
+
+  // Bounds on magnitudes between the times a and b, within the piece.
+  double largest(double a, double b) const;
+  double largest_rate(double a, double b) const;
+  double largest_curvature(double a, double b) const;
+  double largest_third(double a, double b) const;  ///< of d3 value / dt3
+  double fastest() const;  ///< about the largest angular frequency [rad/s]; 0 if nothing oscillates
+
+ private:
+  double spin(double a, double b) const;  ///< rad/s: the largest angular frequency
 };
 
 /// A piecewise smooth function of time whose breakpoints are all known. All values are in SI. Frequencies are not negative;
@@ -54,12 +69,13 @@ class Signal {
   /// time) + phase, modulo 2 pi, is below 2 pi frequency width.
   struct Pulse { double height, width, frequency, phase, time, offset; };
   /// Linear between the points. From `time` until the first point the value is that of the first point, after the last
-  /// point that of the last. Times do not decrease; two equal times are a jump. Points are relative to `time`.
-  struct Table { std::vector<double> times, values; double time, offset; };
+  /// point that of the last. Times do not decrease; two equal times are a jump. Points are relative to `time`. If `smooth`,
+  /// a monotone cubic spline (curve.hpp) replaces the straight lines between two jumps.
+  struct Table { std::vector<double> times, values; double time, offset; bool smooth = false; };
   using Shape = std::variant<Constant, Step, Ramp, Sine, Square, Triangle, Chirp, Pulse, Table>;
 
   Signal() : shape_(std::make_shared<const Shape>(Constant{0})) {}
-  explicit Signal(Shape shape) : shape_(std::make_shared<const Shape>(std::move(shape))) {}
+  explicit Signal(Shape shape);
 
   /// The piece that holds from t on: t < piece.end. At a breakpoint, the piece that begins there. Robust to round-off:
   /// piece(piece(t).end) is always the next piece; breakpoints are computed from their number, not accumulated.
@@ -74,9 +90,12 @@ class Signal {
   Signal seen_from(double start) const;
 
   const Shape& shape() const { return *shape_; }
+  /// Of a smooth table, between its jumps; else nullptr.
+  const std::vector<Curve>* curves() const { return curves_.get(); }
 
  private:
   std::shared_ptr<const Shape> shape_;
+  std::shared_ptr<const std::vector<Curve>> curves_;
 };
 
 }  // namespace rheonet

@@ -105,11 +105,13 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
   for (const Key key : required) take(key, keys.require(key_names()[key], main->spot));
   for (const Key key : optional) take(key, keys.find(key_names()[key]));
   const TomlEntry* columns = shape_ == Shape::table ? keys.find("columns") : nullptr;
+  const TomlEntry* smooth = shape_ == Shape::table ? keys.find("smooth") : nullptr;
   keys.finish(context.mistakes);
 
   if (shape_ == Shape::table) {
     read_points(main->value, context);
     if (columns) read_columns(*columns, context.mistakes);
+    smooth_ = smooth && expect_boolean(smooth->value, "`smooth`", context.mistakes, "smooth = true") && smooth->value.boolean;
   } else {
     main_ = Formula(main->value, "`" + main->key + "`", context.mistakes);
     constant_ = constant_ && main_.identifiers().empty();
@@ -354,7 +356,7 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
 
 std::optional<Signal> SignalPlan::make_table(const Environment& environment, Context& context, double start,
                                              double level) const {
-  Signal::Table table{{}, {}, start, level};
+  Signal::Table table{{}, {}, start, level, smooth_};
   if (file_name_) {
     const TableFile* const file = table_file(context);
     if (!file) return {};

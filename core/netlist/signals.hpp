@@ -71,6 +71,7 @@ class SignalPlan {
   std::array<Formula, key_count> keys_;
   std::vector<Point> points_;
   std::optional<TomlValue> file_name_;  ///< of a CSV file with the points
+  bool smooth_ = false;                 ///< a spline through the points
   std::vector<TomlValue> columns_;      ///< names of the columns of times and values; empty: the file has two columns
   /// Contents of the file, nullptr if it has a mistake. Read when first needed, because an override may replace the file.
   mutable std::optional<std::shared_ptr<const TableFile>> file_;

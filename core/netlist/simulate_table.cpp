@@ -37,9 +37,7 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
   const TomlEntry* points = keys.find("points");
   const TomlEntry* events = keys.find("events");
   keys.finish(mistakes);
-  if (events && events->value.kind != TomlValue::Kind::boolean)
-    mistakes.error(events->value.spot, "`events` must be true or false, but is " + describe(events->value));
-  scene.output_events = events && events->value.boolean;
+  scene.output_events = events && expect_boolean(events->value, "`events`", mistakes) && events->value.boolean;
   if (every && points) {
     refuse_both(*every, *points, "`output`", mistakes);
     return;

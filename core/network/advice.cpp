@@ -165,7 +165,7 @@ class Adviser {
   /// The signal is not 0 throughout the run.
   bool acts(const Signal& signal) const {
     const Piece piece = signal.piece(scene_.start);
-    return piece.level != 0 || piece.slope != 0 || piece.amplitude != 0 || piece.end < scene_.stop;
+    return piece.largest(scene_.start, scene_.stop) != 0 || piece.end < scene_.stop;
   }
 
   /// Flags the parts that have claims, or records if `records_too`.

@@ -47,6 +47,8 @@ constexpr double longest_slip = 1.5;
 
 // Steps that a restart needs to regain step size and order. After an interval with more steps a restart hardly matters.
 constexpr int steps_of_restart = 20;
+// Second derivatives are differences over this share of a step.
+constexpr double share_of_step = 0.1;
 // A run with more steps takes seconds: the user gets a note.
 constexpr double many_steps = 3e5;
 
@@ -144,23 +146,35 @@ class Run {
     }
     leave(t);
     const std::shared_ptr<System> before = system_;
-    std::vector<double> y = y_, yp(y_.size(), 0);
     const bool often = stopped_ && steps_ <= steps_of_restart;
-    if (often) system_->consistency.derivative(t, y, yp);
+    const double difference = (system_->integrator.time() - system_->integrator.previous_time()) * share_of_step;
+    const Course old = often ? course_of(t, difference) : Course{};
     cross(t, true, {});
     smooth_ = often && system_ == before && !tolerances_.blind() &&
-              differs_little(y, yp, time_until(std::min(drive_.next_break(), settings_.stop), t));
+              differs_little(old, course_of(t, difference), time_until(std::min(drive_.next_break(), settings_.stop), t));
     if (settings_.profile && !smooth_) {
       for (const Drive::Break& b : breaks) settings_.profile->blame({b.element});
     }
     return t;
   }
 
-  /// True if the present y and y' differ from these by less than the error of a step within the time `ahead`. Then the
-  /// integrator need not restart: a measured signal has a corner at each sample, and most corners are that small.
-  bool differs_little(const std::vector<double>& y, const std::vector<double>& yp, double ahead) const {
-    for (std::size_t i = 0; i < y_.size(); ++i) {
-      if (!(std::abs(y_[i] - y[i]) + ahead * std::abs(yp_[i] - yp[i]) <= tolerances_.values()[i])) return false;
+  /// A state with its first and second derivatives in time.
+  struct Course { std::vector<double> y, rate, curvature; };
+  Course course_of(double t, double difference) {
+    Course course{y_, yp_, {}};
+    system_->consistency.derivative(t, course.y, course.rate);
+    system_->consistency.second_derivative(t, std::max(difference, time_grain(t)), course.y, course.rate, course.curvature);
+    return course;
+  }
+
+  /// True if the two trajectories differ by less than the error of a step within the time `ahead`. Then the integrator need not
+  /// restart: a measured signal has a corner at each sample, and most corners are that small. The curvatures count too: one
+  /// long step across a corner between symmetric arcs can pass IDA's error test with any error.
+  bool differs_little(const Course& a, const Course& b, double ahead) const {
+    for (std::size_t i = 0; i < a.y.size(); ++i) {
+      const double of_rate = std::abs(a.rate[i] - b.rate[i]), of_curvature = std::abs(a.curvature[i] - b.curvature[i]);
+      const double apart = std::abs(a.y[i] - b.y[i]) + ahead * (of_rate + ahead / 2 * of_curvature);
+      if (!(apart <= tolerances_.values()[i])) return false;
     }
     return true;
   }

@@ -33,6 +33,8 @@ u = { type = "motion", at = "u", velocity = { time = 1 } }
 v = { type = "motion", at = "v", velocity = { step = 1, time = nan } }
 w = { type = "motion", at = "w", velocity = { table = [[0, 0], [1, nan]] } }
 x = { type = "motion", at = "x", velocity = { pulse = 1, width = 2, phase = "90 deg" } }
+y = { type = "motion", at = "y", velocity = { table = [[0, 0], [1, 2]], smooth = "yes" } }
+z = { type = "motion", at = "z", velocity = { ramp = 3, smooth = true } }
 )~",
        R"~(
 scene.toml:2:47: error: signal `velocity` has no shape
@@ -119,6 +121,14 @@ scene.toml:25:77: error: a `pulse` without `frequency` has no `phase`
    25 | x = { type = "motion", at = "x", velocity = { pulse = 1, width = 2, phase = "90 deg" } }
       |                                                                             ^
   `time` says when it begins
+scene.toml:26:82: error: `smooth` must be true or false, but is the text "yes"
+   26 | y = { type = "motion", at = "y", velocity = { table = [[0, 0], [1, 2]], smooth = "yes" } }
+      |                                                                                  ^
+  smooth = true
+scene.toml:27:57: error: unknown key `smooth` of a `ramp` signal
+   27 | z = { type = "motion", at = "z", velocity = { ramp = 3, smooth = true } }
+      |                                                         ^
+  its keys are `ramp`, `amplitude`, `time` and `offset`
 )~"},
       {"expressions of the time",
        R"~(

@@ -25,11 +25,11 @@ std::vector<double> samples(int count) {
   return values;
 }
 
-std::string table(const std::vector<double>& values) {
+std::string table(const std::vector<double>& values, bool smooth = false) {
   std::string points;
   const auto count = static_cast<double>(values.size() - 1);
   for (std::size_t i = 0; i < values.size(); ++i) points += fmt::format("[{}, {}], ", 2 * static_cast<double>(i) / count, values[i]);
-  return "{ table = [" + points + "] }";
+  return "{ table = [" + points + (smooth ? "], smooth = true }" : "] }");
 }
 
 Scene pushed(const std::vector<double>& values, double accuracy) {
@@ -84,6 +84,32 @@ TEST_CASE("corners that the accuracy cannot see cost no restart") {
     // At 1e-9 every corner is seen.
     if (accuracy > 1e-9) CHECK(summary.restarts < 4000 / 50);
     if (accuracy == 1e-3) CHECK(summary.steps < 1.2 * 4000);
+  }
+}
+
+TEST_CASE("a smooth table of a measured signal costs about the steps of the signal itself") {
+  const auto run_with = [](const std::string& signal, const std::string& kind, double accuracy) {
+    return run(scene_of(fmt::format(R"([elements]
+hand = {{ type = "motion", at = "grip", {} = {} }}
+k1 = {{ type = "spring", between = ["grip", "body"], stiffness = {} }}
+oil = {{ type = "dashpot", between = ["grip", "body"], damping = {} }}
+body = {{ type = "mass", at = "body", mass = {} }}
+rub = {{ type = "slider", between = ["body", "ground"], coulomb = 400 }}
+[simulate]
+stop = 2
+accuracy = {}
+record = ["body.position"]
+)", kind, signal, k, c, m, accuracy)));
+  };
+  const std::string smooth = table(samples(20000), true), sine = "{ sine = 37, frequency = 1.5 }";
+  for (const char* kind : {"position", "velocity"}) {
+    for (const double accuracy : {1e-3, 1e-6}) {
+      CAPTURE(kind);
+      CAPTURE(accuracy);
+      const Summary of_table = run_with(smooth, kind, accuracy), of_sine = run_with(sine, kind, accuracy);
+      CHECK(of_table.steps <= 3 * of_sine.steps);
+      CHECK(of_table.events == of_sine.events);
+    }
   }
 }
 

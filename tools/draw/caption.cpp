@@ -136,7 +136,7 @@ struct Shape {
            (s.frequency > 0 ? ", " + say(s.frequency, "Hz", typed) : "") + beside(s.offset);
   }
   std::string operator()(const Signal::Table& s) const {
-    return fmt::format("table, {} points", s.times.size()) + beside(s.offset);
+    return fmt::format("{}table, {} points", s.smooth ? "smooth " : "", s.times.size()) + beside(s.offset);
   }
 
   std::string with(const char* what, double value) const { return what + say(value, unit, typed); }

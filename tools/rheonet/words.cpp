@@ -45,7 +45,7 @@ struct Words {
                        rest(s.phase, 0, s.offset, unit));
   }
   std::string operator()(const Signal::Table& s) const {
-    return fmt::format("table of {} points over {} to {}{}", s.times.size(), number(s.times.front(), "s"),
+    return fmt::format("{}table of {} points over {} to {}{}", s.smooth ? "smooth " : "", s.times.size(), number(s.times.front(), "s"),
                        number(s.times.back(), "s"), rest(0, s.time, s.offset, unit));
   }
 
