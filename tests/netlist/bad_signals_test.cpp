@@ -121,7 +121,7 @@ scene.toml:25:77: error: a `pulse` without `frequency` has no `phase`
    25 | x = { type = "motion", at = "x", velocity = { pulse = 1, width = 2, phase = "90 deg" } }
       |                                                                             ^
   `time` says when it begins
-scene.toml:26:82: error: `smooth` must be true or false, but is the text "yes"
+scene.toml:26:82: error: `smooth` must be true or false, but is the string "yes"
    26 | y = { type = "motion", at = "y", velocity = { table = [[0, 0], [1, 2]], smooth = "yes" } }
       |                                                                                  ^
   smooth = true

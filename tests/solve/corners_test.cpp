@@ -81,9 +81,10 @@ TEST_CASE("corners that the accuracy cannot see cost no restart") {
     const Summary summary = run(pushed(values, accuracy), {.row = [&](double, const std::vector<double>& r) { off = std::max(off, std::abs(r[0] - expected.at(row++))); }});
     CHECK(row == rows);
     CHECK(off <= accuracy * scale);
-    // At 1e-9 every corner is seen.
-    if (accuracy > 1e-9) CHECK(summary.restarts < 4000 / 50);
-    if (accuracy == 1e-3) CHECK(summary.steps < 1.2 * 4000);
+    // At tighter accuracies the corners are seen.
+    if (accuracy > 1e-3) continue;
+    CHECK(summary.restarts < 4000 / 50);
+    CHECK(summary.steps < 1.2 * 4000);
   }
 }
 
@@ -108,7 +109,7 @@ record = ["body.position"]
       CAPTURE(accuracy);
       const Summary of_table = run_with(smooth, kind, accuracy), of_sine = run_with(sine, kind, accuracy);
       CHECK(of_table.steps <= 3 * of_sine.steps);
-      CHECK(of_table.events == of_sine.events);
+      CHECK(of_table.events == of_sine.events + 1);  // the end of the table
     }
   }
 }

@@ -61,12 +61,15 @@ void check_printed(const std::string& shown, const std::string& printed) {
   std::istringstream lines(shown), out(printed);
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line == "...") continue;
+    // Which setting is the cheapest depends on CPU times, and so does the rest of that sentence (precision_test.cpp).
+    const bool by_time = line.starts_with("the cheapest that meets");
+    if (by_time) line = line.substr(0, line.find(':'));
     CAPTURE(line);
     std::string said;
     bool found = false;
-    while (!found && std::getline(out, said)) found = masked(said) == masked(line);
+    while (!found && std::getline(out, said)) found = masked(by_time ? said.substr(0, said.find(':')) : said) == masked(line);
     CHECK(found);
-    if (!found) return;
+    if (!found || by_time) return;
   }
 }
 
