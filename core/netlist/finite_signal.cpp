@@ -5,6 +5,8 @@
 #include <numbers>
 #include <variant>
 
+#include "core/netlist/curve.hpp"
+
 namespace rheonet {
 
 namespace {

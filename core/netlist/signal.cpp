@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/netlist/curve.hpp"
 #include "core/netlist/fresnel.hpp"
 #include "core/netlist/time_point.hpp"
 

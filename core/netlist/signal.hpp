@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/netlist/curve.hpp"
-
 namespace rheonet {
+
+class Curve;
 
 /// One smooth piece of a signal. With tau = t - origin:
 ///

@@ -146,7 +146,7 @@ class Run {
     }
     leave(t);
     const std::shared_ptr<System> before = system_;
-    const bool often = stopped_ && steps_ <= steps_of_restart;
+    const bool often = stopped_ && !breaks.empty() && !drive_.past().any() && steps_ <= steps_of_restart;
     const double difference = (system_->integrator.time() - system_->integrator.previous_time()) * share_of_step;
     const Course old = often ? course_of(t, difference) : Course{};
     cross(t, true, {});
