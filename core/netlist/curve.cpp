@@ -27,7 +27,7 @@ struct Secants {
     return s * r <= 0 && std::abs(rate) > 3 * std::abs(s) ? 3 * s : rate;
   }
 
-  /// Of the cubic spline with these rates at its ends: a tridiagonal system, by elimination from the first row to the last.
+  /// Rates at the points of the cubic spline with these rates at its ends. Solves a tridiagonal system by elimination.
   std::vector<double> spline_rates(double first, double last) const {
     const std::size_t n = length.size();
     std::vector<double> rate(n + 1, first), ratio(n + 1, 0);

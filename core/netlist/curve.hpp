@@ -8,7 +8,7 @@ namespace rheonet {
 /// overshoots them. The rates at the points are those of the cubic spline, whose curvature is continuous too; where these would
 /// overshoot they are limited (J. M. Hyman, SIAM J. Sci. Stat. Comput. 4 (1983) 645; the limit of F. N. Fritsch and R. E. Carlson,
 /// SIAM J. Numer. Anal. 17 (1980) 238). The rates at both ends follow from three points each.
-/// Before the first point and after the last one its end cubics go on.
+/// Its first and last cubic extend beyond the points.
 class Curve {
  public:
   /// At least two times, which increase [s], and a value at each.

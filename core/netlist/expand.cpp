@@ -209,7 +209,7 @@ bool Expander::element_signals(const Plan& plan, const Environment& environment,
     element.signal_parameters.own().push_back(plan.signal_parameters[i]);
   }
   for (const Wire& feed : plan.feeds) {
-    element.signals.own().emplace_back(Signal::Constant{0});  // placeholder: the output of the block replaces it
+    element.signals.own().emplace_back(Signal::Constant{0});  // until the output of the block replaces it
     element.signal_parameters.own().push_back(feed.parameter);
   }
   for (const std::size_t i : plan.default_signals) {

@@ -72,7 +72,9 @@ void refuse(const Path& path, const SceneIndex::Found& found, Context& context, 
   const TomlValue& source = *path.source;
   if (!found.any()) {
     const auto known = known_paths(scene, true);
-    std::string meant = nearest(path.object, known);
+    // A member of a group is often named without its group.
+    const auto member = std::find_if(known.begin(), known.end(), [&](const std::string& name) { return name.ends_with('.' + path.object); });
+    const std::string meant = member != known.end() ? *member : nearest(path.object, known);
     context.mistakes.error(source.spot, "nothing is called `" + path.object + "`",
                            meant.empty() ? "" : "did you mean `" + meant + "." + path.channel + "`?");
     return;

@@ -9,6 +9,23 @@
 
 namespace rheonet {
 
+namespace {
+
+// Largest phase of an oscillation per step while sliders stick [rad]: their forces may be functions of time alone, which no
+// error test sees.
+constexpr double longest_angle = 0.3;
+// The same while sliders slip that follow the inputs directly [rad]: such a slider reverses at most once within a step.
+constexpr double longest_slip = 1.5;
+
+/// Angle of an oscillation per step [rad] at which the polynomial of a delay history misses a sine by a tenth of the
+/// accuracy. The history interpolates prescribed motions too, which no error test sees.
+double remembered_angle(double accuracy) {
+  constexpr double share = 0.1, at_middle = 0.005;  // error in the middle of six points: (5/2 3/2 1/2)^2/6!
+  return std::pow(share * accuracy / at_middle, 1.0 / static_cast<double>(step_points));
+}
+
+}  // namespace
+
 std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double t, const Motion& motion, double ahead) {
   const std::size_t n = motion.y.size();
   std::vector<double> size(n);
@@ -53,9 +70,22 @@ double first_step(const std::vector<double>& ypp, const std::vector<double>& tol
   return curvature > 0 ? std::sqrt(error / curvature) : std::numeric_limits<double>::infinity();
 }
 
-double remembered_angle(double accuracy) {
-  constexpr double share = 0.1, at_middle = 0.005;  // error in the middle of six points: (5/2 3/2 1/2)^2/6!
-  return std::pow(share * accuracy / at_middle, 1.0 / static_cast<double>(step_points));
+bool stay_close(const Motion& a, const Motion& b, double ahead, const std::vector<double>& tolerance) {
+  for (std::size_t i = 0; i < a.y.size(); ++i) {
+    const double of_rate = std::abs(a.yp[i] - b.yp[i]), of_curvature = std::abs(a.ypp[i] - b.ypp[i]);
+    if (!(std::abs(a.y[i] - b.y[i]) + ahead * (of_rate + ahead / 2 * of_curvature) <= tolerance[i])) return false;
+  }
+  return true;
+}
+
+double longest_step(const Drive& drive, bool sticks, bool slips_along, double accuracy) {
+  double turn = std::numeric_limits<double>::infinity();
+  if (const double omega = drive.fastest(); omega > 0) {
+    if (slips_along) turn = longest_slip / omega;
+    if (sticks) turn = longest_angle / omega;
+    if (std::isfinite(drive.past().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(accuracy)) / omega);
+  }
+  return std::min(turn, drive.past().longest_step());
 }
 
 }  // namespace rheonet

@@ -22,8 +22,12 @@ double fastest_rate(const Dae& dae, Consistency& consistency, double t, double h
 /// Norsett, G. Wanner, Solving Ordinary Differential Equations I, II.4). Infinite where all second derivatives are 0.
 double first_step(const std::vector<double>& ypp, const std::vector<double>& tolerance);
 
-/// Angle of an oscillation per step [rad] at which the polynomial of a delay history misses a sine by a tenth of the
-/// accuracy. The history interpolates prescribed motions too, which no error test sees.
-double remembered_angle(double accuracy);
+/// True if two motions from t on stay closer to each other than the tolerances until t + ahead, to second order. The curvatures
+/// count: one long step across a corner between symmetric arcs can pass IDA's error test with any error.
+bool stay_close(const Motion& a, const Motion& b, double ahead, const std::vector<double>& tolerance);
+
+/// Longest step on which nothing is missed that no error test sees [s]: reversals of sliders that stick (`sticks`) or follow the
+/// inputs directly (`slips_along`), and the history that delays interpolate. Infinite if there is no limit.
+double longest_step(const Drive& drive, bool sticks, bool slips_along, double accuracy);
 
 }  // namespace rheonet

@@ -39,12 +39,6 @@ constexpr double instant = 1e-6;
 constexpr double grains_ahead = 1e5;
 // Lookahead relative to the fastest time constant of the network.
 constexpr double lookahead_of_cycle = 0.01;
-// Largest phase of an oscillation per step while sliders stick [rad]: their forces may be functions of time alone, which no
-// error test sees.
-constexpr double longest_angle = 0.3;
-// The same while sliders slip that follow the inputs directly [rad]: such a slider reverses at most once within a step.
-constexpr double longest_slip = 1.5;
-
 // Steps that a restart needs to regain step size and order. After an interval with more steps a restart hardly matters.
 constexpr int steps_of_restart = 20;
 // Second derivatives are differences over this share of a step.
@@ -145,38 +139,30 @@ class Run {
       return t;
     }
     leave(t);
-    const std::shared_ptr<System> before = system_;
-    const bool often = stopped_ && !breaks.empty() && !drive_.past().any() && steps_ <= steps_of_restart;
-    const double difference = (system_->integrator.time() - system_->integrator.previous_time()) * share_of_step;
-    const Course old = often ? course_of(t, difference) : Course{};
-    cross(t, true, {});
-    smooth_ = often && system_ == before && !tolerances_.blind() &&
-              differs_little(old, course_of(t, difference), time_until(std::min(drive_.next_break(), settings_.stop), t));
+    smooth_ = cross_smoothly(t, stopped_ && !breaks.empty() && !drive_.past().any() && steps_ <= steps_of_restart);
     if (settings_.profile && !smooth_) {
       for (const Drive::Break& b : breaks) settings_.profile->blame({b.element});
     }
     return t;
   }
 
-  /// A state with its first and second derivatives in time.
-  struct Course { std::vector<double> y, rate, curvature; };
-  Course course_of(double t, double difference) {
-    Course course{y_, yp_, {}};
-    system_->consistency.derivative(t, course.y, course.rate);
-    system_->consistency.second_derivative(t, std::max(difference, time_grain(t)), course.y, course.rate, course.curvature);
-    return course;
-  }
-
-  /// True if the two trajectories differ by less than the error of a step within the time `ahead`. Then the integrator need not
-  /// restart: a measured signal has a corner at each sample, and most corners are that small. The curvatures count too: one
-  /// long step across a corner between symmetric arcs can pass IDA's error test with any error.
-  bool differs_little(const Course& a, const Course& b, double ahead) const {
-    for (std::size_t i = 0; i < a.y.size(); ++i) {
-      const double of_rate = std::abs(a.rate[i] - b.rate[i]), of_curvature = std::abs(a.curvature[i] - b.curvature[i]);
-      const double apart = std::abs(a.y[i] - b.y[i]) + ahead * (of_rate + ahead / 2 * of_curvature);
-      if (!(apart <= tolerances_.values()[i])) return false;
+  /// Crosses a discontinuity of the inputs at t. Returns true if the integrator need not restart after it: `often`, and the
+  /// state and its derivatives change by less than the error of a step until the next discontinuity.
+  bool cross_smoothly(double t, bool often) {
+    const std::shared_ptr<System> before = system_;
+    const double step = system_->integrator.time() - system_->integrator.previous_time();
+    const double difference = std::max(share_of_step * step, time_grain(t));
+    const std::vector<double> y = y_;
+    std::vector<double> yp(y.size()), ypp, new_ypp;
+    if (often) {
+      system_->consistency.derivative(t, y, yp);
+      system_->consistency.second_derivative(t, difference, y, yp, ypp);
     }
-    return true;
+    cross(t, true, {});
+    if (!often || system_ != before || tolerances_.blind()) return false;
+    system_->consistency.second_derivative(t, difference, y_, yp_, new_ypp);
+    const double ahead = time_until(std::min(drive_.next_break(), settings_.stop), t);
+    return stay_close({y, yp, ypp}, {y_, yp_, new_ypp}, ahead, tolerances_.values());
   }
 
   /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds the new state, reports
@@ -406,13 +392,8 @@ class Run {
   }
 
   void limit_step() {
-    const bool sticks = system_->events.sticks(), slips_along = system_->events.slips_along();
-    const double omega = drive_.fastest();
-    double turn = std::numeric_limits<double>::infinity();
-    if (omega > 0 && slips_along) turn = longest_slip / omega;
-    if (omega > 0 && sticks) turn = longest_angle / omega;
-    if (omega > 0 && std::isfinite(drive_.past().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(settings_.accuracy)) / omega);
-    system_->integrator.limit_step(std::min(turn, drive_.past().longest_step()));
+    const NetworkEvents& events = system_->events;
+    system_->integrator.limit_step(longest_step(drive_, events.sticks(), events.slips_along(), settings_.accuracy));
   }
 
   double tolerance(double share) const { return std::max(share * settings_.accuracy, Tolerances::least_tolerance); }

@@ -236,6 +236,21 @@ scene.toml:5:21: error: `events` must be true or false, but is the number 1
     5 | output = { events = 1 }
       |                     ^
 )~"},
+      {"a member of a group without the name of the group",
+       R"~(
+[elements.strut]
+between = ["body", "ground"]
+parallel = [{ name = "coil", type = "spring", stiffness = 3 }, { name = "seal", type = "slider", coulomb = 2 }]
+[simulate]
+stop = 1
+record = ["seal.force"]
+)~",
+       R"~(
+scene.toml:6:11: error: nothing is called `seal`
+    6 | record = ["seal.force"]
+      |           ^
+  did you mean `strut.seal.force`?
+)~"},
       {"records of all kinds of nothing",
        R"~(
 [elements]
