@@ -29,7 +29,7 @@ Curve random_curve(std::mt19937& random, bool rising, std::vector<double>& times
 }  // namespace
 
 TEST_CASE("rates of a monotone cubic are those of the cubic spline, unless they would overshoot") {
-  // Slopes 1, 1/2, 3 over intervals of 1, 2, 1; rates 7/6 and 23/6 at the ends by three points. Those between solve
+  // Slopes 1, 1/2, 3 over intervals of 1, 2, 1; rates 7/6 and 23/6 at the ends by three points. The inner rates solve
   // 2 r0 + 6 r1 + r2 = 3 (2 + 1/2) and r1 + 6 r2 + 2 r3 = 3 (1/2 + 6).
   const Curve curve({0, 1, 3, 4}, {0, 1, 2, 5});
   const double p = 7.5 - 7.0 / 3, q = 19.5 - 23.0 / 3;
@@ -94,7 +94,7 @@ TEST_CASE("a smooth table is one stretch from jump to jump, and held before and 
   CHECK(signal.before(4.5) == doctest::Approx(10.7));
   CHECK(signal.value(5.5) == doctest::Approx(14));
   CHECK(signal.value(9) == 14.5);
-  // The curve before the jump does not know of what comes after it.
+  // The points after a jump do not change the curve before it.
   const Curve alone({1.5, 2.5, 4.5}, {10.2, 11.2, 10.7});
   for (const double t : {1.7, 2.6, 4.4}) CHECK(signal.value(t) == doctest::Approx(alone.value(t)).epsilon(1e-14));
   // Seen from later it is the same.

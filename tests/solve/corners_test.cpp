@@ -1,4 +1,4 @@
-// A measured signal has a corner at each of its samples. Those that are smaller than the error of a step cost no restart.
+// A measured signal has a corner at each of its samples. Corners that are smaller than the error of a step cost no restart.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
