@@ -34,24 +34,24 @@ struct Cfm : SolidFriction {
   }
 
   int event_count() const { return 2; }
-  void event_functions(double p, double dp, double w, double noise, double* g) const {
+  void event_functions(double p, double dp, double w, double dead_band, double* g) const {
     g[0] = g[1] = 1;
-    if (standing) {
+    if (sliding) {
       // The sliding mode ends when dp leaves the range of both rates: motion begins, or rest where a slider blocks it.
       Dual forward, backward;
       hold_rates(p, forward, backward);
-      const double margin = 1e-7 * (forward.value - backward.value) + noise;
+      const double margin = 1e-7 * (forward.value - backward.value) + dead_band;
       g[0] = forward.value + margin - dp;
       g[1] = dp - backward.value + margin;
     } else if (s == 0) {
-      g[0] = noise > 0 ? noise - std::abs(w) : 1;  // leaving rest
+      g[0] = dead_band > 0 ? dead_band - std::abs(w) : 1;  // leaving rest
     } else {
-      g[0] = s * w + noise;  // reversal
-      if (i < 1) g[1] = held ? s * w - Fc / B + noise : travel_to_bound() - s * (p - p_ref);
+      g[0] = s * w + dead_band;  // reversal
+      if (i < 1) g[1] = held ? s * w - Fc / B + dead_band : travel_to_bound() - s * (p - p_ref);
     }
   }
   void switch_memory(int which, double p, double w) {
-    if (standing) {
+    if (sliding) {
       const int direction = which == 0 ? 1 : -1;
       lean == -direction ? rest(p) : go(p, direction);
     } else if (s == 0) {
@@ -65,12 +65,12 @@ struct Cfm : SolidFriction {
     }
   }
   bool fits(double w) const {
-    if (standing) return false;
+    if (sliding) return false;
     return w == 0 ? s == 0 : w * s > 0 && !(held && s * w < Fc / B);
   }
   bool set_direction(double p, double w, int direction) {
     bool changed = false;
-    if (standing || direction != s) {
+    if (sliding || direction != s) {
       direction == 0 ? rest(p) : go(p, direction);
       changed = true;
     }
@@ -82,7 +82,7 @@ struct Cfm : SolidFriction {
   }
   DeflectionBatch::Steady steady() const { return {0, B, Fc}; }
   double settle(double p, double f, int direction) {
-    along_sigma = standing = false;
+    along_sigma = sliding = false;
     begin(p, f, direction);
     if (direction == 0) rest(p);
     return p;
@@ -96,12 +96,12 @@ struct Cfm : SolidFriction {
     backward = lean > 0 ? rest : slope(f, -1) / sigma * rest;
   }
   bool hold(double p, int leaning) {
-    if (!standing) rest(p);
-    standing = true;
+    if (!sliding) rest(p);
+    sliding = true;
     lean = leaning;
     return true;
   }
-  bool holds() const { return standing; }
+  bool holds() const { return sliding; }
   double slope_along(double p, int direction) const { return slope(force(p), direction).value; }
   double release_slope(double p) const { return i == 0 && std::abs(force(p)) >= Fc * (1 - at_bound) ? sigma : 0; }
   bool constant() const { return held && !along_sigma; }
@@ -123,7 +123,7 @@ struct Cfm : SolidFriction {
 
  private:
   bool along_sigma = false;  // s = 0: df/dp = sigma
-  bool standing = false;     // in a Filippov sliding mode at w = 0
+  bool sliding = false;     // in a Filippov sliding mode at w = 0
   int lean = 0;              // side on which a slider in parallel is at its bound: -1, 1, or 0 for none
 
   Dual slope(const Dual& f, double direction) const {
@@ -135,11 +135,11 @@ struct Cfm : SolidFriction {
     p_ref = p;
     s = 0;
     along_sigma = true;
-    standing = held = false;
+    sliding = held = false;
   }
   void go(double p, double direction) {
     const double f = force(p);
-    along_sigma = standing = false;
+    along_sigma = sliding = false;
     begin(p, f, direction);
   }
   // Below the velocity Fc/B the inner dashpot takes up more than the motion supplies: the force leaves its bound.

@@ -10,8 +10,8 @@ namespace {
 struct Dashpot {
   double B;  // N (s/m)^n
   double n;  // flow index
-  double w_soft = 0;  // m/s: the law is linear below
-  double f_soft = 0;  // N: force at w_soft
+  double w_linear = 0;  // m/s: the law is linear below
+  double f_linear = 0;  // N: force at w_linear
 
   explicit Dashpot(std::span<const double> v) : B(v[0]), n(v[1]) {}
 
@@ -19,19 +19,19 @@ struct Dashpot {
   bool by_force() const { return n < 1; }
   Growth growth() const { return {B, n}; }
 
-  void soften(double w) {
-    w_soft = n == 1 ? 0 : w;
-    f_soft = B * std::pow(w_soft, n);
+  void regularise(double w) {
+    w_linear = n == 1 ? 0 : w;
+    f_linear = B * std::pow(w_linear, n);
   }
 
   template <class T>
   T force(const T& w) const {
-    if (std::abs(value_of(w)) < w_soft) return (f_soft / w_soft) * w;
+    if (std::abs(value_of(w)) < w_linear) return (f_linear / w_linear) * w;
     return n == 1 ? B * w : B * signed_power(w, n);
   }
   template <class T>
   T rate(const T& f) const {
-    if (std::abs(value_of(f)) < f_soft) return (w_soft / f_soft) * f;
+    if (std::abs(value_of(f)) < f_linear) return (w_linear / f_linear) * f;
     return signed_power(f / B, 1 / n);
   }
 

@@ -140,8 +140,8 @@ struct Davidenkov {
   }
 
   int event_count() const { return 2; }
-  void event_functions(double p, double, double w, double noise, double* g) const {
-    g[0] = s * w + noise;  // reversal
+  void event_functions(double p, double, double w, double dead_band, double* g) const {
+    g[0] = s * w + dead_band;  // reversal
     g[1] = open.empty() ? 1 : closing() - travelled(p);
   }
   void switch_memory(int which, double p, double) {

@@ -28,8 +28,8 @@ struct Sfm : SolidFriction {
   }
 
   int event_count() const { return i < 1 ? 2 : 1; }
-  void event_functions(double p, double, double w, double noise, double* g) const {
-    g[0] = s * w + noise;  // reversal
+  void event_functions(double p, double, double w, double dead_band, double* g) const {
+    g[0] = s * w + dead_band;  // reversal
     if (i < 1) g[1] = held ? 1 : travel_to_bound() - s * (p - p_ref);
   }
   void switch_memory(int which, double p, double) {

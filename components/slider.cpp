@@ -1,6 +1,6 @@
 #include "core/netlist/scene.hpp"
-#include "core/network/alternatives.hpp"
 #include "core/network/component.hpp"
+#include "core/network/surrogate_laws.hpp"
 
 namespace rheonet {
 namespace {
@@ -47,7 +47,7 @@ const RegisterComponent register_slider({
 });
 
 // Surrogate used by programs without sticking: viscous below some velocity.
-const RegisterAlternative smoothed({.type = "slider",
+const RegisterSurrogate smoothed({.type = "slider",
                                     .name = "smoothed",
                                     .becomes = "cfm",
                                     .values = [](std::span<const double> v, double speed, double length) {

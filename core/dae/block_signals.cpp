@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/network/time_grain.hpp"
+#include "core/base/roundoff.hpp"
 
 namespace rheonet {
 
@@ -110,17 +110,17 @@ Dual BlockSignals::motion_at(const Blocks::Sensor& sensor, const Stretch& s, dou
                        : Dual(s.anchor + s.piece.integral(s.t, t), s.piece.value(t));
 }
 
-void BlockSignals::evaluate_time(TimePoint now, const Past& past) {
+void BlockSignals::evaluate_time(TimePoint now, const DelayHistory& history) {
   const double t = now.t;
   now_ = t;
-  aside_ = past.aside(t);
+  aside_ = history.aside(t);
   for (std::size_t k = 0; k < out_.size(); ++k) {
     const Blocks::Block& block = blocks_->blocks[k];
     if (block.generates) {
       const Piece& piece = generated_[k].back().piece;
       out_[k] = Dual(value(piece, now), piece.rate(t));
     } else if (block.law.delay > 0) {
-      Look look{past, now_, aside_};
+      Look look{history, now_, aside_};
       out_[k] = earlier(static_cast<int>(k), t, look);
       present_[k] = look.present;
     }

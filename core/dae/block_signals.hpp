@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "core/dae/past.hpp"
+#include "core/base/index.hpp"
+#include "core/dae/delay_history.hpp"
 #include "core/netlist/time_point.hpp"
-#include "core/network/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 
@@ -33,7 +33,7 @@ class BlockSignals {
   std::size_t channels() const { return channel_count_; }
   /// Present values of the channels of the past, given the velocities [m/s] and accelerations [m/s^2] of the nodes. Only the
   /// accelerations of masses are used.
-  const std::vector<Past::Known>& remembered(const std::vector<double>& velocity, const std::vector<double>& acceleration);
+  const std::vector<DelayHistory::Known>& remembered(const std::vector<double>& velocity, const std::vector<double>& acceleration);
   /// Longest step of the integrator [s]. Delays of blocks that drive a prescribed motion by more than time limit it, as they
   /// must know the acceleration beforehand. So does a share of each delay whose input can jump for want of a mass.
   double longest_step() const { return longest_step_; }
@@ -46,14 +46,14 @@ class BlockSignals {
   struct Generator { int element; const Signal* signal; const Piece* piece; };
   std::vector<Generator> generators() const;
   /// Evaluates the outputs of generators and delays at t, and the sensor values of prescribed motions, with rates.
-  void evaluate_time(TimePoint t, const Past& past);
+  void evaluate_time(TimePoint t, const DelayHistory& history);
   /// Evaluates anew the delays shorter than the time since the last step, whose outputs depend on the present states and sensor
   /// values too. Call after `evaluate_time`, with the same `past`.
-  void look_back(const Past& past);
+  void look_back(const DelayHistory& history);
 
   /// Whether the output of a delay, or its rate, is discontinuous at t. Considers delays of functions of time alone: no state
   /// smooths such a discontinuity on its way.
-  bool breaks(double t, const Past& past) const;
+  bool breaks(double t, const DelayHistory& history) const;
 
   // --- States and sensor values, with rates.
   std::vector<Dual> state;   ///< of each block with a state, in the order of the blocks
@@ -74,7 +74,7 @@ class BlockSignals {
   double slope(int block, std::size_t atom) const { return slope_[at(block) * atoms() + atom]; }
   double rate_slope(std::size_t k, std::size_t atom) const { return rate_slope_[k * atoms() + atom]; }
   /// Recomputes them if the derivatives of delayed outputs by the present atoms have changed.
-  void update_slopes(const Past& past);
+  void update_slopes(const DelayHistory& history);
   /// Whether an output can depend on an atom at the same time.
   bool depends(int block, std::size_t atom) const { return depends_[at(block) * atoms() + atom] != 0; }
   /// The same for an output, or for the rate of a state, through delays shorter than a step as well.
@@ -121,7 +121,7 @@ class BlockSignals {
   Dual limited(const Blocks::Block& block, Dual v) const;
   /// Evaluation of the past as seen from `now` [s]. Derivatives are by time or, unless it is -1, by the atom as it is now.
   struct Look {
-    const Past& past;
+    const DelayHistory& history;
     double now, aside;
     int atom = -1;
     bool present = false;  ///< the value found depends on the present
@@ -146,7 +146,7 @@ class BlockSignals {
   std::vector<std::deque<Stretch>> moved_;      ///< of each sensor: pieces of a prescribed motion
   std::vector<int> state_channel_, sensor_channel_;
   std::size_t channel_count_ = 0;
-  std::vector<Past::Known> remembered_;
+  std::vector<DelayHistory::Known> remembered_;
   std::vector<Dual> out_, before_limits_;
   std::vector<signed char> side_;
   std::vector<Limit> limits_;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/network/around.hpp"
-#include "core/network/index.hpp"
-#include "core/network/listed.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
+#include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
 
@@ -37,7 +37,7 @@ Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   }
   for (std::size_t r = 0; r < dae.network().rates.size(); ++r) set(dae.force_unknown(static_cast<int>(r)), 2);
   for (std::size_t k = 0; k < dae.structure().kind.size(); ++k) set(dae.position_unknown(static_cast<NodeId>(k)), 3);
-  for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) set(dae.block_unknown(k), 4);
+  for (std::size_t k = 0; k < dae.inputs().blocks().states(); ++k) set(dae.block_unknown(k), 4);
 }
 
 void Consistency::wake() {
@@ -108,8 +108,8 @@ void Consistency::report_singular(double t) {
   throw UndeterminedError(network.spot_of_node(nodes.front()), fmt::format(
       "{} nothing determines the motion of {} {}: every element there has come to a constant force, or the values of {} lie "
       "too far apart for double precision; give the node a mass, a dashpot or a spring",
-      at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", listed(names),
-      listed(elements_at(network, nodes))));
+      at_time(*network.scene, t), nodes.size() > 1 ? "one of the massless nodes" : "massless node", format_list(names),
+      format_list(elements_at(network, nodes))));
 }
 
 void Consistency::report_unsolved(double t) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/network/sets.hpp"
+#include "core/base/disjoint_sets.hpp"
 
 namespace rheonet {
 
@@ -125,7 +125,7 @@ void ConvexNetwork::choose_weak() {
 /// Branches between equal start values stick; massless nodes follow nodes to which they can stick.
 void ConvexNetwork::stick_at_first() {
   const std::size_t n = u_.size();
-  Sets sets(n);
+  DisjointSets sets(n);
   std::vector<char> heavy(n, 0);  // of each set: its value is given
   std::vector<int> head(n);       // the node that gives it
   for (std::size_t k = 0; k < n; ++k) {
@@ -164,7 +164,7 @@ void ConvexNetwork::stick_at_first() {
 
 /// Merges the nodes that sticking branches join into clusters, each at one value.
 void ConvexNetwork::merge() {
-  Sets sets(u_.size());
+  DisjointSets sets(u_.size());
   for (const Branch& b : branches_) {
     if (b.stuck) sets.join(b.a, b.b);
   }

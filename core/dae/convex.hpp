@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 
@@ -16,7 +16,7 @@ namespace rheonet {
 /// exact line search, finds it. A branch whose law jumps at 0 sticks (joins its ends) while its force stays within the jump.
 /// Increments u are stored apart from x: the increment of a heavy node can be below one ulp of x while its inertial force still
 /// matters. Likewise steps add to w = x_a - x_b of a branch, so that a small w keeps all its digits. x stands for velocities,
-/// as in onset.cpp, or for displacements, as in jump.cpp.
+/// as in mode_selection.cpp, or for displacements, as in quasistatic_jump.cpp.
 class ConvexNetwork {
  public:
   struct Law {

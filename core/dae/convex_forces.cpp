@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/disjoint_sets.hpp"
 #include "core/dae/convex.hpp"
 #include "core/nonsmooth/conductances.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -18,7 +18,7 @@ constexpr double weak_limit = 1e-6;
 
 }  // namespace
 
-/// Forces of least norm in the branches that stick: see bonds.cpp.
+/// Forces of least norm in the branches that stick: see stick_forces.cpp.
 void ConvexNetwork::find_bond_forces() {
   bond_force_.assign(branches_.size(), 0);
   if (std::none_of(branches_.begin(), branches_.end(), [](const Branch& b) { return b.stuck; })) return;
@@ -135,7 +135,7 @@ bool ConvexNetwork::run_away() {
 /// True if laws that reach a bound only in the limit have done so, and an imbalance remains.
 bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   // The parts of the network that remain when flat laws are cut: only bounds hold them.
-  Sets parts(u_.size());
+  DisjointSets parts(u_.size());
   for (const Branch& b : branches_) {
     const double w = b.w;
     if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > flat_share * std::abs(force(b, w, b.side)) || w == 0) {

@@ -7,23 +7,23 @@
 
 namespace rheonet {
 
-Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed)
+Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed)
     : network_(&network),
       structure_(&structure),
-      drive_(&drive),
-      bonds_(network, structure),
+      inputs_(&inputs),
+      stick_forces_(network, structure),
       positions_(find_positions(network, structure, needed)) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
   for (NodeId node : positions_.integrated) ix_[at(node)] = size_++;
-  for (std::size_t k = 0; k < drive.blocks().states(); ++k) iz_.push_back(size_++);
+  for (std::size_t k = 0; k < inputs.blocks().states(); ++k) iz_.push_back(size_++);
 
   // All motions are given, but IDA needs an equation: y' = 0 costs nothing.
   idle_ = size_ == 0;
   if (idle_) size_ = 1;
 
   rows_.reserve(structure.closing.size() + positions_.integrated.size());
-  felt_terms_.resize(drive.past().delayed().size());
+  felt_terms_.resize(inputs.history().delayed().size());
   for (const int branch : structure.closing) add_row(ip_[at(branch)], false, closed_loop(network, structure, branch));
   for (NodeId node : positions_.integrated) {
     add_row(ix_[at(node)], true, minus_velocity(structure, node, positions_.of[at(node)].parent));
@@ -47,7 +47,7 @@ Dae::Dae(const Network& network, const Structure& structure, Drive& drive, const
   view_.rate_velocity = view_.rate_force = rate_in_;
   build_pattern();
   find_loose_dashpots();
-  follows_time_ = (drive.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time();
+  follows_time_ = (inputs.fastest() > 0 || !network.blocks.blocks.empty()) && any_follows_time();
 }
 
 Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
@@ -65,9 +65,9 @@ Dae::Terms Dae::add_terms(const Structure::Loop& loop) {
 
 void Dae::add_row(int row, bool position, const Structure::Loop& loop) {
   const Row r{.row = row, .position = position, .terms = add_terms(loop),
-              .delayed = position ? -1 : drive_->past().index_of(loop.branch)};
+              .delayed = position ? -1 : inputs_->history().index_of(loop.branch)};
   if (r.delayed >= 0) {
-    const Past::Delayed& delayed = drive_->past().delayed()[at(r.delayed)];
+    const DelayHistory::Delayed& delayed = inputs_->history().delayed()[at(r.delayed)];
     const Branch& b = structure_->deflections[at(loop.branch)];
     Structure::Loop now{.branch = -1, .flows = {}, .velocities = {}};
     if (delayed.free_a) now.velocities.push_back({b.a, -1});
@@ -213,7 +213,7 @@ void Dae::take_entries(Drafts& drafts) {
 void Dae::enter(double t, const State& state, const Modes& modes, std::vector<double>& y) {
   set_rate_forms();
   update_holds();
-  drive_->evaluate(t);
+  inputs_->evaluate(t);
   offset_ = state.offset;
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = network_->sliders[k].branch;
@@ -246,7 +246,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
 std::vector<double> Dae::places(const State& state) const {
   std::vector<double> place = state.position;
   for (std::size_t m = 0; m < network_->motions.size(); ++m) {
-    if (network_->motions[m].block < 0) place[at(network_->motions[m].node)] = drive_->position[m];
+    if (network_->motions[m].block < 0) place[at(network_->motions[m].node)] = inputs_->position[m];
   }
   for (const NodeId node : positions_.order) {
     const Position& x = positions_.of[at(node)];
@@ -259,7 +259,7 @@ std::vector<double> Dae::places(const State& state) const {
 void Dae::leave(State& state) const {
   state.velocity = view_.velocity;
   state.p = view_.p;
-  for (std::size_t k = 0; k < iz_.size(); ++k) state.blocks[k] = drive_->blocks().state[k].value;
+  for (std::size_t k = 0; k < iz_.size(); ++k) state.blocks[k] = inputs_->blocks().state[k].value;
   for (NodeId node : positions_.order) state.position[at(node)] = view_.position[at(node)];
 }
 

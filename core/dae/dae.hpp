@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "core/dae/bonds.hpp"
-#include "core/dae/drive.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
+#include "core/dae/inputs.hpp"
 #include "core/dae/matrix.hpp"
 #include "core/dae/positions.hpp"
 #include "core/dae/state.hpp"
-#include "core/network/index.hpp"
+#include "core/dae/stick_forces.hpp"
 #include "core/network/network.hpp"
-#include "core/network/sets.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
@@ -35,15 +35,15 @@ namespace rheonet {
 ///   z  z' - rate of the block's state = 0
 class Dae {
  public:
-  /// `needed` marks the nodes whose positions are requested (one flag a node). Network, structure and drive must outlive this.
-  Dae(const Network& network, const Structure& structure, Drive& drive, const std::vector<char>& needed);
+  /// `needed` marks the nodes whose positions are requested (one flag a node). Network, structure and inputs must outlive this.
+  Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed);
 
   int size() const { return size_; }
   /// Number of actual unknowns: 0 if every motion is given (size() is then 1).
   int unknowns() const { return idle_ ? 0 : size_; }
   const Network& network() const { return *network_; }
   const Structure& structure() const { return *structure_; }
-  Drive& drive() { return *drive_; }
+  Inputs& inputs() { return *inputs_; }
 
   /// Starts from a state at time t. Sliders slip in the directions of `modes` (the structure says which ones stick). Writes y,
   /// and prepares the laws of the network for these equations.
@@ -86,9 +86,9 @@ class Dae {
     std::vector<double> position;      ///< of each known node, and of those marked as needed [m]
   };
   const View& view(double t, const double* y, const double* yp);
-  /// Makes a double stand for the exact time t (see Drive::refine). The view is computed anew if that changes anything.
+  /// Makes a double stand for the exact time t (see Inputs::refine). The view is computed anew if that changes anything.
   void refine(TimePoint t) {
-    if (drive_->refine(t)) viewed_ = {};
+    if (inputs_->refine(t)) viewed_ = {};
   }
   /// The last view if its arguments are the same. The laws, y and y' must not have changed since.
   const View& view_again(double t, const double* y, const double* yp) {
@@ -150,7 +150,7 @@ class Dae {
   void update_holds();
   /// Holds these branches at rest in the state (t, y, y'), in a Filippov sliding mode: their forces follow from their
   /// neighbours. A branch whose ends others hold together already rests instead.
-  void stand(double t, const double* y, const double* yp, const std::vector<Standing>& standing);
+  void enter_sliding_modes(double t, const double* y, const double* yp, const std::vector<SlidingMode>& sliding_modes);
   /// This branch has been released at velocity w. Releases the branches in parallel that were held with it, in the direction of
   /// its law, and returns them.
   std::vector<int> release_parallel(int branch, double w);
@@ -168,11 +168,11 @@ class Dae {
   /// Force that a motion applies to its node [N] in the state last viewed.
   double reaction(NodeId node) const;
   /// Output of a block in the state last viewed.
-  double output(int block) const { return drive_->blocks().out(block).value; }
+  double output(int block) const { return inputs_->blocks().out(block).value; }
   /// Limiters take the sides that fit this state: see BlockSignals::choose.
   void choose_limits(double t, const double* y, const double* yp);
   /// Value of force number `index` of the network [N] in the state last viewed.
-  double applied_force(int index) const { return drive_->force[at(index)]; }
+  double applied_force(int index) const { return inputs_->force[at(index)]; }
 
  private:
   /// An entry that is plus or minus the slope of a deflection or rate law.
@@ -181,7 +181,7 @@ class Dae {
   struct Scatter { int entry, index; Source source; Sign sign; };
   /// Terms [flow_begin, flow_end) of flows_ and [velocity_begin, velocity_end) of velocities_.
   struct Terms { int flow_begin, flow_end, velocity_begin, velocity_end; };
-  /// Equation of a loop or position, less the velocity that a delayed branch feels (index into Drive::felt, -1: none).
+  /// Equation of a loop or position, less the velocity that a delayed branch feels (index into Inputs::felt, -1: none).
   struct Row { int row; bool position; Terms terms; int delayed; };
 
   /// Branches in parallel that are held at rest have one velocity, 0, and one value of its set-valued sign in [-1, 1]
@@ -196,13 +196,13 @@ class Dae {
     std::vector<int> row_entries;
     bool active;
   };
-  // standing.cpp
+  // sliding_mode.cpp
   void find_parallels();
   /// Holds a branch at rest in the state last viewed, if its law can, and with it those in parallel. `lean` as for
   /// DeflectionBatch::hold.
   void hold_parallel(int branch, int lean);
   /// A branch in parallel has been held, and this one with it.
-  bool beside_held(int branch, const std::vector<Standing>& standing) const;
+  bool beside_held(int branch, const std::vector<SlidingMode>& sliding_modes) const;
   /// Difference of the shares of a follower and its leader in the mixture [m/s], and its derivatives by p and p' of both.
   struct Shared { double difference, by_own, by_leader, by_own_rate, by_leader_rate; };
   Shared share(const Follower& follower, double own_rate, double leader_rate) const;
@@ -231,7 +231,7 @@ class Dae {
 
   void number_unknowns();
   bool any_follows_time() const;
-  std::vector<char> told_by_dilatant_laws(Sets told) const;
+  std::vector<char> told_by_dilatant_laws(DisjointSets told) const;
   void add_row(int row, bool position, const Structure::Loop& loop);
   Terms add_terms(const Structure::Loop& loop);
   double sum_of(const Terms& terms, const double* yp) const;
@@ -248,14 +248,14 @@ class Dae {
   void take_entries(Drafts& drafts);
   template <class Visit>
   void for_each_mass(Visit visit) const;
-  // evaluate.cpp
+  // residual.cpp
   void gather(double t, const double* y);
   void sum_forces();
   void evaluate_forces(double t, const double* y);
   // loose_dashpots.cpp
   void find_loose_dashpots();
   void balance_loose_dashpots();
-  // view.cpp
+  // state_evaluation.cpp
   void share_among_joined(double t);
   void view_velocities(const double* yp);
   std::vector<double> places(const State& state) const;
@@ -265,8 +265,8 @@ class Dae {
 
   const Network* network_;
   const Structure* structure_;
-  Drive* drive_;
-  Bonds bonds_;
+  Inputs* inputs_;
+  StickForces stick_forces_;
   Positions positions_;
   int size_ = 0;
   bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;
@@ -298,7 +298,7 @@ class Dae {
   std::vector<Scatter> scatter_;
 
   std::vector<double> offset_;  ///< displacement less deflection of each deflection branch that does not creep
-  std::vector<double> driven_from_;    ///< of each driven branch: its deflection at the last `enter` or `mark` of the drive [m]
+  std::vector<double> driven_from_;    ///< of each driven branch: its deflection at the last `enter` or `mark` of the inputs [m]
   std::vector<double> slider_shift_;   ///< displacement of each sticking slider
   std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
   std::vector<char> by_force_;         ///< of each rate branch: these equations need its law as w = rate(f)

@@ -9,7 +9,7 @@ using What = Blocks::Sensor::What;
 /// The unknowns that an atom of the blocks (a state or a sensor value) depends on.
 std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
   using By = Coupling::By;
-  const BlockSignals& blocks = drive_->blocks();
+  const BlockSignals& blocks = inputs_->blocks();
   if (atom < blocks.states()) return {{iz_[atom], 1, By::itself, 0}};
   const Blocks::Sensor& sensor = network_->blocks.sensors[atom - blocks.states()];
   if (sensor.motion >= 0) return {};
@@ -26,7 +26,7 @@ std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
 
 void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor, Coupling::By by,
                  std::size_t branch) {
-  const BlockSignals& blocks = drive_->blocks();
+  const BlockSignals& blocks = inputs_->blocks();
   for (std::size_t atom = 0; row >= 0 && atom < blocks.atoms(); ++atom) {
     if (!(of_rate ? blocks.rate_couples(source, atom) : blocks.couples(static_cast<int>(source), atom))) continue;
     for (const AtomTerm& term : terms_of_atom(atom)) {
@@ -85,19 +85,19 @@ void Dae::couple_motions(PatternBuilder& builder) {
 void Dae::move_by_blocks(const double* y) {
   const auto by_block = [](const Network::Motion& m) { return m.block >= 0; };
   if (std::none_of(network_->motions.begin(), network_->motions.end(), by_block)) return;
-  BlockSignals& blocks = drive_->blocks();
+  BlockSignals& blocks = inputs_->blocks();
   for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];
     if (sensor.motion < 0 && sensor.what == What::position) blocks.sensed[k] = y[ix_[at(sensor.index)]];
   }
   blocks.run(true);
-  drive_->apply_blocks();
+  inputs_->apply_blocks();
 }
 
 /// Rate of a velocity that a block gives, due to the states and positions that it depends on [m/s^2].
 double Dae::acceleration_by(const Network::Motion& motion) const {
-  const BlockSignals& blocks = drive_->blocks();
+  const BlockSignals& blocks = inputs_->blocks();
   double sum = 0;
   for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(motion.block, k) * blocks.rate(k);
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
@@ -110,7 +110,7 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
 
 /// Evaluates the states and sensor values; then all outputs.
 void Dae::feel_blocks(const double* y) {
-  BlockSignals& blocks = drive_->blocks();
+  BlockSignals& blocks = inputs_->blocks();
   for (std::size_t k = 0; k < iz_.size(); ++k) blocks.state[k] = y[iz_[k]];
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];
@@ -130,15 +130,15 @@ void Dae::feel_blocks(const double* y) {
       blocks.sensed[k] = if_[at(place.index)] >= 0 ? in : law.force_at(i, in);
     }
   }
-  drive_->look_back();
+  inputs_->look_back();
   blocks.run(true);
-  drive_->apply_blocks();
+  inputs_->apply_blocks();
 }
 
 void Dae::block_jacobian(double* values) const {
   if (couplings_.empty()) return;
-  BlockSignals& blocks = drive_->blocks();
-  blocks.update_slopes(drive_->past());
+  BlockSignals& blocks = inputs_->blocks();
+  blocks.update_slopes(inputs_->history());
   for (const Coupling& c : couplings_) {
     const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
     const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;
@@ -147,7 +147,7 @@ void Dae::block_jacobian(double* values) const {
 }
 
 void Dae::choose_limits(double t, const double* y, const double* yp) {
-  BlockSignals& blocks = drive_->blocks();
+  BlockSignals& blocks = inputs_->blocks();
   if (blocks.limits().empty()) return;
   view(t, y, yp);
   blocks.run(false);

@@ -43,7 +43,7 @@ void Dae::number_unknowns() {
   const auto massless = [&](NodeId node) { return !known(node) && structure_->kind[at(node)] != Kind::massive; };
   // `told` joins nodes whose relative velocity is determined by laws without a flat part, or by masses and motions. `softest`
   // is the softest linear dashpot at each node.
-  Sets told(network.nodes());
+  DisjointSets told(network.nodes());
   std::vector<double> softest(network.nodes(), std::numeric_limits<double>::infinity());
   for (NodeId node : network.node_order) {
     if (!massless(node)) told.join(node, ground);
@@ -99,7 +99,7 @@ bool Dae::any_follows_time() const {
 
 /// Marks dilatant laws in parallel with a law with a memory whose velocity other dilatant laws determine (on top of `told`).
 /// These laws are solved for their velocity, as they may rest under load, where their force is 0 to more digits than there are.
-std::vector<char> Dae::told_by_dilatant_laws(Sets told) const {
+std::vector<char> Dae::told_by_dilatant_laws(DisjointSets told) const {
   std::vector<char> result(structure_->rates.size(), 0);
   std::set<std::pair<NodeId, NodeId>> with_memory;
   for (const Branch& b : structure_->deflections) with_memory.insert(std::minmax(b.a, b.b));

@@ -7,9 +7,9 @@
 #include <functional>
 #include <map>
 
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
 #include "core/dae/convex.hpp"
-#include "core/network/index.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -101,7 +101,7 @@ class Steps {
   /// Marks the nodes without a known step that a path of such dashpots joins to a node with one. Each node represents those
   /// that move with it.
   std::vector<char> led_by(const std::vector<BranchDashpot>& dashpots) {
-    Sets parts(dx_.size());
+    DisjointSets parts(dx_.size());
     for (const BranchDashpot& d : dashpots) {
       if (!known(d.a) && !known(d.b)) parts.join(together_.find(d.a), together_.find(d.b));
     }
@@ -119,7 +119,7 @@ class Steps {
 
   const Structure& structure_;
   std::vector<double>& dx_;
-  Sets together_;  ///< nodes that move as one
+  DisjointSets together_;  ///< nodes that move as one
   std::vector<char> known_;
   double farthest_ = 0;  ///< the largest step: scale of the others
 };
@@ -176,7 +176,7 @@ class RigidParts {
   }
 
   const Structure& structure_;
-  Sets parts_;
+  DisjointSets parts_;
   std::vector<std::vector<NodeId>> holders_;  ///< of each part
 };
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/index.hpp"
 #include "core/dae/sparse_factors.hpp"
-#include "core/network/index.hpp"
 
 namespace rheonet {
 

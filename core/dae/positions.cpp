@@ -1,6 +1,6 @@
 #include "core/dae/positions.hpp"
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

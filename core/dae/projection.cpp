@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/index.hpp"
+#include "core/base/roundoff.hpp"
 #include "core/dae/consistency.hpp"
-#include "core/network/index.hpp"
-#include "core/network/velocity_grain.hpp"
 
 namespace rheonet {
 
@@ -60,7 +60,7 @@ class Consistency::Projection {
         trial_(n_),
         next_(n_),
         scale_(n_, 0) {
-    for (const double v : dae_.drive().velocity) known_velocity_ = std::max(known_velocity_, std::abs(v));
+    for (const double v : dae_.inputs().velocity) known_velocity_ = std::max(known_velocity_, std::abs(v));
     fastest_ = known_velocity_;
     for (std::size_t i = 0; i < n_; ++i) {
       if (c_.kind_[i] == velocity) fastest_ = std::max(fastest_, std::abs(y_[i]));
@@ -261,7 +261,7 @@ class Consistency::Projection {
   void finish() {
     // A velocity that is round-off becomes 0. A mass keeps the smallest velocity.
     for (std::size_t i = 0; i < n_; ++i) {
-      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_grain * fastest_) y_[i] = 0;
+      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_roundoff * fastest_) y_[i] = 0;
     }
     // Integrals that nothing changes keep their last digit.
     trial_ = y_;

@@ -17,13 +17,13 @@ ConvexNetwork::Law rate_law(const RateBatch& batch, std::size_t i, double scale)
           }};
 }
 
-Drive::Reach coming_reach(const Drive& drive, const std::vector<double>& velocity) {
-  Drive::Reach reach = drive.reach();
+Inputs::Reach coming_reach(const Inputs& inputs, const std::vector<double>& velocity) {
+  Inputs::Reach reach = inputs.reach();
   for (const double v : velocity) reach.velocity = std::max(reach.velocity, std::abs(v));
   return reach;
 }
 
-double coming_force(const RateBatch& batch, std::size_t i, const Drive::Reach& reach) {
+double coming_force(const RateBatch& batch, std::size_t i, const Inputs::Reach& reach) {
   const double force = std::max(reach.force, batch.force_at(i, reach.velocity));
   return force > 0 ? force : 1;  // nothing ever moves: any value will do
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/dae/convex.hpp"
-#include "core/dae/drive.hpp"
+#include "core/dae/inputs.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet {
@@ -11,8 +11,8 @@ namespace rheonet {
 ConvexNetwork::Law rate_law(const RateBatch& batch, std::size_t i, double scale);
 
 /// Scales for use while no force acts yet: the reach of the inputs, and the present velocities.
-Drive::Reach coming_reach(const Drive& drive, const std::vector<double>& velocity);
+Inputs::Reach coming_reach(const Inputs& inputs, const std::vector<double>& velocity);
 /// Estimate of the force of element i within this reach [N]. Above 0.
-double coming_force(const RateBatch& batch, std::size_t i, const Drive::Reach& reach);
+double coming_force(const RateBatch& batch, std::size_t i, const Inputs::Reach& reach);
 
 }  // namespace rheonet

@@ -159,7 +159,7 @@ void follow_motion(const Network& network, const Network::Motion& motion, Places
 }
 
 /// The state with laws at the deflections that they start with.
-State first_state(const Network& network, const std::vector<double>& x, const Drive& drive) {
+State first_state(const Network& network, const std::vector<double>& x, const Inputs& inputs) {
   State state;
   state.position = x;
   state.velocity.assign(x.size(), 0);
@@ -176,7 +176,7 @@ State first_state(const Network& network, const std::vector<double>& x, const Dr
       state.offset.push_back(d - state.p.back());
     }
   }
-  for (std::size_t k = 0; k < drive.blocks().states(); ++k) state.blocks.push_back(drive.blocks().initial(k));
+  for (std::size_t k = 0; k < inputs.blocks().states(); ++k) state.blocks.push_back(inputs.blocks().initial(k));
   return state;
 }
 
@@ -187,7 +187,7 @@ void refuse_velocities_against_links(const Network& network) {
     double velocity = 0;
     std::string words = {};
   };
-  Sets linked = joined_by_links(network);
+  DisjointSets linked = joined_by_links(network);
   std::vector<Leader> leader(network.nodes());
   const auto leader_of = [&](NodeId node) -> Leader& { return leader[static_cast<std::size_t>(linked.find(node))]; };
   leader_of(ground) = {ground, 0, "the ground"};
@@ -214,8 +214,8 @@ Start start(const Network& network, const Structure& classified) {
   refuse_velocities_against_links(network);
   follow_displacements(network, places.x, places.fixed);
 
-  Start result{.state = {}, .drive = Drive(network, classified, 0, places.x), .chosen = {}};
-  result.state = first_state(network, places.x, result.drive);
+  Start result{.state = {}, .inputs = Inputs(network, classified, 0, places.x), .chosen = {}};
+  result.state = first_state(network, places.x, result.inputs);
   const std::vector<std::string> chosen = start_pairs(network, places.x);
   result.chosen = balance_start(network, classified, places.fixed, result.state);
   result.chosen.insert(result.chosen.end(), chosen.begin(), chosen.end());

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/dae/drive.hpp"
+#include "core/dae/inputs.hpp"
 #include "core/dae/state.hpp"
 #include "core/network/network.hpp"
 
@@ -12,7 +12,7 @@ namespace rheonet {
 /// A network just before its run, and its inputs.
 struct Start {
   State state;
-  Drive drive;
+  Inputs inputs;
   std::vector<std::string> chosen;  ///< values that were neither given nor implied, in words
 };
 

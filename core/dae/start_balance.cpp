@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

@@ -19,7 +19,7 @@ struct State {
 };
 
 /// A deflection branch in a Filippov sliding mode: both directions hold it at rest.
-struct Standing {
+struct SlidingMode {
   int branch;
   int lean;  ///< side of the branch to which a slider in parallel is at its bound: -1, 1, or 0 if there is none
 };

@@ -1,6 +1,6 @@
 #include "core/dae/rate_law.hpp"
-#include "core/dae/settling.hpp"
-#include "core/network/overload.hpp"
+#include "core/dae/steady_state_solver.hpp"
+#include "core/network/overload_report.hpp"
 
 namespace rheonet {
 
@@ -14,7 +14,7 @@ constexpr double far_share = 1e5;
 }  // namespace
 
 /// Chooses the node that represents each set: one whose velocity is given if there is one.
-void Settling::lead(Sets& sets) {
+void SteadyStateSolver::lead(DisjointSets& sets) {
   std::vector<NodeId> first(velocity_.size(), -1);
   for (const bool given : {true, false}) {
     for (std::size_t n = 0; n < velocity_.size(); ++n) {
@@ -28,8 +28,8 @@ void Settling::lead(Sets& sets) {
 
 /// Finds the velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
 /// accelerates. False if sliders have broken away under more than their sliding force.
-bool Settling::find_velocities() {
-  Sets rigid(velocity_.size());
+bool SteadyStateSolver::find_velocities() {
+  DisjointSets rigid(velocity_.size());
   for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
   lead(rigid);
   ConvexNetwork problem = velocity_problem();
@@ -81,7 +81,7 @@ bool Settling::find_velocities() {
 }
 
 /// True if any of the sliders that move in these directions had held more than its sliding force until now.
-bool Settling::break_away(const std::vector<int>& direction) {
+bool SteadyStateSolver::break_away(const std::vector<int>& direction) {
   bool any = false;
   for (std::size_t k = 0; k < direction.size(); ++k) {
     const Slip& law = network_.sliders[k].law;
@@ -91,7 +91,7 @@ bool Settling::break_away(const std::vector<int>& direction) {
   return any;
 }
 
-ConvexNetwork Settling::velocity_problem() const {
+ConvexNetwork SteadyStateSolver::velocity_problem() const {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     const NodeId node = static_cast<NodeId>(n);
@@ -106,8 +106,8 @@ ConvexNetwork Settling::velocity_problem() const {
 }
 
 /// Without loads and sliding friction (`scale` is 0), each element has a scale of its own.
-void Settling::add_rates(ConvexNetwork& problem, double scale) const {
-  const Drive::Reach reach = coming_reach(drive_, velocity_);
+void SteadyStateSolver::add_rates(ConvexNetwork& problem, double scale) const {
+  const Inputs::Reach reach = coming_reach(inputs_, velocity_);
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = network_.rates[at(laws.first) + i];
@@ -119,7 +119,7 @@ void Settling::add_rates(ConvexNetwork& problem, double scale) const {
 }
 
 /// The largest velocity that this force gives to a resisting element, or that is given.
-double Settling::natural_speed(double force) const {
+double SteadyStateSolver::natural_speed(double force) const {
   double speed = 0;
   for (double v : velocity_) speed = std::max(speed, std::abs(v));
   for (const Law& law : laws_) {
@@ -132,7 +132,7 @@ double Settling::natural_speed(double force) const {
 }
 
 /// Solves the problem; values beyond `far` have run away.
-void Settling::solve(ConvexNetwork& problem, double far) const {
+void SteadyStateSolver::solve(ConvexNetwork& problem, double far) const {
   const ConvexNetwork::Outcome outcome = problem.solve();
   if (outcome == ConvexNetwork::Outcome::solved) return;
   std::vector<NodeId> nodes;
@@ -145,14 +145,14 @@ void Settling::solve(ConvexNetwork& problem, double far) const {
   report_undecided(network_, kind() + ":");
 }
 
-void Settling::take_velocities(const ConvexNetwork& problem) {
+void SteadyStateSolver::take_velocities(const ConvexNetwork& problem) {
   for (std::size_t n = 0; n < velocity_.size(); ++n) velocity_[n] = problem.value(leader(static_cast<NodeId>(n)));
 }
 
 /// Solves once more, with sticking elements rigid and slipping ones as forces: this removes the effect of regularising slopes.
 /// Velocities that are undetermined without these slopes stay as they are.
-void Settling::refine_velocities(double scale) {
-  Sets joined(velocity_.size());
+void SteadyStateSolver::refine_velocities(double scale) {
+  DisjointSets joined(velocity_.size());
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     if (laws_[j].elastic()) joined.join(network_.deflections[j].a, network_.deflections[j].b);
   }
@@ -185,7 +185,7 @@ void Settling::refine_velocities(double scale) {
   if (problem.solve() == ConvexNetwork::Outcome::solved) take_velocities(problem);
 }
 
-void Settling::refuse_motion() const {
+void SteadyStateSolver::refuse_motion() const {
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     if (velocity_[n] == 0) continue;
     throw SimulationError(network_.spot_of_node(static_cast<NodeId>(n)), fmt::format(

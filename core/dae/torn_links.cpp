@@ -4,18 +4,18 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/index.hpp"
 #include "core/dae/dashpot_steps.hpp"
-#include "core/dae/instant.hpp"
-#include "core/network/index.hpp"
+#include "core/dae/event_transition.hpp"
 #include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
 /// The time at which two known nodes have different velocities, if any: now, or, for functions of time, until the next
 /// discontinuity of one.
-std::optional<Instant::Parting> Instant::parting(double t, NodeId a, NodeId b) const {
+std::optional<EventTransition::Parting> EventTransition::parting(double t, NodeId a, NodeId b) const {
   constexpr double rounding = 1e-12;  // of the largest velocity: one may be given by its position
-  const double fast = drive_.reach().velocity;
+  const double fast = inputs_.reach().velocity;
   const auto apart = [&](double then) -> std::optional<Parting> {
     const double va = given_velocity(a), vb = given_velocity(b);
     if (std::abs(va - vb) <= rounding * (fast + std::abs(va) + std::abs(vb))) return {};
@@ -23,27 +23,27 @@ std::optional<Instant::Parting> Instant::parting(double t, NodeId a, NodeId b) c
   };
   std::optional<Parting> found = apart(t);
   if (found || !structure_.of_time[at(a)] || !structure_.of_time[at(b)]) return found;
-  const double end = std::min(drive_.next_break(), network_.scene->stop - network_.scene->start);
+  const double end = std::min(inputs_.next_break(), network_.scene->stop - network_.scene->start);
   for (const double share : {0.37, 0.83}) {
     const double then = t + share * std::max(0.0, end - t);
-    drive_.evaluate(then);
+    inputs_.evaluate(then);
     if (!found) found = apart(then);
   }
-  drive_.evaluate(t);
+  inputs_.evaluate(t);
   return found;
 }
 
 /// "node `a`, which motion `drive` moves at 1 m/s,", or "`ground`".
-std::string Instant::moved_node(NodeId node, const std::string& how) const {
+std::string EventTransition::moved_node(NodeId node, const std::string& how) const {
   if (node == ground) return "`ground`";
   const int motion = structure_.motion[at(node)];
   return fmt::format("node `{}`, which motion `{}` moves{},", network_.node_name(node),
                      network_.scene->elements[at(network_.motions[at(motion)].element)].name, how);
 }
 
-void Instant::refuse_torn_links(double t) const {
+void EventTransition::refuse_torn_links(double t) const {
   if (std::none_of(network_.sliders.begin(), network_.sliders.end(), is_rigid_link)) return;
-  Sets linked = joined_by_links(network_);
+  DisjointSets linked = joined_by_links(network_);
   std::vector<NodeId> first(structure_.kind.size(), -1);
   for (std::size_t n = 0; n < first.size(); ++n) {
     if (structure_.kind[n] != Kind::known) continue;
@@ -65,9 +65,9 @@ void Instant::refuse_torn_links(double t) const {
 }
 
 /// Nodes that rigid links join to a prescribed node step with it, whatever their mass: they count as prescribed.
-Structure Instant::take_along(double t, std::vector<double>& dx) const {
+Structure EventTransition::take_along(double t, std::vector<double>& dx) const {
   Structure led = structure_;
-  Sets linked = joined_by_links(network_);
+  DisjointSets linked = joined_by_links(network_);
   std::vector<NodeId> leader(dx.size(), -1);
   for (std::size_t n = 0; n < dx.size(); ++n) {
     if (structure_.kind[n] != Kind::known) continue;
@@ -89,7 +89,7 @@ Structure Instant::take_along(double t, std::vector<double>& dx) const {
   return led;
 }
 
-void Instant::refuse_tearing_step(double t, NodeId first, NodeId node, double by) const {
+void EventTransition::refuse_tearing_step(double t, NodeId first, NodeId node, double by) const {
   const LinksBetween links = links_between(network_, first, node);
   throw SimulationError(network_.spot_of(links.first), fmt::format("{} a step in position tears {} from {} by {}, and {} join{} them; leave out {} or {}",
                                     at_time(*network_.scene, t), moved_node(node, ""), moved_node(first, ""),

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/netlist/characters.hpp"
-#include "core/netlist/keys.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -62,60 +62,60 @@ std::string values_in(const Formula& formula, const Environment& environment) {
 }
 
 void evaluate_check(const std::string& name, const TomlValue& that, Severity severity, const std::string& message,
-                    const Environment& environment, Mistakes& mistakes) {
+                    const Environment& environment, DiagnosticList& diagnostics) {
   const std::string what = "check `" + name + "`";
-  if (!expect_string(that, what, mistakes, check_example)) return;
+  if (!expect_string(that, what, diagnostics, check_example)) return;
   const Comparisons comparisons = comparisons_of(that.text);
   if (comparisons.chained != std::string_view::npos) {
     const auto before = std::string_view(that.text).substr(0, comparisons.chained);
-    mistakes.error(mistakes.inside(that, count_characters(before)), what + ": a comparison has two sides",
+    diagnostics.error(diagnostics.inside(that, count_characters(before)), what + ": a comparison has two sides",
                    "two of them are joined with `&&`: \"0 < a && a < b\"");
     return;
   }
-  const Formula formula(that, what, mistakes);
-  const auto holds = formula.evaluate(environment, mistakes);
+  const Formula formula(that, what, diagnostics);
+  const auto holds = formula.evaluate(environment, diagnostics);
   if (!holds) return;
   if (!comparisons.any || !holds->dimension.is_number() || (holds->value != 0 && holds->value != 1)) {
-    mistakes.error(that.spot, what + " must be a comparison, but is " + describe(that), check_example);
+    diagnostics.error(that.spot, what + " must be a comparison, but is " + describe(that), check_example);
     return;
   }
   if (holds->value == 1) return;
   if (const auto wrong = mismatch(that.text, environment)) {
-    mistakes.error(mistakes.inside(that, wrong->offset), what + ": " + wrong->message, wrong->hint);
+    diagnostics.error(diagnostics.inside(that, wrong->offset), what + ": " + wrong->message, wrong->hint);
     return;
   }
   std::string hint = "`" + that.text + "` does not hold";
   if (const std::string values = values_in(formula, environment); !values.empty()) hint += ": " + values;
   const std::string text = what + (message.empty() ? " fails" : ": " + message);
-  severity == Severity::error ? mistakes.error(that.spot, text, hint) : mistakes.warning(that.spot, text, hint);
+  severity == Severity::error ? diagnostics.error(that.spot, text, hint) : diagnostics.warning(that.spot, text, hint);
 }
 
 }  // namespace
 
-void evaluate_checks(const TomlValue& checks, const Environment& environment, Mistakes& mistakes) {
-  if (!expect_table(checks, "`check`", mistakes, check_example)) return;
+void evaluate_checks(const TomlValue& checks, const Environment& environment, DiagnosticList& diagnostics) {
+  if (!expect_table(checks, "`check`", diagnostics, check_example)) return;
   for (const TomlEntry& entry : checks.entries) {
     if (!entry.value.is_table()) {
-      evaluate_check(entry.key, entry.value, Severity::warning, "", environment, mistakes);
+      evaluate_check(entry.key, entry.value, Severity::warning, "", environment, diagnostics);
       continue;
     }
-    Keys keys(entry.value, "check `" + entry.key + "`");
-    const TomlEntry* that = keys.require("that", entry.spot, check_example);
-    const TomlEntry* warn = keys.find("warn");
-    const TomlEntry* error = keys.find("error");
-    keys.finish(mistakes);
+    TableReader reader(entry.value, "check `" + entry.key + "`");
+    const TomlEntry* that = reader.require("that", entry.spot, check_example);
+    const TomlEntry* warn = reader.find("warn");
+    const TomlEntry* error = reader.find("error");
+    reader.finish(diagnostics);
     if (warn && error) {
-      refuse_both(*warn, *error, "check `" + entry.key + "`", mistakes,
+      refuse_both(*warn, *error, "check `" + entry.key + "`", diagnostics,
                   "only one of them can be given: a run goes on after a warning");
       continue;
     }
     const TomlEntry* message = warn ? warn : error;
-    if (message && !expect_string(message->value, "`" + message->key + "`", mistakes,
+    if (message && !expect_string(message->value, "`" + message->key + "`", diagnostics,
                                   "it is the text that is shown where the comparison does not hold"))
       continue;
     if (that)
       evaluate_check(entry.key, that->value, error ? Severity::error : Severity::warning,
-                     message ? message->value.text : "", environment, mistakes);
+                     message ? message->value.text : "", environment, diagnostics);
   }
 }
 

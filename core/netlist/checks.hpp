@@ -1,13 +1,13 @@
 #pragma once
 
+#include "core/netlist/diagnostic_list.hpp"
 #include "core/netlist/document.hpp"
 #include "core/netlist/expression.hpp"
-#include "core/netlist/mistakes.hpp"
 
 namespace rheonet {
 
 /// Evaluates `[check]`: named comparisons between parameters. A comparison that does not hold gives a warning, or an error
 /// if its entry says so, with the entry's message and the values compared.
-void evaluate_checks(const TomlValue& checks, const Environment& environment, Mistakes& mistakes);
+void evaluate_checks(const TomlValue& checks, const Environment& environment, DiagnosticList& diagnostics);
 
 }  // namespace rheonet

@@ -16,9 +16,9 @@ bool is_time(Claim::Figure figure) {
 }
 
 double ClaimValues::time(const TomlValue& source, const std::string& name) const {
-  const Formula formula(source, name, context_.mistakes);
+  const Formula formula(source, name, context_.diagnostics);
   if (!formula.given()) return not_given;
-  const auto t = formula.evaluate_finite(environment_, Quantity::time, context_.domain, context_.mistakes);
+  const auto t = formula.evaluate_finite(environment_, Quantity::time, context_.domain, context_.diagnostics);
   check_in_run(source, name, t.value_or(not_given));
   return t.value_or(not_given);
 }
@@ -26,23 +26,23 @@ double ClaimValues::time(const TomlValue& source, const std::string& name) const
 void ClaimValues::check_in_run(const TomlValue& source, const std::string& name, double t) const {
   if (std::isnan(scene_.start) || std::isnan(scene_.stop)) return;  // this mistake has been reported
   if (t < scene_.start || t > scene_.stop)
-    context_.mistakes.error(source.spot,
+    context_.diagnostics.error(source.spot,
                             fmt::format("{} must be within the run, {} s to {} s, but is {} s", name,
                                         number_text(scene_.start), number_text(scene_.stop), number_text(t)));
 }
 
 double ClaimValues::level(const TomlValue& source, const std::string& name, const Number& expected) const {
-  Mistakes& mistakes = context_.mistakes;
-  const Formula formula(source, name, mistakes);
+  DiagnosticList& diagnostics = context_.diagnostics;
+  const Formula formula(source, name, diagnostics);
   if (!formula.given()) return not_given;
-  const auto number = formula.evaluate(environment_, mistakes);
+  const auto number = formula.evaluate(environment_, diagnostics);
   if (!number) return not_given;
   if (!fits(*number, expected)) {
-    mistakes.error(source.spot, fmt::format("{}: expected {}, found {}", name, describe(expected), describe(*number)));
+    diagnostics.error(source.spot, fmt::format("{}: expected {}, found {}", name, describe(expected), describe(*number)));
     return not_given;
   }
   if (std::isfinite(number->value)) return number->value;
-  mistakes.error(source.spot, name + " must be finite, but is infinite");
+  diagnostics.error(source.spot, name + " must be finite, but is infinite");
   return not_given;
 }
 

@@ -2,9 +2,9 @@
 
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/diagnostic.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 #include "core/netlist/dimension.hpp"
 #include "core/netlist/files.hpp"
-#include "core/netlist/mistakes.hpp"
 
 namespace rheonet {
 
@@ -13,7 +13,7 @@ struct Context {
   Declarations declarations;
   Domain domain = Domain::translation;
   Files& files;
-  Mistakes& mistakes;
+  DiagnosticList& diagnostics;
   bool models_missing = false;  ///< an included file could not be read, which may be why a type is unknown
 };
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "core/netlist/keys.hpp"
 #include "core/netlist/counting.hpp"
 #include "core/netlist/read_presentation.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -27,19 +27,19 @@ std::string words_for(const Number& number) {
 
 /// The values of a range in SI; absent if one has a mistake.
 std::optional<std::vector<double>> values_of(const TomlEntry& entry, const Number& parameter,
-                                             const Environment& environment, Mistakes& mistakes) {
+                                             const Environment& environment, DiagnosticList& diagnostics) {
   std::vector<double> values;
   for (const TomlValue& item : entry.value.items) {
-    const Formula formula(item, "slider `" + entry.key + "`", mistakes);
-    const auto number = formula.given() ? formula.evaluate(environment, mistakes) : std::nullopt;
+    const Formula formula(item, "slider `" + entry.key + "`", diagnostics);
+    const auto number = formula.given() ? formula.evaluate(environment, diagnostics) : std::nullopt;
     if (!number) return {};
     if (!fits(*number, parameter)) {
-      mistakes.error(item.spot, fmt::format("slider `{}`: expected {}, as the parameter is, found {}", entry.key,
+      diagnostics.error(item.spot, fmt::format("slider `{}`: expected {}, as the parameter is, found {}", entry.key,
                                             words_for(parameter), words_for(*number)));
       return {};
     }
     if (!std::isfinite(number->value)) {
-      mistakes.error(item.spot, "slider `" + entry.key + "`: a slider ends at finite values");
+      diagnostics.error(item.spot, "slider `" + entry.key + "`: a slider ends at finite values");
       return {};
     }
     values.push_back(number->value);
@@ -57,33 +57,33 @@ std::pair<std::string, double> unit_of(const TomlEntry& entry, const Number& par
   return {parameter.dimension.is_number() ? "" : to_string(parameter.dimension), 1};
 }
 
-std::optional<Demo::Slider> read_slider(const TomlEntry& entry, const Environment& environment, Mistakes& mistakes) {
+std::optional<Demo::Slider> read_slider(const TomlEntry& entry, const Environment& environment, DiagnosticList& diagnostics) {
   const auto parameter = environment.names.find(entry.key);
   if (parameter == environment.names.end()) {
     std::vector<std::string> names;
     for (const auto& [name, number] : environment.names) names.push_back(name);
-    mistakes.error(entry.spot, "slider `" + entry.key + "`: there is no such parameter",
+    diagnostics.error(entry.spot, "slider `" + entry.key + "`: there is no such parameter",
                    did_you_mean(entry.key, names, "a slider is that of an entry of [parameters]"));
     return {};
   }
   const std::string what = "slider `" + entry.key + "`";
-  if (!expect_array(entry.value, what, mistakes, demo_example)) return {};
+  if (!expect_array(entry.value, what, diagnostics, demo_example)) return {};
   if (entry.value.items.size() != 2 && entry.value.items.size() != 3) {
-    mistakes.error(entry.value.spot, what + " takes two values, between which it goes, and a step if it has one", demo_example);
+    diagnostics.error(entry.value.spot, what + " takes two values, between which it goes, and a step if it has one", demo_example);
     return {};
   }
-  const auto values = values_of(entry, parameter->second, environment, mistakes);
+  const auto values = values_of(entry, parameter->second, environment, diagnostics);
   if (!values || std::isnan(parameter->second.value)) return {};  // this has been reported
   const auto [unit, size] = unit_of(entry, parameter->second, environment);
   Demo::Slider slider{.parameter = entry.key, .unit = unit, .least = (*values)[0] / size, .most = (*values)[1] / size};
   if (!(slider.least < slider.most)) {
-    mistakes.error(entry.value.items[1].spot, what + " must end above where it begins");
+    diagnostics.error(entry.value.items[1].spot, what + " must end above where it begins");
     return {};
   }
   if (values->size() == 3) {
     slider.step = (*values)[2] / size;
     if (!(slider.step > 0 && slider.step <= slider.most - slider.least)) {
-      mistakes.error(entry.value.items[2].spot, what + ": the step must be above 0 and within the range");
+      diagnostics.error(entry.value.items[2].spot, what + ": the step must be above 0 and within the range");
       return {};
     }
   }
@@ -94,23 +94,23 @@ std::optional<Demo::Slider> read_slider(const TomlEntry& entry, const Environmen
 }  // namespace
 
 Demo read_demo(const TomlValue& table, const Environment& environment, Context& context) {
-  Mistakes& mistakes = context.mistakes;
+  DiagnosticList& diagnostics = context.diagnostics;
   Demo demo;
-  if (!expect_table(table, "`demo`", mistakes, "[demo] has the keys question, change, see, why and sliders")) return demo;
-  Keys keys(table, "[demo]");
+  if (!expect_table(table, "`demo`", diagnostics, "[demo] has the keys question, change, see, why and sliders")) return demo;
+  TableReader reader(table, "[demo]");
   const auto text = [&](const char* key, std::string& target) {
-    const TomlEntry* entry = keys.require(key, table.spot, std::string("a text: ") + key + " = \"...\"");
-    if (entry && expect_string(entry->value, std::string("`") + key + "`", mistakes)) target = entry->value.text;
+    const TomlEntry* entry = reader.require(key, table.spot, std::string("a text: ") + key + " = \"...\"");
+    if (entry && expect_string(entry->value, std::string("`") + key + "`", diagnostics)) target = entry->value.text;
   };
   text("question", demo.question);
   text("change", demo.change);
   text("see", demo.see);
   text("why", demo.why);
-  const TomlEntry* sliders = keys.find("sliders");
-  keys.finish(mistakes);
-  if (!sliders || !expect_table(sliders->value, "`sliders`", mistakes, demo_example)) return demo;
+  const TomlEntry* sliders = reader.find("sliders");
+  reader.finish(diagnostics);
+  if (!sliders || !expect_table(sliders->value, "`sliders`", diagnostics, demo_example)) return demo;
   for (const TomlEntry& entry : sliders->value.entries)
-    if (auto slider = read_slider(entry, environment, mistakes)) demo.sliders.push_back(std::move(*slider));
+    if (auto slider = read_slider(entry, environment, diagnostics)) demo.sliders.push_back(std::move(*slider));
   return demo;
 }
 

@@ -110,7 +110,7 @@ int begin_of_number(std::string_view line, int column) {
 }
 
 /// Reports an error of toml++ in the words of this project, with a remedy.
-void report(const toml::parse_error& e, std::string_view text, int file, Mistakes& mistakes) {
+void report(const toml::parse_error& e, std::string_view text, int file, DiagnosticList& diagnostics) {
   std::string description(e.description());
   Spot spot = spot_of(e.source().begin, file);
   const std::string_view line = line_of(text, spot.line);
@@ -125,48 +125,48 @@ void report(const toml::parse_error& e, std::string_view text, int file, Mistake
   const std::string one_line =
       "close it with }: an inline table stands on one line; a long one can be a table of its own, [elements.name]";
   if (says("cannot redefine existing table '") && says("table header")) {
-    mistakes.error(spot, "table `" + quoted() + "` is given twice", "put the entries of both under one header");
+    diagnostics.error(spot, "table `" + quoted() + "` is given twice", "put the entries of both under one header");
   } else if (says("cannot redefine existing") && says("as dotted")) {
-    mistakes.error(spot, "`" + key_at(line, spot.column) + "` adds to a table that is given whole elsewhere",
+    diagnostics.error(spot, "`" + key_at(line, spot.column) + "` adds to a table that is given whole elsewhere",
                    "put it with the other entries of that table");
   } else if (says("cannot redefine existing") && !quoted().empty()) {
     // For a key in quotes the parser does not report the name.
     const bool named = line.find(quoted()) != line.npos;
     spot.column = named ? column_of_key(line, quoted(), spot.column - 1) : begin_of_key(line, spot.column - 1);
-    mistakes.error(spot, "key `" + (named ? quoted() : key_at(line, spot.column)) + "` is given twice",
+    diagnostics.error(spot, "key `" + (named ? quoted() : key_at(line, spot.column)) + "` is given twice",
                    "a key may stand only once in a table");
   } else if (says("could not determine value type")) {
     if (word.find('=') != word.npos)
-      mistakes.error(spot, "expected a value, found `" + word + "`", "is a closing bracket missing before it?");
+      diagnostics.error(spot, "expected a value, found `" + word + "`", "is a closing bracket missing before it?");
     else
-      mistakes.error(spot, "`" + word + "` is not a value", "a text stands in quotes: \"" + word + "\"");
+      diagnostics.error(spot, "`" + word + "` is not a value", "a text stands in quotes: \"" + word + "\"");
   } else if (says("expected value, saw") && line_ends) {
-    mistakes.error(spot, "a value is missing after `=`");
+    diagnostics.error(spot, "a value is missing after `=`");
   } else if (says("expected '=', saw")) {
-    mistakes.error(spot,
+    diagnostics.error(spot,
                    "expected `=` after the key, found " + (line_ends ? "the end of the line" : "`" + quoted() + "`"));
   } else if (says("expected ']', saw") && line_ends) {
-    mistakes.error(spot, "the header of a table is not closed", "close it with ]");
+    diagnostics.error(spot, "the header of a table is not closed", "close it with ]");
   } else if (says("inline table: expected") && line_ends) {
-    mistakes.error(spot, "the line ends within an inline table", one_line);
+    diagnostics.error(spot, "the line ends within an inline table", one_line);
   } else if (says("expected a comment or whitespace") || says("expected comma or closing")) {
-    mistakes.error(spot, "unexpected `" + word + "` after a value",
+    diagnostics.error(spot, "unexpected `" + word + "` after a value",
                    "a quantity or an expression stands in quotes (\"3 N/m\"); entries of an array or inline table are "
                    "separated by commas");
   } else if (says("dangling comma")) {
-    mistakes.error(spot, "an inline table may not end with a comma", "remove the comma before `}`");
+    diagnostics.error(spot, "an inline table may not end with a comma", "remove the comma before `}`");
   } else if (says("unknown escape sequence")) {
-    mistakes.error(spot, "unknown escape `" + quoted() + "` in a string",
+    diagnostics.error(spot, "unknown escape `" + quoted() + "` in a string",
                    "a backslash is written \\\\, or the string stands in single quotes");
   } else if (says("end-of-file")) {
-    mistakes.error(spot, "the file ends where a value or a closing bracket is expected");
+    diagnostics.error(spot, "the file ends where a value or a closing bracket is expected");
   } else if (says("TOML_MAX_NESTED_VALUES")) {
-    mistakes.error(spot, "arrays and tables are nested deeper than 256 levels", "a model can hold a part of it");
+    diagnostics.error(spot, "arrays and tables are nested deeper than 256 levels", "a model can hold a part of it");
   } else {
     constexpr std::string_view prefix = "Error while parsing ";
     if (description.starts_with(prefix)) description.erase(0, prefix.size());
     if (says("decimal") || says("integer") || says("floating-point")) spot.column = begin_of_number(line, spot.column);
-    mistakes.error(spot, "not valid TOML: " + description);
+    diagnostics.error(spot, "not valid TOML: " + description);
   }
 }
 
@@ -199,13 +199,13 @@ std::string describe(const TomlValue& value) {
   return {};
 }
 
-std::optional<TomlValue> parse_toml(int file, const Sources& sources, Mistakes& mistakes) {
+std::optional<TomlValue> parse_toml(int file, const Sources& sources, DiagnosticList& diagnostics) {
   const std::string& text = sources.files[static_cast<std::size_t>(file)].text;
-  if (!scan_toml(text, file, mistakes)) return {};
+  if (!scan_toml(text, file, diagnostics)) return {};
   try {
     return convert(toml::parse(text), file);
   } catch (const toml::parse_error& e) {
-    report(e, text, file, mistakes);
+    report(e, text, file, diagnostics);
     return {};
   }
 }
@@ -225,7 +225,7 @@ std::optional<TomlValue> parse_toml_value(std::string_view text, Spot spot) {
   };
   if (text.find('\n') != text.npos) return {};
   const Sources none;
-  Mistakes ignored(none);
+  DiagnosticList ignored(none);
   if (!scan_toml(text, 0, ignored)) return {};
   try {
     TomlValue document = convert(toml::parse(std::string(key) + std::string(text)), 0);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/netlist/diagnostic.hpp"
-#include "core/netlist/mistakes.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 
 namespace rheonet {
 
@@ -42,7 +42,7 @@ struct TomlEntry {
 std::string describe(const TomlValue& value);
 
 /// Parses sources.files[file]. Reports a syntax error as a mistake; the result is then absent.
-std::optional<TomlValue> parse_toml(int file, const Sources& sources, Mistakes& mistakes);
+std::optional<TomlValue> parse_toml(int file, const Sources& sources, DiagnosticList& diagnostics);
 
 /// Parses `text` as one value, located at `spot` on the command line; absent if `text` is no TOML value.
 std::optional<TomlValue> parse_toml_value(std::string_view text, Spot spot);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/netlist/keys.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -16,32 +16,32 @@ class EffectList {
  public:
   enum class Purpose { leave_out, keep };
   EffectList(Context& context, const Scene& scene, Purpose purpose)
-      : declarations_(context.declarations), mistakes_(context.mistakes), scene_(scene), purpose_(purpose) {}
+      : declarations_(context.declarations), diagnostics_(context.diagnostics), scene_(scene), purpose_(purpose) {}
 
   void add(const TomlValue& word) {
-    if (!expect_string(word, "an effect", mistakes_, "one of " + list_names(names()))) return;
+    if (!expect_string(word, "an effect", diagnostics_, "one of " + list_names(names()))) return;
     const std::size_t colon = word.text.find(':');
     const std::string name = word.text.substr(0, colon);
     const std::optional<Effect> effect = find_effect(name);
     if (!effect) {
-      mistakes_.error(mistakes_.inside(word, 0), "there is no effect `" + name + "`",
+      diagnostics_.error(diagnostics_.inside(word, 0), "there is no effect `" + name + "`",
                       did_you_mean(name, names(), "the effects are " + list_names(names(), "and")));
       return;
     }
     EffectLeftOut out{*effect, colon == std::string::npos ? "" : word.text.substr(colon + 1)};
     if (colon != std::string::npos && !names_something(out)) {
-      mistakes_.error(mistakes_.inside(word, colon + 1), "nothing is called `" + out.of + "`", did_you_mean(out.of, paths()));
+      diagnostics_.error(diagnostics_.inside(word, colon + 1), "nothing is called `" + out.of + "`", did_you_mean(out.of, paths()));
       return;
     }
     if (purpose_ == Purpose::leave_out && !brought(out)) {
-      mistakes_.warning(mistakes_.inside(word, 0), "nothing" + (out.of.empty() ? " in the scene" : " in `" + out.of + "`") + " has " +
+      diagnostics_.warning(diagnostics_.inside(word, 0), "nothing" + (out.of.empty() ? " in the scene" : " in `" + out.of + "`") + " has " +
                                                        in_words(*effect) + ": to leave it out changes nothing", what_is_brought(out.of));
     }
     found_.push_back(std::move(out));
   }
 
   void add_all(const TomlEntry& list) {
-    if (!expect_array(list.value, "`" + list.key + "`", mistakes_, list.key + " = [\"inertia\", \"delay\"]")) return;
+    if (!expect_array(list.value, "`" + list.key + "`", diagnostics_, list.key + " = [\"inertia\", \"delay\"]")) return;
     for (const TomlValue& word : list.value.items) add(word);
   }
 
@@ -104,7 +104,7 @@ class EffectList {
   }
 
   Declarations declarations_;
-  Mistakes& mistakes_;
+  DiagnosticList& diagnostics_;
   const Scene& scene_;
   Purpose purpose_;
   std::vector<EffectLeftOut> found_;
@@ -139,12 +139,12 @@ void read_effects(const TomlEntry* table, const std::vector<std::string>& withou
                   Context& context, Sources& sources, Scene& scene) {
   EffectList out(context, scene, EffectList::Purpose::leave_out), stay(context, scene, EffectList::Purpose::keep);
   bool some_stay = only.has_value();
-  if (table && expect_table(table->value, "`effects`", context.mistakes, "[effects] with without = [...] or only = [...]")) {
-    Keys keys(table->value, "[effects]");
-    const TomlEntry* table_without = keys.find("without");
-    const TomlEntry* table_only = keys.find("only");
-    keys.finish(context.mistakes);
-    if (table_without && table_only) refuse_both(*table_without, *table_only, "[effects]", context.mistakes);
+  if (table && expect_table(table->value, "`effects`", context.diagnostics, "[effects] with without = [...] or only = [...]")) {
+    TableReader reader(table->value, "[effects]");
+    const TomlEntry* table_without = reader.find("without");
+    const TomlEntry* table_only = reader.find("only");
+    reader.finish(context.diagnostics);
+    if (table_without && table_only) refuse_both(*table_without, *table_only, "[effects]", context.diagnostics);
     if (table_without && !only) out.add_all(*table_without);
     if (table_only && !only) {
       stay.add_all(*table_only);

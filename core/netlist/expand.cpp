@@ -21,16 +21,16 @@ std::string joined(const std::string& path, const std::string& name) { return pa
 
 /// The number of members of a repeat, a whole number of at least 1; absent, with a mistake, otherwise.
 std::optional<double> member_count(const Repeat& repeat, const Environment& environment, Context& context) {
-  const auto wanted = repeat.count.evaluate(environment, Quantity::number, context.domain, context.mistakes);
+  const auto wanted = repeat.count.evaluate(environment, Quantity::number, context.domain, context.diagnostics);
   if (!wanted || (*wanted >= 1 && *wanted == std::floor(*wanted))) return wanted;
-  context.mistakes.error(repeat.count.source().spot,
+  context.diagnostics.error(repeat.count.source().spot,
                          "`count` must be a whole number of at least 1, but is " + number_text(*wanted));
   return {};
 }
 
 /// The overrides inside a repeat of `count` members, each with the index of its member.
 std::vector<std::pair<std::size_t, ActiveOverride>> by_member(const ActiveOverrides& overrides, std::size_t count,
-                                                              const std::string& path, Mistakes& mistakes) {
+                                                              const std::string& path, DiagnosticList& diagnostics) {
   std::vector<std::pair<std::size_t, ActiveOverride>> members;
   for (const ActiveOverride& active : overrides) {
     const std::string& name = active.next().name;
@@ -38,7 +38,7 @@ std::vector<std::pair<std::size_t, ActiveOverride>> by_member(const ActiveOverri
     if (index < static_cast<double>(count)) {
       members.emplace_back(static_cast<std::size_t>(index), active.deeper());
     } else {
-      mistakes.error(active.next().spot, "`" + path + "` has no member " + name,
+      diagnostics.error(active.next().spot, "`" + path + "` has no member " + name,
                      "its members are `" + path + ".0` to `" + path + "." + std::to_string(count - 1) + "`");
     }
   }
@@ -60,7 +60,7 @@ NodeId Expander::new_node(std::string name, Spot spot) {
 }
 
 bool Expander::refuse_number(Spot spot) {
-  context_.mistakes.error(spot, "the scene has more than " + std::to_string(most_elements) + " elements");
+  context_.diagnostics.error(spot, "the scene has more than " + std::to_string(most_elements) + " elements");
   stopped_ = true;
   return false;
 }
@@ -81,11 +81,11 @@ bool Expander::entries(Locals& locals, const std::string& prefix, const Environm
   bool good = true;
   std::vector<NodeId> ends;
   for (std::size_t i = 0; i < locals.scope.entries.size() && !stopped_; ++i) {
-    const Plan& plan = locals.scope.entries[i];
+    const ElementTemplate& plan = locals.scope.entries[i];
     ActiveOverrides own, deeper;
     for (const ActiveOverride& active : overrides)
       if (active.next().name == plan.name) own.push_back(active.deeper());
-    const Plan& final_plan = own.empty() ? plan : overridden(plan, &locals.scope, own, false, deeper);
+    const ElementTemplate& final_plan = own.empty() ? plan : overridden(plan, &locals.scope, own, false, deeper);
     bool expanded = final_plan.sound;
     if (expanded) {
       ends.clear();
@@ -99,27 +99,27 @@ bool Expander::entries(Locals& locals, const std::string& prefix, const Environm
   return good;
 }
 
-bool Expander::entry(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+bool Expander::entry(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   return plan.repeat ? repeat(plan, ends, path, around) : body(plan, ends, path, around);
 }
 
-bool Expander::body(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+bool Expander::body(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   if (around.depth > most_nested) {
-    context_.mistakes.error(plan.spot,
+    context_.diagnostics.error(plan.spot,
                             "groups and models are nested deeper than " + std::to_string(most_nested) + " levels");
     return false;
   }
   switch (plan.kind) {
-    case Plan::Kind::element:
+    case ElementTemplate::Kind::element:
       return element(plan, ends, path, around);
-    case Plan::Kind::instance:
+    case ElementTemplate::Kind::instance:
       return instance(plan, ends, path, around);
     default:
       return group(plan, ends, path, around);
   }
 }
 
-bool Expander::element(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   if (scene_.elements.size() >= most_elements) return refuse_number(plan.spot);
   SceneElement element;
   if (!element_values(plan, around.environment, element)) return false;
@@ -133,12 +133,12 @@ bool Expander::element(const Plan& plan, Ends ends, const std::string& path, con
   if (around.force)
     around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1 : -1});
   scene_.elements.push_back(std::move(element));
-  wire(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
+  connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;
 }
 
 /// Evaluates one value, or takes its default; false if the value is invalid.
-bool Expander::element_value(const Plan& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
+bool Expander::element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
   if (!formula.given()) {
@@ -148,17 +148,17 @@ bool Expander::element_value(const Plan& plan, const Environment& environment, s
   element.given.set(i);
   std::optional<double> value;
   if (parameter.unit == Parameter::Unit::quantity) {
-    value = formula.evaluate(environment, parameter.quantity, context_.domain, context_.mistakes, flow_index);
-  } else if (const auto number = formula.evaluate(environment, context_.mistakes)) {
+    value = formula.evaluate(environment, parameter.quantity, context_.domain, context_.diagnostics, flow_index);
+  } else if (const auto number = formula.evaluate(environment, context_.diagnostics)) {
     value = number->value;
     flow_index = 1;
   }
   if (!value) return false;
   values_[i] = *value;
-  return check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.mistakes);
+  return check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.diagnostics);
 }
 
-bool Expander::element_values(const Plan& plan, const Environment& environment, SceneElement& element) {
+bool Expander::element_values(const ElementTemplate& plan, const Environment& environment, SceneElement& element) {
   const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
   const std::vector<Parameter>& parameters = declaration.parameters;
   const auto index_of = [&](const std::string& name) {
@@ -182,7 +182,7 @@ bool Expander::element_values(const Plan& plan, const Environment& environment, 
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(values_)) {
       const Formula& formula = plan.values[index_of(misfit->parameter)];
-      context_.mistakes.error(formula.given() ? formula.source().spot : plan.spot,
+      context_.diagnostics.error(formula.given() ? formula.source().spot : plan.spot,
                               fmt::format("`{}` {}", misfit->parameter, misfit->what));
       good = false;
     }
@@ -199,7 +199,7 @@ Shared<double> Expander::shared_values(int declaration) {
   return last;
 }
 
-bool Expander::element_signals(const Plan& plan, const Environment& environment, SceneElement& element) {
+bool Expander::element_signals(const ElementTemplate& plan, const Environment& environment, SceneElement& element) {
   bool good = true;
   for (std::size_t i = 0; i < plan.signals.size(); ++i) {
     const auto signal = plan.signals[i].evaluate(environment, context_);
@@ -208,7 +208,7 @@ bool Expander::element_signals(const Plan& plan, const Environment& environment,
     element.signals.own().push_back(*signal);
     element.signal_parameters.own().push_back(plan.signal_parameters[i]);
   }
-  for (const Wire& feed : plan.feeds) {
+  for (const SignalConnection& feed : plan.feeds) {
     element.signals.own().emplace_back(Signal::Constant{0});  // until the output of the block replaces it
     element.signal_parameters.own().push_back(feed.parameter);
   }
@@ -220,7 +220,7 @@ bool Expander::element_signals(const Plan& plan, const Environment& environment,
   return good;
 }
 
-std::size_t Expander::begin_assembly(const Plan& plan, Ends ends, const std::string& path) {
+std::size_t Expander::begin_assembly(const ElementTemplate& plan, Ends ends, const std::string& path) {
   scene_.assemblies.push_back({path, ends[0], ends[1], {}, plan.spot});
   return scene_.assemblies.size() - 1;
 }
@@ -231,7 +231,7 @@ void Expander::end_assembly(std::size_t assembly, Terms force, const Surrounding
   scene_.assemblies[assembly].force = std::move(force);
 }
 
-bool Expander::group(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+bool Expander::group(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   const std::size_t assembly = begin_assembly(plan, ends, path);
   Terms force;
   Level level{path};
@@ -241,13 +241,13 @@ bool Expander::group(const Plan& plan, Ends ends, const std::string& path, const
   return good;
 }
 
-bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surroundings& around) {
-  const bool series = plan.kind == Plan::Kind::series;
+bool Expander::members(const ElementTemplate& plan, Ends ends, Level& level, const Surroundings& around) {
+  const bool series = plan.kind == ElementTemplate::Kind::series;
   if (around.depth > most_nested) return body(plan, ends, level.path, around);  // which reports the mistake
   bool good = true;
   NodeId before = ends[0];
   for (std::size_t i = 0; i < plan.members.size() && !stopped_; ++i) {
-    const Plan& member = plan.members[i];
+    const ElementTemplate& member = plan.members[i];
     const bool last = i + 1 == plan.members.size();
     const NodeId after = !series || last ? ends[1] : new_node({}, plan.spot);
     const NodeId member_ends[] = {series ? before : ends[0], after};
@@ -261,7 +261,7 @@ bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surround
       ActiveOverrides own, deeper;
       for (const ActiveOverride& active : around.overrides)
         if (active.next().name == member.name) own.push_back(active.deeper());
-      const Plan& final_member = own.empty() ? member : overridden(member, nullptr, own, false, deeper);
+      const ElementTemplate& final_member = own.empty() ? member : overridden(member, nullptr, own, false, deeper);
       good = final_member.sound &&
              entry(final_member, member_ends, joined(level.path, member.name),
                    {nullptr, around.environment, deeper, around.depth + 1, force}) &&
@@ -275,13 +275,13 @@ bool Expander::members(const Plan& plan, Ends ends, Level& level, const Surround
   return good;
 }
 
-bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
-  Mistakes& mistakes = context_.mistakes;
+bool Expander::repeat(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
+  DiagnosticList& diagnostics = context_.diagnostics;
   const Repeat& repeat = *plan.repeat;
   const auto wanted = member_count(repeat, around.environment, context_);
   if (!wanted) return false;
   const auto refuse = [&](double elements) {
-    mistakes.error(repeat.count.source().spot, "this `repeat` makes " + number_text(elements) +
+    diagnostics.error(repeat.count.source().spot, "this `repeat` makes " + number_text(elements) +
                                                    " elements; a scene may have at most " +
                                                    std::to_string(most_elements));
     stopped_ = true;
@@ -290,7 +290,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
   if (*wanted > static_cast<double>(most_elements)) return refuse(*wanted);
   const auto count = static_cast<std::size_t>(*wanted);
 
-  const auto overridden_members = by_member(around.overrides, count, path, mistakes);
+  const auto overridden_members = by_member(around.overrides, count, path, diagnostics);
   const bool assembled = ends.size() == 2 && !plan.at;
   const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;
   Terms force;
@@ -299,7 +299,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
   Number& number = environment.names[repeat.as];
   const std::string prefix = path + '.';
   std::string member_path;
-  const Mistakes::Within within(mistakes, member_path);
+  const DiagnosticList::Within within(diagnostics, member_path);
   const std::size_t elements_before = scene_.elements.size();
   NodeId before = ends.empty() ? ground : ends[0];  // a block has no ends
   bool good = true;
@@ -309,7 +309,7 @@ bool Expander::repeat(const Plan& plan, Ends ends, const std::string& path, cons
     ActiveOverrides own, deeper;
     for (const auto& [index, active] : overridden_members)
       if (index == i) own.push_back(active);
-    const Plan& member = own.empty() ? plan : overridden(plan, around.scope, own, true, deeper);
+    const ElementTemplate& member = own.empty() ? plan : overridden(plan, around.scope, own, true, deeper);
     const Surroundings inside{around.scope, environment, deeper, around.depth + 1,
                               assembled && (!repeat.series || i == 0) ? &force : nullptr};
     if (repeat.series) {

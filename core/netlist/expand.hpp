@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/netlist/element_templates.hpp"
 #include "core/netlist/overrides.hpp"
-#include "core/netlist/plan.hpp"
-#include "core/netlist/wires.hpp"
 #include "core/netlist/scene.hpp"
+#include "core/netlist/signal_connections.hpp"
 
 namespace rheonet {
 
@@ -17,7 +17,7 @@ namespace rheonet {
 /// repeats.
 class Expander {
  public:
-  Expander(Context& context, Planner& planner, Scene& scene) : context_(context), planner_(planner), scene_(scene) {}
+  Expander(Context& context, TemplateReader& planner, Scene& scene) : context_(context), planner_(planner), scene_(scene) {}
 
   /// Expands all entries of the scene's own `elements`. `overrides` are those whose path begins with an element.
   void run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides);
@@ -53,41 +53,41 @@ class Expander {
   // Each returns false if the entry that it expands has a mistake.
   bool entries(Locals& locals, const std::string& prefix, const Environment& environment,
                const ActiveOverrides& overrides, int depth);
-  bool entry(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
-  bool body(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
-  bool element(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
-  bool group(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
-  bool members(const Plan& plan, Ends ends, Level& level, const Surroundings& around);
-  bool instance(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
-  bool repeat(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around);
+  bool entry(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
+  bool body(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
+  bool element(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
+  bool group(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
+  bool members(const ElementTemplate& plan, Ends ends, Level& level, const Surroundings& around);
+  bool instance(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
+  bool repeat(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
 
-  bool element_value(const Plan& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
-  bool element_values(const Plan& plan, const Environment& environment, SceneElement& element);
+  bool element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
+  bool element_values(const ElementTemplate& plan, const Environment& environment, SceneElement& element);
   Shared<double> shared_values(int declaration);
-  bool element_signals(const Plan& plan, const Environment& environment, SceneElement& element);
+  bool element_signals(const ElementTemplate& plan, const Environment& environment, SceneElement& element);
   /// Records the wires of the element made last: inputs and units of a block, the feed of a source.
-  void wire(const Plan& plan, const Environment& environment, int element);
-  std::string path_of(const Wire& wire) const;
-  bool instance_parameters(const Plan& plan, const Environment& around, Environment& inside);
+  void connection(const ElementTemplate& plan, const Environment& environment, int element);
+  std::string path_of(const SignalConnection& connection) const;
+  bool instance_parameters(const ElementTemplate& plan, const Environment& around, Environment& inside);
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);
-  std::size_t begin_assembly(const Plan& plan, Ends ends, const std::string& path);
+  std::size_t begin_assembly(const ElementTemplate& plan, Ends ends, const std::string& path);
   void end_assembly(std::size_t assembly, Terms force, const Surroundings& around);
   bool refuse_number(Spot spot);
   NodeId new_node(std::string name, Spot spot);
   NodeId node(Locals& locals, int index);
 
   /// The plan with the overrides of its own keys applied; `deeper` receives the overrides of entries inside it.
-  const Plan& overridden(const Plan& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
+  const ElementTemplate& overridden(const ElementTemplate& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
                          ActiveOverrides& deeper);
 
   /// More than today's machines can simulate; that many elements take a few GB.
   static constexpr std::size_t most_elements = 5'000'000;
 
   Context& context_;
-  Planner& planner_;
+  TemplateReader& planner_;
   Scene& scene_;
   std::deque<TomlValue> patched_values_;
-  std::deque<Plan> patched_plans_;
+  std::deque<ElementTemplate> patched_plans_;
   std::vector<double> values_;        ///< of the element being made
   std::vector<Shared<double>> made_;  ///< for each declaration, the values of its last element
   std::set<std::string> failed_;

@@ -2,16 +2,16 @@
 #include <cctype>
 #include <cmath>
 
-#include "core/netlist/expand.hpp"
 #include "core/netlist/counting.hpp"
+#include "core/netlist/expand.hpp"
 #include "core/netlist/group_names.hpp"
 
 namespace rheonet {
 
 namespace {
 
-bool has_member(const Plan& group, const std::string& name) {
-  return std::any_of(group.members.begin(), group.members.end(), [&](const Plan& member) {
+bool has_member(const ElementTemplate& group, const std::string& name) {
+  return std::any_of(group.members.begin(), group.members.end(), [&](const ElementTemplate& member) {
     return has_level(member) ? member.name == name : has_member(member, name);
   });
 }
@@ -21,12 +21,12 @@ bool is_number(const std::string& text) {
 }
 
 /// Whether an override applies to something within the plan, not to one of its own keys.
-bool goes_deeper(const Plan& plan, const ActiveOverride& active, bool is_member) {
+bool goes_deeper(const ElementTemplate& plan, const ActiveOverride& active, bool is_member) {
   if (active.at_end()) return false;
   const std::string& name = active.next().name;
   if (plan.repeat && !is_member) return is_number(name);
-  if (plan.kind == Plan::Kind::element) return false;
-  if (plan.kind != Plan::Kind::instance) return has_member(plan, name);
+  if (plan.kind == ElementTemplate::Kind::element) return false;
+  if (plan.kind != ElementTemplate::Kind::instance) return has_member(plan, name);
   const auto named = [&](const auto& thing) { return thing.name == name; };
   // A parameter and an element of a model may share a name: a path that ends there means the parameter.
   const auto& parameters = plan.model->parameters;
@@ -41,8 +41,8 @@ bool names_place(const ActiveOverride& active) {
 }
 
 /// Collects the names that an override may use within a plan besides its keys.
-void collect_names(const Plan& plan, std::vector<std::string>& names) {
-  for (const Plan& member : plan.members) {
+void collect_names(const ElementTemplate& plan, std::vector<std::string>& names) {
+  for (const ElementTemplate& member : plan.members) {
     if (has_level(member))
       names.push_back(member.name);
     else
@@ -50,17 +50,17 @@ void collect_names(const Plan& plan, std::vector<std::string>& names) {
   }
   if (!plan.model) return;
   for (const NamedFormula& parameter : plan.model->parameters) names.push_back(parameter.name);
-  for (const Plan& entry : plan.model->scope.entries) names.push_back(entry.name);
+  for (const ElementTemplate& entry : plan.model->scope.entries) names.push_back(entry.name);
 }
 
 /// Whether an override names neither a key of the plan nor anything within it; reports a mistake if so.
-bool is_lost(const Plan& plan, const ActiveOverride& active, bool is_member, Mistakes& mistakes) {
-  if (plan.kind == Plan::Kind::element || active.at_end()) return false;
+bool is_lost(const ElementTemplate& plan, const ActiveOverride& active, bool is_member, DiagnosticList& diagnostics) {
+  if (plan.kind == ElementTemplate::Kind::element || active.at_end()) return false;
   const std::string& name = active.next().name;
   std::vector<std::string> names{"at", "between", "repeat"};
   collect_names(plan, names);
   if (plan.source->find(name) || std::find(names.begin(), names.end(), name) != names.end()) return false;
-  mistakes.error(
+  diagnostics.error(
       active.next().spot, "nothing in `" + path_to(active) + "` is called `" + name + "`",
       did_you_mean(name, names, plan.repeat && !is_member ? "its members are called by their numbers, from 0" : ""));
   return true;
@@ -68,41 +68,41 @@ bool is_lost(const Plan& plan, const ActiveOverride& active, bool is_member, Mis
 
 }  // namespace
 
-const Plan& Expander::overridden(const Plan& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
+const ElementTemplate& Expander::overridden(const ElementTemplate& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
                                  ActiveOverrides& deeper) {
   ActiveOverrides own;
   for (const ActiveOverride& active : overrides) {
     if (goes_deeper(plan, active, is_member))
       deeper.push_back(active);
     else if (is_member && names_place(active))
-      context_.mistakes.error(active.override->path.back().spot,
+      context_.diagnostics.error(active.override->path.back().spot,
                               "a member of a `repeat` stands where the whole puts it",
                               "only its values can be set, or those of the whole: `" + plan.name + "`");
-    else if (!is_lost(plan, active, is_member, context_.mistakes))
+    else if (!is_lost(plan, active, is_member, context_.diagnostics))
       own.push_back(active);
   }
   if (own.empty()) return plan;
   TomlValue& value = patched_values_.emplace_back(*plan.source);
-  for (const ActiveOverride& active : own) apply(active, value, context_.mistakes);
+  for (const ActiveOverride& active : own) apply(active, value, context_.diagnostics);
   return patched_plans_.emplace_back(planner_.read_entry(plan.name, plan.spot, value, scope, plan.in_model));
 }
 
-bool Expander::instance_parameters(const Plan& plan, const Environment& around, Environment& inside) {
+bool Expander::instance_parameters(const ElementTemplate& plan, const Environment& around, Environment& inside) {
   const Model& model = *plan.model;
-  Mistakes& mistakes = context_.mistakes;
+  DiagnosticList& diagnostics = context_.diagnostics;
   bool good = true;
   for (const NamedFormula& parameter : model.parameters) inside.names[parameter.name] = mistaken_number();
   for (const std::size_t i : model.order) {
     const NamedFormula& parameter = model.parameters[i];
     const Formula& given = plan.values[i];
-    const auto number = given.given() ? given.evaluate(around, mistakes) : parameter.formula.evaluate(inside, mistakes);
+    const auto number = given.given() ? given.evaluate(around, diagnostics) : parameter.formula.evaluate(inside, diagnostics);
     if (!number) {
       good = false;
       continue;
     }
     const Number& usual = model.defaults[i];
     if (given.given() && !std::isnan(usual.value) && !fits(*number, usual)) {
-      mistakes.error(given.source().spot, given.name() + " of `" + model.name + "`: expected " +
+      diagnostics.error(given.source().spot, given.name() + " of `" + model.name + "`: expected " +
                                               describe(usual) + ", as its default is, found " +
                                               describe(*number));
       good = false;
@@ -113,7 +113,7 @@ bool Expander::instance_parameters(const Plan& plan, const Environment& around, 
   return good;
 }
 
-bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, const Surroundings& around) {
+bool Expander::instance(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   Model& model = *plan.model;
   if (!model.sound) return false;
   if (static_cast<double>(scene_.elements.size()) + model.least_elements > static_cast<double>(most_elements))
@@ -139,7 +139,7 @@ bool Expander::instance(const Plan& plan, Ends ends, const std::string& path, co
   }
   const std::size_t first_element = scene_.elements.size();
   const std::size_t first_assembly = scene_.assemblies.size();
-  const Mistakes::Within within(context_.mistakes, path);
+  const DiagnosticList::Within within(context_.diagnostics, path);
   const bool good = entries(locals, path, environment, around.overrides, around.depth + 1);
   std::swap(inside_, inside);
   if (assembled) {

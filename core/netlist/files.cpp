@@ -32,22 +32,22 @@ int Files::add(fs::path shown, std::string text, fs::path folder, Sources::Role 
   return static_cast<int>(sources_.files.size()) - 1;
 }
 
-std::optional<Files::Found> Files::find(const TomlValue& name, int from, Mistakes& mistakes) const {
+std::optional<Files::Found> Files::find(const TomlValue& name, int from, DiagnosticList& diagnostics) const {
   const fs::path path(name.text);
   if (path.empty()) {
-    mistakes.error(name.spot, "the name of a file is empty");
+    diagnostics.error(name.spot, "the name of a file is empty");
     return {};
   }
   if (path.is_absolute() || *path.lexically_normal().begin() == "..") {
-    mistakes.error(name.spot, "`" + name.text + "` leads outside the netlist's folder", rule);
+    diagnostics.error(name.spot, "`" + name.text + "` leads outside the netlist's folder", rule);
     return {};
   }
   // Files named on the command line are searched for as if named by the scene itself.
   const Place& place = places_[static_cast<std::size_t>(std::max(from, 0))];
-  return offers_.empty() ? find_on_disk(name, place, mistakes) : find_offered(name, place, mistakes);
+  return offers_.empty() ? find_on_disk(name, place, diagnostics) : find_offered(name, place, diagnostics);
 }
 
-std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Place& from, Mistakes& mistakes) const {
+std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Place& from, DiagnosticList& diagnostics) const {
   const fs::path normal = fs::path(name.text).lexically_normal();
   std::vector<fs::path> folders{from.folder};
   folders.insert(folders.end(), library_.begin(), library_.end());
@@ -58,20 +58,20 @@ std::optional<Files::Found> Files::find_on_disk(const TomlValue& name, const Pla
     const fs::path canonical = fs::canonical(base / normal, failed);
     if (failed) continue;
     if (!within(canonical, base)) {
-      mistakes.error(name.spot, "`" + name.text + "` is a link that leads outside the netlist's folder", rule);
+      diagnostics.error(name.spot, "`" + name.text + "` is a link that leads outside the netlist's folder", rule);
       return {};
     }
     if (!fs::is_regular_file(canonical, failed)) {
-      mistakes.error(name.spot, "`" + name.text + "` is no file");
+      diagnostics.error(name.spot, "`" + name.text + "` is no file");
       return {};
     }
     return Found{(folder / normal).lexically_normal(), canonical};
   }
-  mistakes.error(name.spot, "there is no file `" + name.text + "`", rule);
+  diagnostics.error(name.spot, "there is no file `" + name.text + "`", rule);
   return {};
 }
 
-std::optional<Files::Found> Files::find_offered(const TomlValue& name, const Place& from, Mistakes& mistakes) const {
+std::optional<Files::Found> Files::find_offered(const TomlValue& name, const Place& from, DiagnosticList& diagnostics) const {
   std::vector<Place> places{from};
   for (std::size_t offer = 1; offer < offers_.size(); ++offer) places.push_back({"", offer});
   for (const Place& place : places) {
@@ -80,18 +80,18 @@ std::optional<Files::Found> Files::find_offered(const TomlValue& name, const Pla
     std::optional<std::string> text = offers_[place.offer]->text_of(path, why);
     if (text) return Found{path, fs::path(std::to_string(place.offer)) / path, std::move(text), place.offer};
     if (why.empty()) continue;
-    mistakes.error(name.spot, "`" + name.text + "` cannot be read: " + why, rule);
+    diagnostics.error(name.spot, "`" + name.text + "` cannot be read: " + why, rule);
     return {};
   }
-  mistakes.error(name.spot, "there is no file `" + name.text + "`", rule);
+  diagnostics.error(name.spot, "there is no file `" + name.text + "`", rule);
   return {};
 }
 
-std::optional<int> Files::read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes) {
+std::optional<int> Files::read(const Found& found, Sources::Role role, Spot spot, DiagnosticList& diagnostics) {
   std::string why;
   auto text = found.text ? found.text : text_of(found.canonical, why);
   if (!text) {
-    mistakes.error(spot, "`" + found.shown.string() + "` cannot be read: " + why);
+    diagnostics.error(spot, "`" + found.shown.string() + "` cannot be read: " + why);
     return {};
   }
   const int file = add(found.shown, std::move(*text), found.shown.parent_path(), role);

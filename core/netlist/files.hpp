@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/netlist/diagnostic.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 #include "core/netlist/document.hpp"
 #include "core/netlist/file_cache.hpp"
-#include "core/netlist/mistakes.hpp"
 
 namespace rheonet {
 
@@ -36,10 +36,10 @@ class Files {
   };
   /// Finds the file that the string `name` names in file `from`. A file that is absent or outside the allowed folders is a
   /// mistake.
-  std::optional<Found> find(const TomlValue& name, int from, Mistakes& mistakes) const;
+  std::optional<Found> find(const TomlValue& name, int from, DiagnosticList& diagnostics) const;
 
   /// Reads a whole file and adds it; a failure is a mistake at `spot`.
-  std::optional<int> read(const Found& found, Sources::Role role, Spot spot, Mistakes& mistakes);
+  std::optional<int> read(const Found& found, Sources::Role role, Spot spot, DiagnosticList& diagnostics);
 
   const Sources& sources() const { return sources_; }
   const std::string& text(int file) const { return sources_.files[static_cast<std::size_t>(file)].text; }
@@ -54,8 +54,8 @@ class Files {
     std::filesystem::path folder;
     std::size_t offer = 0;
   };
-  std::optional<Found> find_on_disk(const TomlValue& name, const Place& from, Mistakes& mistakes) const;
-  std::optional<Found> find_offered(const TomlValue& name, const Place& from, Mistakes& mistakes) const;
+  std::optional<Found> find_on_disk(const TomlValue& name, const Place& from, DiagnosticList& diagnostics) const;
+  std::optional<Found> find_offered(const TomlValue& name, const Place& from, DiagnosticList& diagnostics) const;
 
   Sources& sources_;
   std::vector<std::filesystem::path> library_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/netlist/keys.hpp"
+#include "core/netlist/table_reader.hpp"
 
 namespace rheonet {
 
@@ -22,9 +22,9 @@ class Includer {
     const TomlEntry* include = document.find("include");
     if (!include) return;
     const std::string hint = "include = [\"library/rheology.toml\"]";
-    if (!expect_array(include->value, "`include`", context_.mistakes, hint)) return;
+    if (!expect_array(include->value, "`include`", context_.diagnostics, hint)) return;
     for (const TomlValue& name : include->value.items)
-      if (expect_string(name, "the name of a file", context_.mistakes, hint)) read_file(name);
+      if (expect_string(name, "the name of a file", context_.diagnostics, hint)) read_file(name);
   }
 
   std::deque<IncludedFile> files;
@@ -36,24 +36,24 @@ class Includer {
   };
 
   void read_file(const TomlValue& name) {
-    Mistakes& mistakes = context_.mistakes;
-    const auto found = context_.files.find(name, name.spot.file, mistakes);
+    DiagnosticList& diagnostics = context_.diagnostics;
+    const auto found = context_.files.find(name, name.spot.file, diagnostics);
     if (!found) return;
     const auto same = [&](const Open& o) { return o.canonical == found->canonical; };
     if (const auto first = std::find_if(open_.begin(), open_.end(), same); first != open_.end()) {
       std::string path;
       for (auto file = first; file != open_.end(); ++file) path += "`" + file->shown.string() + "` -> ";
-      mistakes.error(name.spot, "files include each other in a circle: " + path + "`" + first->shown.string() + "`");
+      diagnostics.error(name.spot, "files include each other in a circle: " + path + "`" + first->shown.string() + "`");
       return;
     }
     if (!done_.insert(found->canonical).second) return;
     if (open_.size() > most_including) {
-      mistakes.error(name.spot, "files include each other more than " + std::to_string(most_including) + " levels deep");
+      diagnostics.error(name.spot, "files include each other more than " + std::to_string(most_including) + " levels deep");
       return;
     }
-    const auto file = context_.files.read(*found, Sources::Role::included, name.spot, mistakes);
+    const auto file = context_.files.read(*found, Sources::Role::included, name.spot, diagnostics);
     if (!file) return;
-    auto document = parse_toml(*file, context_.files.sources(), mistakes);
+    auto document = parse_toml(*file, context_.files.sources(), diagnostics);
     if (!document) return;
     open_.push_back({found->canonical, found->shown});
     read(*document);
@@ -63,13 +63,13 @@ class Includer {
   }
 
   void refuse_others(const TomlValue& document) {
-    Keys keys(document, "an included file");
-    for (const char* key : {"models", "parameters", "include", "title"}) keys.find(key);
+    TableReader reader(document, "an included file");
+    for (const char* key : {"models", "parameters", "include", "title"}) reader.find(key);
     for (const char* key : {"domain", "elements", "nodes", "simulate"})
-      if (const TomlEntry* entry = keys.find_quietly(key))
-        context_.mistakes.error(entry->spot, "an included file cannot have `" + std::string(key) + "`",
+      if (const TomlEntry* entry = reader.find_quietly(key))
+        context_.diagnostics.error(entry->spot, "an included file cannot have `" + std::string(key) + "`",
                                 "it gives models: it may have `models`, `parameters`, `include` and `title`");
-    keys.finish(context_.mistakes);
+    reader.finish(context_.diagnostics);
   }
 
   Context& context_;

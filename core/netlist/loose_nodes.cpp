@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/netlist/mistakes.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 
 namespace rheonet {
 

@@ -40,7 +40,7 @@ struct Parts {
 
 class Splitter {
  public:
-  Splitter(const std::string& text, Sources& sources, Mistakes& mistakes) : text_(text), mistakes_(mistakes) {
+  Splitter(const std::string& text, Sources& sources, DiagnosticList& diagnostics) : text_(text), diagnostics_(diagnostics) {
     sources.command_line.push_back(std::string(option) + text);
     line_ = static_cast<int>(sources.command_line.size());
   }
@@ -49,7 +49,7 @@ class Splitter {
     Parts parts;
     const std::size_t open = text_.find('('), close = text_.find_last_not_of(spaces);
     if (open == text_.npos || text_[close] != ')') {
-      mistakes_.error(spot(0), "`" + printable(text_) + "` is no measure", "for instance max(k1.force)");
+      diagnostics_.error(spot(0), "`" + printable(text_) + "` is no measure", "for instance max(k1.force)");
       return {};
     }
     if (!read_figure(parts, trimmed(0, open).text)) return {};
@@ -62,7 +62,7 @@ class Splitter {
     const bool takes_one = parts.figure == Figure::at || parts.figure == Figure::crossing;
     if (takes_one && !parts.argument) {
       const bool crossing = parts.figure == Figure::crossing;
-      mistakes_.error(spot(close), crossing ? "which level is crossed is missing" : "the time is missing",
+      diagnostics_.error(spot(close), crossing ? "which level is crossed is missing" : "the time is missing",
                       parts.name + "(" + parts.path.text + (crossing ? ", 2 N)" : ", 0.2 s)"));
       return {};
     }
@@ -94,7 +94,7 @@ class Splitter {
       parts.name = name;
       return true;
     }
-    mistakes_.error(spot(0), "there is no measure `" + printable(name) + "` of a record",
+    diagnostics_.error(spot(0), "there is no measure `" + printable(name) + "` of a record",
                     did_you_mean(name, names, name == "crossing" ? "did you mean `time of crossing`?"
                                                                  : "there are " + list_names(names, "and")));
     return false;
@@ -102,7 +102,7 @@ class Splitter {
 
   bool take(Parts& parts, TomlValue part, int number) {
     if (part.text.empty()) {
-      mistakes_.error(part.spot, number == 0 ? "the record is missing that is to be measured" : "nothing stands here",
+      diagnostics_.error(part.spot, number == 0 ? "the record is missing that is to be measured" : "nothing stands here",
                       "for instance max(k1.force, from 1 s, to 2 s)");
       return false;
     }
@@ -124,13 +124,13 @@ class Splitter {
       parts.argument = std::move(part);
       return true;
     }
-    mistakes_.error(part.spot, "`" + parts.name + "` does not take `" + printable(part.text) + "`",
+    diagnostics_.error(part.spot, "`" + parts.name + "` does not take `" + printable(part.text) + "`",
                     instant ? "" : "`from TIME` and `to TIME` say where to look: max(k1.force, from 1 s, to 2 s)");
     return false;
   }
 
   const std::string& text_;
-  Mistakes& mistakes_;
+  DiagnosticList& diagnostics_;
   int line_ = 0;
 };
 
@@ -141,7 +141,7 @@ void read_measures(const std::vector<std::string>& texts, const Environment& env
   std::vector<Parts> measures;
   std::vector<TomlValue> paths;
   for (const std::string& text : texts)
-    if (auto parts = Splitter(text, sources, context.mistakes).run()) {
+    if (auto parts = Splitter(text, sources, context.diagnostics).run()) {
       paths.push_back(parts->path);
       measures.push_back(std::move(*parts));
     }
@@ -159,7 +159,7 @@ void read_measures(const std::vector<std::string>& texts, const Environment& env
     claim.from = parts.from ? values.time(*parts.from, "`from`") : scene.start;
     claim.to = parts.to ? values.time(*parts.to, "`to`") : scene.stop;
     if (claim.from >= claim.to && claim.from <= scene.stop && claim.to >= scene.start)
-      context.mistakes.error((parts.to ? parts.to : parts.from)->spot, "`to` must be later than `from`");
+      context.diagnostics.error((parts.to ? parts.to : parts.from)->spot, "`to` must be later than `from`");
     claim.record = claimed_index(*records[i], scene);
     scene.claims.push_back(claim);
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/netlist/plan.hpp"
+#include "core/netlist/element_templates.hpp"
 
 namespace rheonet {
 

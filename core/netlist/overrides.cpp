@@ -44,7 +44,7 @@ std::size_t read_path(std::string_view text, int line, std::size_t before, std::
 /// Whether entry `a` excludes entry `b` of a table: an override with the one removes the other.
 bool excludes(const std::string& a, const std::string& b) {
   const auto is_shape = [](const std::string& key) {
-    const auto& names = SignalPlan::shape_names();
+    const auto& names = SignalTemplate::shape_names();
     return std::find(names.begin(), names.end(), key) != names.end();
   };
   return (is_shape(a) && is_shape(b)) || (a == "every" && b == "points") || (a == "points" && b == "every");
@@ -53,7 +53,7 @@ bool excludes(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources,
-                                    Mistakes& mistakes) {
+                                    DiagnosticList& diagnostics) {
   const std::size_t of_set = texts.size() - origins.size();
   std::deque<Override> overrides;
   for (std::size_t k = 0; k < texts.size(); ++k) {
@@ -67,7 +67,7 @@ std::deque<Override> read_overrides(const std::vector<std::string>& texts, const
     const bool nameless =
         std::any_of(override.path.begin(), override.path.end(), [](auto& p) { return p.name.empty(); });
     if (begin == 0 || nameless) {
-      mistakes.error({Spot::command_line, line, 1 + static_cast<int>(before)},
+      diagnostics.error({Spot::command_line, line, 1 + static_cast<int>(before)},
                      "expected PATH=VALUE, found `" + text + "`",
                      "for instance --set k1.stiffness=\"2 N/m\"");
       continue;
@@ -92,12 +92,12 @@ std::string path_to(const ActiveOverride& active) {
   return path;
 }
 
-void apply(const ActiveOverride& active, TomlValue& table, Mistakes& mistakes) {
+void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagnostics) {
   TomlValue* at = &table;
   for (ActiveOverride rest = active; !rest.at_end(); rest = rest.deeper()) {
     const Override::Part& part = rest.next();
     if (!at->is_table()) {
-      mistakes.error(part.spot, "`" + path_to(rest) + "` is " + describe(*at) + ", it has no `" + part.name + "`",
+      diagnostics.error(part.spot, "`" + path_to(rest) + "` is " + describe(*at) + ", it has no `" + part.name + "`",
                      "give the whole of it: --set " + path_to(rest) + "='{ " + part.name + " = ... }'");
       return;
     }

@@ -32,13 +32,13 @@ using ActiveOverrides = std::vector<ActiveOverride>;
 /// Reads the overrides and adds their texts to sources.command_line. The last texts are prefixed by `origins`, all others
 /// by "--set ". The value is a TOML value if it parses as one, else a string. The path is split at dots; a part that
 /// contains a dot stands in quotes.
-std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources, Mistakes& mistakes);
+std::deque<Override> read_overrides(const std::vector<std::string>& texts, const std::vector<std::string>& origins, Sources& sources, DiagnosticList& diagnostics);
 
 /// The part of an override's path that is resolved so far: "bingham.k1".
 std::string path_to(const ActiveOverride& active);
 
 /// Sets the value named by the rest of the override's path in `table`, adding missing keys. A part of the path that is
 /// present but no table is a mistake.
-void apply(const ActiveOverride& active, TomlValue& table, Mistakes& mistakes);
+void apply(const ActiveOverride& active, TomlValue& table, DiagnosticList& diagnostics);
 
 }  // namespace rheonet

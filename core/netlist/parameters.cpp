@@ -4,19 +4,19 @@
 #include <unordered_map>
 
 #include "core/netlist/dependency_order.hpp"
-#include "core/netlist/keys.hpp"
+#include "core/netlist/table_reader.hpp"
 
 namespace rheonet {
 
-std::vector<NamedFormula> read_named_formulas(const TomlValue& table, Mistakes& mistakes) {
+std::vector<NamedFormula> read_named_formulas(const TomlValue& table, DiagnosticList& diagnostics) {
   std::vector<NamedFormula> formulas;
   for (const TomlEntry& entry : table.entries)
-    if (expect_identifier(entry.key, entry.spot, "a parameter", mistakes))
-      formulas.push_back({entry.key, entry.spot, Formula(entry.value, "`" + entry.key + "`", mistakes)});
+    if (expect_identifier(entry.key, entry.spot, "a parameter", diagnostics))
+      formulas.push_back({entry.key, entry.spot, Formula(entry.value, "`" + entry.key + "`", diagnostics)});
   return formulas;
 }
 
-std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formulas, Mistakes& mistakes) {
+std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formulas, DiagnosticList& diagnostics) {
   std::unordered_map<std::string_view, std::size_t> index;
   for (std::size_t i = 0; i < formulas.size(); ++i) index.emplace(formulas[i].name, i);
   std::vector<std::vector<std::size_t>> uses(formulas.size());
@@ -27,7 +27,7 @@ std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formu
   for (const auto& cycle : dependencies.cycles) {
     std::string path;
     for (const std::size_t i : cycle) path += "`" + formulas[i].name + "` -> ";
-    mistakes.error(formulas[cycle.front()].spot,
+    diagnostics.error(formulas[cycle.front()].spot,
                    "parameters depend on each other in a circle: " + path + "`" + formulas[cycle.front()].name + "`",
                    "one of them must be given by numbers");
   }
@@ -36,12 +36,12 @@ std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formu
 
 Number mistaken_number() { return Number{.value = std::numeric_limits<double>::quiet_NaN(), .dimension = {}}; }
 
-Environment evaluate_parameters(const std::vector<NamedFormula>& formulas, Mistakes& mistakes) {
+Environment evaluate_parameters(const std::vector<NamedFormula>& formulas, DiagnosticList& diagnostics) {
   Environment environment;
   for (const NamedFormula& formula : formulas) environment.names[formula.name] = mistaken_number();
-  for (const std::size_t i : evaluation_order(formulas, mistakes))
+  for (const std::size_t i : evaluation_order(formulas, diagnostics))
     if (formulas[i].formula.given())
-      if (const auto number = formulas[i].formula.evaluate(environment, mistakes))
+      if (const auto number = formulas[i].formula.evaluate(environment, diagnostics))
         environment.names[formulas[i].name] = *number;
   return environment;
 }

@@ -15,16 +15,16 @@ struct NamedFormula {
 };
 
 /// Reads a table of named values without evaluating them.
-std::vector<NamedFormula> read_named_formulas(const TomlValue& table, Mistakes& mistakes);
+std::vector<NamedFormula> read_named_formulas(const TomlValue& table, DiagnosticList& diagnostics);
 
 /// Indices of the formulas in an order in which they can be evaluated, each after the formulas that it uses. A cycle is a
 /// mistake; formulas on a cycle, or using one on a cycle, are left out.
-std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formulas, Mistakes& mistakes);
+std::vector<std::size_t> evaluation_order(const std::vector<NamedFormula>& formulas, DiagnosticList& diagnostics);
 
 /// Marks an invalid value: formulas that use it are not evaluated, and give no further mistake.
 Number mistaken_number();
 
 /// Evaluates a [parameters] table.
-Environment evaluate_parameters(const std::vector<NamedFormula>& formulas, Mistakes& mistakes);
+Environment evaluate_parameters(const std::vector<NamedFormula>& formulas, DiagnosticList& diagnostics);
 
 }  // namespace rheonet

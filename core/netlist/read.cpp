@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/netlist/analytic_solutions.hpp"
 #include "core/netlist/checks.hpp"
 #include "core/netlist/effects_table.hpp"
-#include "core/netlist/exact.hpp"
 #include "core/netlist/expand.hpp"
-#include "core/netlist/expect.hpp"
+#include "core/netlist/expect_table.hpp"
 #include "core/netlist/file_offer.hpp"
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/include.hpp"
-#include "core/netlist/keys.hpp"
 #include "core/netlist/measures.hpp"
 #include "core/netlist/models.hpp"
 #include "core/netlist/read_presentation.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/simulate_table.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/unused_parameters.hpp"
 
 namespace rheonet {
@@ -39,9 +39,9 @@ class Reader {
   Reader(ReadResult& result, Declarations declarations, const ReadOptions& options, std::vector<const FileOffer*> offers = {})
       : result_(result),
         options_(options),
-        mistakes_(result.sources),
+        diagnostics_(result.sources),
         files_(result.sources, options.model_folders, options.cache, std::move(offers)),
-        context_{declarations, Domain::translation, files_, mistakes_} {}
+        context_{declarations, Domain::translation, files_, diagnostics_} {}
 
   void read(const fs::path& file) {
     std::string why;
@@ -55,12 +55,12 @@ class Reader {
   void read(fs::path name, std::string text, fs::path folder, const fs::path& canonical) {
     const int file = files_.add(std::move(name), std::move(text), std::move(folder));
     try {
-      overrides_ = read_overrides(options_.overrides, options_.origins, result_.sources, mistakes_);
-      if (auto document = parse_toml(file, result_.sources, mistakes_)) {
+      overrides_ = read_overrides(options_.overrides, options_.origins, result_.sources, diagnostics_);
+      if (auto document = parse_toml(file, result_.sources, diagnostics_)) {
         document_ = std::move(*document);
         read_document(file, canonical);
       }
-    } catch (const TooManyMistakes&) {  // finish() lists them
+    } catch (const TooManyDiagnostics&) {  // finish() lists them
     }
     finish();
   }
@@ -68,36 +68,36 @@ class Reader {
  private:
   void refuse(const fs::path& name, const std::string& why) {
     const int file = files_.add(name, "", {});
-    mistakes_.error({file, 0, 0}, "cannot be read: " + why);
+    diagnostics_.error({file, 0, 0}, "cannot be read: " + why);
     finish();
   }
 
   void finish() {
-    result_.diagnostics = mistakes_.sorted();
-    if (mistakes_.errors() > 0) return;
+    result_.diagnostics = diagnostics_.sorted();
+    if (diagnostics_.errors() > 0) return;
     result_.scene = std::move(scene_);
     result_.presentation = std::move(presentation_);
   }
 
   void read_document(int file, const fs::path& canonical) {
     override_tables();
-    Keys keys(document_, "the scene");
-    for (const std::string& key : top_level) keys.find(key);
+    TableReader reader(document_, "the scene");
+    for (const std::string& key : top_level) reader.find(key);
     const Spot begin{file, 1, 1};
     const TomlEntry* elements =
-        keys.require("elements", begin,
+        reader.require("elements", begin,
                      "[elements] with a line for each: k1 = { type = \"spring\", between = [\"a\", \"ground\"], ... }");
-    const TomlEntry* simulate = keys.require("simulate", begin, "[simulate] says when the run ends: stop = \"1 s\"");
-    keys.finish(mistakes_);
+    const TomlEntry* simulate = reader.require("simulate", begin, "[simulate] says when the run ends: stop = \"1 s\"");
+    reader.finish(diagnostics_);
     read_title_and_domain();
 
     const Environment& environment = parameters_of(document_);
-    if (const TomlEntry* checks = document_.find("check")) evaluate_checks(checks->value, environment, mistakes_);
+    if (const TomlEntry* checks = document_.find("check")) evaluate_checks(checks->value, environment, diagnostics_);
     const std::set<std::string> doubtful = read_network(elements, environment, canonical);
     read_start_and_effects(environment, doubtful);
     read_questions(simulate, environment, doubtful);
-    if (mistakes_.errors() > 0) return;
-    warn_of_unused_parameters(document_, identifiers_on_command_line(), mistakes_);
+    if (diagnostics_.errors() > 0) return;
+    warn_of_unused_parameters(document_, identifiers_on_command_line(), diagnostics_);
   }
 
   std::set<std::string> identifiers_on_command_line() const {
@@ -114,14 +114,14 @@ class Reader {
   std::set<std::string> read_network(const TomlEntry* elements, const Environment& environment, const fs::path& canonical) {
     Models models;
     read_models(environment, canonical, models);
-    Planner planner(context_, models);
+    TemplateReader planner(context_, models);
     Scope scope;
     if (elements) planner.read_elements(elements->value, scope);
     if (elements && elements->value.is_table() && elements->value.entries.empty())
-      mistakes_.error(elements->spot, "the scene has no elements");
+      diagnostics_.error(elements->spot, "the scene has no elements");
     Expander expander(context_, planner, scene_);
     expander.run(scope, environment, element_overrides(scope));
-    check_names(scope, mistakes_);  // again: overrides may have added nodes
+    check_names(scope, diagnostics_);  // again: overrides may have added nodes
 
     std::set<std::string> doubtful = expander.failed();
     if (elements)
@@ -135,9 +135,9 @@ class Reader {
 
   /// Reads the models of the scene and of the files that it includes.
   void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
-    const std::size_t before = mistakes_.errors();
+    const std::size_t before = diagnostics_.errors();
     included_ = read_includes(document_, canonical, context_);
-    context_.models_missing = mistakes_.errors() > before;
+    context_.models_missing = diagnostics_.errors() > before;
     override_models(included_);
     for (IncludedFile& other : included_)
       if (const TomlEntry* table = other.document.find("models"))
@@ -159,13 +159,13 @@ class Reader {
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // Do not make a million default records for a scene that is refused.
-    if (record || mistakes_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
+    if (record || diagnostics_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
       read_claims(expect->value, environment, doubtful, context_, scene_);
     read_measures(options_.measures, environment, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* exact = document_.find("exact"))
-      read_exact(exact->value, environment, doubtful, context_, scene_);
+      read_analytic_solutions(exact->value, environment, doubtful, context_, scene_);
     if (const TomlEntry* plot = document_.find("plot")) {
       presentation_.plot = read_plot_table(plot->value, doubtful, context_, scene_);
       if (options_.plotted) add_records(presentation_.plot.records(), doubtful, context_, result_.sources, scene_);
@@ -175,24 +175,24 @@ class Reader {
   }
 
   void read_title_and_domain() {
-    if (const TomlEntry* title = document_.find("title"); title && expect_string(title->value, "`title`", mistakes_))
+    if (const TomlEntry* title = document_.find("title"); title && expect_string(title->value, "`title`", diagnostics_))
       scene_.title = title->value.text;
     const TomlEntry* domain = document_.find("domain");
-    if (!domain || !expect_string(domain->value, "`domain`", mistakes_)) return;
+    if (!domain || !expect_string(domain->value, "`domain`", diagnostics_)) return;
     const std::string& text = domain->value.text;
     if (text == "rotation")
       context_.domain = scene_.domain = Domain::rotation;
     else if (text != "translation")
-      mistakes_.error(domain->value.spot, "`domain` must be `translation` or `rotation`, but is `" + text + "`",
+      diagnostics_.error(domain->value.spot, "`domain` must be `translation` or `rotation`, but is `" + text + "`",
                       did_you_mean(text, {"translation", "rotation"}));
   }
 
   const Environment& parameters_of(const TomlValue& document) {
     Environment& environment = environments_.emplace_back();
     const TomlEntry* table = document.find("parameters");
-    if (!table || !expect_table(table->value, "`parameters`", mistakes_)) return environment;
-    const auto& formulas = formulas_.emplace_back(read_named_formulas(table->value, mistakes_));
-    return environment = evaluate_parameters(formulas, mistakes_);
+    if (!table || !expect_table(table->value, "`parameters`", diagnostics_)) return environment;
+    const auto& formulas = formulas_.emplace_back(read_named_formulas(table->value, diagnostics_));
+    return environment = evaluate_parameters(formulas, diagnostics_);
   }
 
   /// Applies the overrides of everything but elements and models.
@@ -202,7 +202,7 @@ class Reader {
       if (!is_top_level(table) || table == "elements" || table == "models") continue;
       if (table == "nodes") join_node_path(override);
       const bool is_new_parameter = table == "parameters" && !has_parameter(override);
-      apply({&override, 0}, document_, mistakes_);
+      apply({&override, 0}, document_, diagnostics_);
       if (is_new_parameter) refuse_unless_used(override);
     }
   }
@@ -228,7 +228,7 @@ class Reader {
     std::vector<std::string> names;
     for (const TomlEntry& entry : document_.find("parameters")->value.entries)
       if (entry.key != part.name) names.push_back(entry.key);
-    mistakes_.error(part.spot, "there is no parameter `" + part.name + "`, and nothing uses one",
+    diagnostics_.error(part.spot, "there is no parameter `" + part.name + "`, and nothing uses one",
                     did_you_mean(part.name, names));
   }
 
@@ -245,11 +245,11 @@ class Reader {
         for (const TomlEntry& model : models->value.entries) names.push_back(model.key);
         if (found || override.path.size() < 2 || !models->value.find(override.path[1].name)) continue;
         found = true;
-        apply({&override, 1}, models->value, mistakes_);
+        apply({&override, 1}, models->value, diagnostics_);
       }
       if (!found) {
         const Override::Part& part = override.path[override.path.size() < 2 ? 0 : 1];
-        mistakes_.error(
+        diagnostics_.error(
             part.spot, "there is no model `" + part.name + "`",
             did_you_mean(part.name, names, names.empty() ? "" : "the models are " + list_names(names, "and")));
       }
@@ -268,9 +268,9 @@ class Reader {
         continue;
       }
       std::vector<std::string> names;
-      for (const Plan& plan : scope.entries) names.push_back(plan.name);
+      for (const ElementTemplate& plan : scope.entries) names.push_back(plan.name);
       if (!from_table) names.insert(names.end(), top_level.begin(), top_level.end());
-      mistakes_.error(
+      diagnostics_.error(
           part.spot, "nothing is called `" + part.name + "`",
           did_you_mean(part.name, names, "a path begins with an element (k1.stiffness) or a table (simulate.stop)"));
     }
@@ -279,7 +279,7 @@ class Reader {
 
   ReadResult& result_;
   const ReadOptions& options_;
-  Mistakes mistakes_;
+  DiagnosticList diagnostics_;
   Files files_;
   Context context_;
   Scene scene_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "core/netlist/keys.hpp"
 #include "core/netlist/scene_index.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -75,20 +75,20 @@ void refuse(const Path& path, const SceneIndex::Found& found, Context& context, 
     // A member of a group is often named without its group.
     const auto member = std::find_if(known.begin(), known.end(), [&](const std::string& name) { return name.ends_with('.' + path.object); });
     const std::string meant = member != known.end() ? *member : nearest(path.object, known);
-    context.mistakes.error(source.spot, "nothing is called `" + path.object + "`",
+    context.diagnostics.error(source.spot, "nothing is called `" + path.object + "`",
                            meant.empty() ? "" : "did you mean `" + meant + "." + path.channel + "`?");
     return;
   }
   const auto known = channels_of(found);
-  const Spot spot = context.mistakes.inside(source, path.object.size() + 1);
+  const Spot spot = context.diagnostics.inside(source, path.object.size() + 1);
   if (found.block < 0 && found.element >= 0 && scene.elements[static_cast<std::size_t>(found.element)].at && path.channel == "position") {
     const NodeId node = scene.elements[static_cast<std::size_t>(found.element)].a;
-    context.mistakes.error(spot, "`" + path.object + "` has no `position`: it is an element, only nodes have one",
+    context.diagnostics.error(spot, "`" + path.object + "` has no `position`: it is an element, only nodes have one",
                            "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + ".position`");
     return;
   }
   const std::string meant = meant_channel(path.channel, known);
-  context.mistakes.error(
+  context.diagnostics.error(
       spot, "`" + path.object + "` has no `" + path.channel + "`",
       meant.empty() ? "it has " + list_names(known, "and") : "did you mean `" + path.object + "." + meant + "`?");
 }
@@ -175,17 +175,17 @@ std::string unit_text(const Scene& scene, const Record& record) {
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
                                                 const Scene& scene) {
-  Mistakes& mistakes = context.mistakes;
+  DiagnosticList& diagnostics = context.diagnostics;
   std::vector<Path> parts;
   std::vector<std::string> objects;
   for (const TomlValue& path : paths) {
     const std::size_t dot = path.text.rfind('.');
     const bool whole = dot == path.text.npos;
     if (path.text == "time")
-      mistakes.error(path.spot, "`time` is no quantity of an element or a node: it is the first column always",
+      diagnostics.error(path.spot, "`time` is no quantity of an element or a node: it is the first column always",
                      "leave it out");
     else if (whole)
-      mistakes.error(path.spot, "`" + path.text + "` does not say which quantity is meant",
+      diagnostics.error(path.spot, "`" + path.text + "` does not say which quantity is meant",
                      "for instance `" + path.text + ".force` of an element, `" + path.text + ".velocity` of a node");
     parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole ? nullptr : &path});
     objects.push_back(parts.back().object);
@@ -197,7 +197,7 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
     if (!path.source) continue;
     const auto found = index.find(path.object);
     if (path.object == "ground")
-      mistakes.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
+      diagnostics.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
     else if (auto record = resolve(path, found))
       records.back() = std::move(record);
     else if (found.any() || !is_doubtful(path.object, doubtful))
@@ -211,20 +211,20 @@ void resolve_records(const TomlEntry* record, const std::set<std::string>& doubt
     scene.records = every_record(scene);
     return;
   }
-  Mistakes& mistakes = context.mistakes;
+  DiagnosticList& diagnostics = context.diagnostics;
   const std::string hint = "record = [\"k1.force\", \"mid.velocity\"]";
-  if (!expect_array(record->value, "`record`", mistakes, hint)) return;
+  if (!expect_array(record->value, "`record`", diagnostics, hint)) return;
   if (record->value.items.empty())
-    mistakes.warning(record->value.spot, "`record` is empty: only the time is written",
+    diagnostics.warning(record->value.spot, "`record` is empty: only the time is written",
                      "without `record` everything is, or name some: " + hint);
   std::vector<TomlValue> paths;
   std::unordered_set<std::string> seen;
   for (const TomlValue& item : record->value.items) {
-    if (!expect_string(item, "what to record", mistakes, hint)) continue;
+    if (!expect_string(item, "what to record", diagnostics, hint)) continue;
     if (seen.insert(item.text).second)
       paths.push_back(item);
     else
-      mistakes.warning(item.spot, "`" + item.text + "` is recorded already: it has one column");
+      diagnostics.warning(item.spot, "`" + item.text + "` is recorded already: it has one column");
   }
   for (auto& found : find_records(paths, doubtful, context, scene))
     if (found) scene.records.push_back(std::move(*found));
@@ -248,14 +248,14 @@ void add_records(const std::vector<std::string>& paths, const std::set<std::stri
 
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,
                          Context& context, Scene& scene) {
-  Mistakes& mistakes = context.mistakes;
-  if (!expect_table(nodes, "`nodes`", mistakes)) return;
+  DiagnosticList& diagnostics = context.diagnostics;
+  if (!expect_table(nodes, "`nodes`", diagnostics)) return;
   std::vector<std::string> names;
   for (const TomlEntry& entry : nodes.entries) names.push_back(entry.key);
   const SceneIndex index(scene, names);
   for (const TomlEntry& entry : nodes.entries) {
     if (entry.key == "ground") {
-      mistakes.error(entry.spot, "`ground` never moves: it has no initial values");
+      diagnostics.error(entry.spot, "`ground` never moves: it has no initial values");
       continue;
     }
     const auto found = index.find(entry.key);
@@ -263,24 +263,24 @@ void read_initial_values(const TomlValue& nodes, const Environment& environment,
       if (is_doubtful(entry.key, doubtful)) continue;
       std::string hint = did_you_mean(entry.key, known_paths(scene, false), "nodes exist by being named in an element");
       if (found.any()) hint = "`" + entry.key + "` is an element: initial values are those of its nodes";
-      mistakes.error(entry.spot, "no element names a node `" + entry.key + "`", hint);
+      diagnostics.error(entry.spot, "no element names a node `" + entry.key + "`", hint);
       continue;
     }
     const std::string hint = entry.key + " = { position = \"1 " + unit_of(Quantity::position, context.domain) + "\" }";
-    if (!expect_table(entry.value, "node `" + entry.key + "`", mistakes, hint)) continue;
-    Keys keys(entry.value, "a node");
+    if (!expect_table(entry.value, "node `" + entry.key + "`", diagnostics, hint)) continue;
+    TableReader reader(entry.value, "a node");
     const auto value = [&](const char* key, Quantity quantity, double& target) {
-      const TomlEntry* given = keys.find(key);
+      const TomlEntry* given = reader.find(key);
       if (!given) return;
-      const Formula formula(given->value, '`' + std::string(key) + '`', mistakes);
+      const Formula formula(given->value, '`' + std::string(key) + '`', diagnostics);
       if (!formula.given()) return;
-      if (const auto si = formula.evaluate_finite(environment, quantity, context.domain, mistakes)) target = *si;
+      if (const auto si = formula.evaluate_finite(environment, quantity, context.domain, diagnostics)) target = *si;
     };
     SceneNode& node = scene.nodes[static_cast<std::size_t>(found.node)];
     node.spot = entry.spot;
     value("position", Quantity::position, node.position);
     value("velocity", Quantity::velocity, node.velocity);
-    keys.finish(mistakes);
+    reader.finish(diagnostics);
   }
 }
 

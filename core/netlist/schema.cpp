@@ -86,9 +86,9 @@ Json parameter_schema(const Parameter& parameter) {
 }
 
 /// Objects that have exactly one of the keys.
-Json one_required(const std::vector<std::string>& keys) {
+Json one_required(const std::vector<std::string>& reader) {
   Json alternatives = Json::array();
-  for (const std::string& key : keys) alternatives.push_back({{"required", {key}}});
+  for (const std::string& key : reader) alternatives.push_back({{"required", {key}}});
   return {{"oneOf", std::move(alternatives)}};
 }
 
@@ -196,7 +196,7 @@ Json signal_schema() {
                          {"description", "[time, value] points: linear between them, held after the last"}};
   properties["columns"] = list_of(text("of the times and of the values, as the first row of the CSV file of a `table` names them"), 2);
   properties["smooth"] = {{"type", "boolean"}, {"description", "a `table` runs along monotone cubics between its points"}};
-  const std::pair<const char*, const char*> keys[] = {
+  const std::pair<const char*, const char*> reader[] = {
       {"amplitude", "factor on the signal"},
       {"frequency", "cycles a second [Hz; rad/s and rpm are converted]"},
       {"end_frequency", "of a chirp [Hz]"},
@@ -206,7 +206,7 @@ Json signal_schema() {
       {"offset", "added to the signal, also before its `time`"},
       {"time", "when it starts [s]; 0 if absent"},
   };
-  for (const auto& [key, description] : keys) properties[key] = described(reference("value"), description);
+  for (const auto& [key, description] : reader) properties[key] = described(reference("value"), description);
   Json table = object(std::move(properties));
   table.update(one_required(shapes));
   table["dependentRequired"] = {{"sine", {"frequency"}},   {"cosine", {"frequency"}},

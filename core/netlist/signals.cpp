@@ -6,49 +6,49 @@
 
 #include "core/netlist/counting.hpp"
 #include "core/netlist/finite_signal.hpp"
-#include "core/netlist/keys.hpp"
 #include "core/netlist/records.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/units.hpp"
 
 namespace rheonet {
 
-const std::vector<std::string>& SignalPlan::shape_names() {
+const std::vector<std::string>& SignalTemplate::shape_names() {
   // In the order of Shape.
   static const std::vector<std::string> names{"step",     "ramp",  "sine",  "cosine", "square",
                                               "triangle", "chirp", "pulse", "table"};
   return names;
 }
 
-const std::array<std::string, SignalPlan::key_count>& SignalPlan::key_names() {
+const std::array<std::string, SignalTemplate::key_count>& SignalTemplate::key_names() {
   static const std::array<std::string, key_count> names{"amplitude", "frequency", "end_frequency", "duration",
                                                         "width",     "phase",     "time",          "offset"};
   return names;
 }
 
-SignalPlan::SignalPlan(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context)
+SignalTemplate::SignalTemplate(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context)
     : name_(name), quantity_(quantity) {
-  const std::size_t before = context.mistakes.errors();
+  const std::size_t before = context.diagnostics.errors();
   if (source.is_table()) {
     read_table_signal(source, context);
   } else {
     if (source.is_array())
-      context.mistakes.error(source.spot, "`" + name + "` must be a number, a string or a table, but is an array",
+      context.diagnostics.error(source.spot, "`" + name + "` must be a number, a string or a table, but is an array",
                              "points are given so: { table = [[0, 0], [1, 0.5]] }");
     else
-      main_ = Formula(source, "`" + name + "`", context.mistakes);
+      main_ = Formula(source, "`" + name + "`", context.diagnostics);
     constant_ = main_.given() && main_.identifiers().empty();
   }
-  sound_ = context.mistakes.errors() == before;
+  sound_ = context.diagnostics.errors() == before;
 }
 
-const TomlEntry* SignalPlan::find_shape(const TomlValue& source, Mistakes& mistakes) const {
+const TomlEntry* SignalTemplate::find_shape(const TomlValue& source, DiagnosticList& diagnostics) const {
   const std::vector<std::string>& names = shape_names();
   const TomlEntry* main = nullptr;
   for (const TomlEntry& entry : source.entries) {
     const auto found = std::find(names.begin(), names.end(), entry.key);
     if (found == names.end()) continue;
     if (main) {
-      mistakes.error(entry.spot, "signal `" + name_ + "` is both a `" + main->key + "` and a `" + entry.key + "`",
+      diagnostics.error(entry.spot, "signal `" + name_ + "` is both a `" + main->key + "` and a `" + entry.key + "`",
                      "a signal has one shape");
       return nullptr;
     }
@@ -64,13 +64,13 @@ const TomlEntry* SignalPlan::find_shape(const TomlValue& source, Mistakes& mista
       hint = did_you_mean(entry.key, names, hint);
       break;
     }
-    mistakes.error(spot, "signal `" + name_ + "` has no shape", hint);
+    diagnostics.error(spot, "signal `" + name_ + "` has no shape", hint);
   }
   return main;
 }
 
-void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
-  const TomlEntry* main = find_shape(source, context.mistakes);
+void SignalTemplate::read_table_signal(const TomlValue& source, Context& context) {
+  const TomlEntry* main = find_shape(source, context.diagnostics);
   if (!main) return;
   const std::vector<std::string>& names = shape_names();
   shape_ = static_cast<Shape>(std::find(names.begin(), names.end(), main->key) - names.begin());
@@ -95,78 +95,78 @@ void SignalPlan::read_table_signal(const TomlValue& source, Context& context) {
     default:
       break;
   }
-  Keys keys(source, "a `" + main->key + "` signal");
-  keys.find(main->key);
+  TableReader reader(source, "a `" + main->key + "` signal");
+  reader.find(main->key);
   const auto take = [&](Key key, const TomlEntry* entry) {
     if (!entry) return;
-    keys_[key] = Formula(entry->value, "`" + entry->key + "`", context.mistakes);
+    keys_[key] = Formula(entry->value, "`" + entry->key + "`", context.diagnostics);
     constant_ = constant_ && keys_[key].identifiers().empty();
   };
-  for (const Key key : required) take(key, keys.require(key_names()[key], main->spot));
-  for (const Key key : optional) take(key, keys.find(key_names()[key]));
-  const TomlEntry* columns = shape_ == Shape::table ? keys.find("columns") : nullptr;
-  const TomlEntry* smooth = shape_ == Shape::table ? keys.find("smooth") : nullptr;
-  keys.finish(context.mistakes);
+  for (const Key key : required) take(key, reader.require(key_names()[key], main->spot));
+  for (const Key key : optional) take(key, reader.find(key_names()[key]));
+  const TomlEntry* columns = shape_ == Shape::table ? reader.find("columns") : nullptr;
+  const TomlEntry* smooth = shape_ == Shape::table ? reader.find("smooth") : nullptr;
+  reader.finish(context.diagnostics);
 
   if (shape_ == Shape::table) {
     read_points(main->value, context);
-    if (columns) read_columns(*columns, context.mistakes);
-    smooth_ = smooth && expect_boolean(smooth->value, "`smooth`", context.mistakes, "smooth = true") && smooth->value.boolean;
+    if (columns) read_columns(*columns, context.diagnostics);
+    smooth_ = smooth && expect_boolean(smooth->value, "`smooth`", context.diagnostics, "smooth = true") && smooth->value.boolean;
   } else {
-    main_ = Formula(main->value, "`" + main->key + "`", context.mistakes);
+    main_ = Formula(main->value, "`" + main->key + "`", context.diagnostics);
     constant_ = constant_ && main_.identifiers().empty();
   }
 }
 
-void SignalPlan::read_columns(const TomlEntry& columns, Mistakes& mistakes) {
+void SignalTemplate::read_columns(const TomlEntry& columns, DiagnosticList& diagnostics) {
   const std::string example = "columns = [\"time\", \"force\"]";
   if (!file_name_) {
-    mistakes.error(columns.spot, "`columns` names columns of a CSV file, but `table` names none", "table = \"measured.csv\", " + example);
+    diagnostics.error(columns.spot, "`columns` names columns of a CSV file, but `table` names none", "table = \"measured.csv\", " + example);
     return;
   }
-  if (!expect_array(columns.value, "`columns`", mistakes, example)) return;
+  if (!expect_array(columns.value, "`columns`", diagnostics, example)) return;
   if (columns.value.items.size() != 2) {
-    mistakes.error(columns.value.spot, "`columns` names two columns, of the times and of the values", example);
+    diagnostics.error(columns.value.spot, "`columns` names two columns, of the times and of the values", example);
     return;
   }
   for (const TomlValue& name : columns.value.items)
-    if (!expect_string(name, "a column", mistakes, example)) return;
+    if (!expect_string(name, "a column", diagnostics, example)) return;
   columns_ = columns.value.items;
 }
 
-void SignalPlan::read_points(const TomlValue& source, Context& context) {
+void SignalTemplate::read_points(const TomlValue& source, Context& context) {
   if (source.is_string()) {
     file_name_ = source;
     return;
   }
   if (!source.is_array()) {
-    context.mistakes.error(source.spot,
+    context.diagnostics.error(source.spot,
                            "`table` must be an array of points or the name of a CSV file, but is " + describe(source),
                            "points are given so: table = [[0, 0], [1, 0.5]]");
     return;
   }
-  if (source.items.empty()) context.mistakes.error(source.spot, "`table` has no points");
+  if (source.items.empty()) context.diagnostics.error(source.spot, "`table` has no points");
   points_.reserve(source.items.size());
   for (const TomlValue& item : source.items) {
     if (!item.is_array() || item.items.size() != 2) {
-      context.mistakes.error(
+      context.diagnostics.error(
           item.spot, "a point of a table is an array of two values, [time, value], but this " +
                          (item.is_array() ? "has " + std::to_string(item.items.size()) : "is " + describe(item)));
       return;
     }
-    points_.push_back({Formula(item.items[0], "the time of a point", context.mistakes),
-                       Formula(item.items[1], "the value of a point", context.mistakes)});
+    points_.push_back({Formula(item.items[0], "the time of a point", context.diagnostics),
+                       Formula(item.items[1], "the value of a point", context.diagnostics)});
     constant_ = constant_ && points_.back().time.identifiers().empty() && points_.back().value.identifiers().empty();
   }
 }
 
-std::optional<Signal> SignalPlan::evaluate(const Environment& environment, Context& context) const {
+std::optional<Signal> SignalTemplate::evaluate(const Environment& environment, Context& context) const {
   if (!sound_) return {};
   if (constant_ && made_) return made_;
   unit_ = quantity_ ? BlockUnit{dimension_of(*quantity_, context.domain), 0, false} : BlockUnit{};
   made_ = make(environment, context);
   if (made_ && !is_finite(*made_)) {
-    context.mistakes.error((file_name_ ? *file_name_ : points_.empty() ? main_.source() : points_.front().value.source()).spot,
+    context.diagnostics.error((file_name_ ? *file_name_ : points_.empty() ? main_.source() : points_.front().value.source()).spot,
                            "signal `" + name_ + "` has values, rates or periods beyond the range of numbers",
                            "a jump in a table is two points at one time");
     made_.reset();
@@ -174,13 +174,13 @@ std::optional<Signal> SignalPlan::evaluate(const Environment& environment, Conte
   return made_;
 }
 
-std::optional<double> SignalPlan::in_unit(const Number& number, const Formula& formula, const Environment& environment,
+std::optional<double> SignalTemplate::in_unit(const Number& number, const Formula& formula, const Environment& environment,
                                           Context& context) const {
   const Spot spot = formula.source().spot;
   if (quantity_) {
     const auto checked = as_quantity(number, *quantity_, context.domain);
     if (const auto* wrong = std::get_if<TextError>(&checked)) {
-      context.mistakes.error(spot, formula.name() + ": " + wrong->message,
+      context.diagnostics.error(spot, formula.name() + ": " + wrong->message,
                              hint_for(formula, environment, context, wrong->hint));
       return {};
     }
@@ -188,15 +188,15 @@ std::optional<double> SignalPlan::in_unit(const Number& number, const Formula& f
   }
   if (unit_.open && !number.plain) unit_ = unit_of(number);
   if (fits(number, one_of(unit_))) return number.value;
-  context.mistakes.error(spot, formula.name() + ": expected " + describe(one_of(unit_)) +
+  context.diagnostics.error(spot, formula.name() + ": expected " + describe(one_of(unit_)) +
                                    ", as the rest of `" + name_ + "`, found " + describe(number));
   return {};
 }
 
-std::optional<Number> SignalPlan::times_amplitude(Number number, const Environment& environment,
+std::optional<Number> SignalTemplate::times_amplitude(Number number, const Environment& environment,
                                                   Context& context) const {
   if (!keys_[amplitude].given()) return number;
-  const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
+  const auto factor = keys_[amplitude].evaluate(environment, context.diagnostics);
   if (!factor) return {};
   const bool plain = number.plain && factor->plain;
   number = product(number, *factor);
@@ -204,21 +204,21 @@ std::optional<Number> SignalPlan::times_amplitude(Number number, const Environme
   return number;
 }
 
-std::string SignalPlan::hint_for(const Formula& formula, const Environment& environment, Context& context,
+std::string SignalTemplate::hint_for(const Formula& formula, const Environment& environment, Context& context,
                                  std::string hint) const {
   if (!keys_[amplitude].given()) return hint;
-  const auto own = formula.evaluate(environment, context.mistakes);
-  const auto factor = keys_[amplitude].evaluate(environment, context.mistakes);
+  const auto own = formula.evaluate(environment, context.diagnostics);
+  const auto factor = keys_[amplitude].evaluate(environment, context.diagnostics);
   if (!own || !factor || own->dimension.is_number() || factor->dimension.is_number()) return hint;
   return "`amplitude` multiplies " + formula.name() + ": one of them has the unit, the other is a number";
 }
 
 /// The format has no expressions of time. The message names the alternatives, which "unknown name" would not do.
-bool SignalPlan::is_of_time(const Environment& environment, Context& context) const {
+bool SignalTemplate::is_of_time(const Environment& environment, Context& context) const {
   const auto& names = main_.identifiers();
   for (const char* const time : {"t", "time"}) {
     if (!std::binary_search(names.begin(), names.end(), time) || environment.find(time)) continue;
-    context.mistakes.error(main_.source().spot,
+    context.diagnostics.error(main_.source().spot,
                            main_.name() + ": there is no parameter `" + time +
                                "`, and no expression is one of the time",
                            "a signal that changes is a table, { sine = \"1 " + unit_of(quantity_.value_or(Quantity::number), context.domain) +
@@ -229,7 +229,7 @@ bool SignalPlan::is_of_time(const Environment& environment, Context& context) co
 }
 
 /// The name of a block means its output. A name that is a unit, or near that of a parameter, is reported elsewhere.
-bool SignalPlan::is_unknown_name(const Environment& environment, Context& context) const {
+bool SignalTemplate::is_unknown_name(const Environment& environment, Context& context) const {
   if (shape_ != Shape::constant || main_.identifiers().size() != 1) return false;
   const std::string& name = main_.identifiers().front();
   if (main_.source().text != name || environment.find(name) || std::holds_alternative<Unit>(parse_unit(name))) return false;
@@ -237,12 +237,12 @@ bool SignalPlan::is_unknown_name(const Environment& environment, Context& contex
   for (const Environment* some = &environment; some; some = some->outer)
     for (const auto& [parameter, value] : some->names) known.push_back(parameter);
   if (!nearest(name, known).empty()) return false;
-  context.mistakes.error(main_.source().spot, main_.name() + ": there is no parameter `" + name + "`",
+  context.diagnostics.error(main_.source().spot, main_.name() + ": there is no parameter `" + name + "`",
                          "the output of a block is given so: { block = \"" + name + "\" }");
   return true;
 }
 
-const TableFile* SignalPlan::table_file(Context& context) const {
+const TableFile* SignalTemplate::table_file(Context& context) const {
   if (!file_) {
     auto table = read_table_file(*file_name_, columns_, context);
     file_ = table ? std::make_shared<const TableFile>(std::move(*table)) : nullptr;
@@ -250,9 +250,9 @@ const TableFile* SignalPlan::table_file(Context& context) const {
   return file_->get();
 }
 
-std::optional<double> SignalPlan::scaled(const Formula& formula, const Environment& environment,
+std::optional<double> SignalTemplate::scaled(const Formula& formula, const Environment& environment,
                                          Context& context) const {
-  auto number = formula.evaluate(environment, context.mistakes);
+  auto number = formula.evaluate(environment, context.diagnostics);
   if (number) number = times_amplitude(*number, environment, context);
   if (!number) return {};
   const Domain domain = context.domain;
@@ -260,7 +260,7 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
   const Dimension second = dimension_of(Quantity::time, domain);
   const Dimension rise = unit_.dimension / second;
   if (shape_ == Shape::ramp && quantity_ && !number->plain && !number->dimension.same(rise)) {
-    context.mistakes.error(spot, formula.name() + ": expected " + describe(rise) + ", the rise of `" + name_ +
+    context.diagnostics.error(spot, formula.name() + ": expected " + describe(rise) + ", the rise of `" + name_ +
                                      "` per second, found " + describe(*number),
                            hint_for(formula, environment, context, ""));
     return {};
@@ -268,11 +268,11 @@ std::optional<double> SignalPlan::scaled(const Formula& formula, const Environme
   if (shape_ == Shape::ramp) number->dimension = number->dimension * second;
   const auto value = in_unit(*number, formula, environment, context);
   if (!value || std::isfinite(*value)) return value;
-  context.mistakes.error(spot, formula.name() + " must be finite, but is infinite");
+  context.diagnostics.error(spot, formula.name() + " must be finite, but is infinite");
   return {};
 }
 
-std::optional<double> SignalPlan::value_of(Key key, const Environment& environment, Context& context,
+std::optional<double> SignalTemplate::value_of(Key key, const Environment& environment, Context& context,
                                            double otherwise) const {
   const Formula& formula = keys_[key];
   if (!formula.given()) return otherwise;
@@ -292,15 +292,15 @@ std::optional<double> SignalPlan::value_of(Key key, const Environment& environme
     }
   }();
   if (key == offset && !quantity_) {
-    const auto number = formula.evaluate(environment, context.mistakes);
+    const auto number = formula.evaluate(environment, context.diagnostics);
     return number ? in_unit(*number, formula, environment, context) : std::nullopt;
   }
-  const auto value = formula.evaluate_finite(environment, quantity, context.domain, context.mistakes);
+  const auto value = formula.evaluate_finite(environment, quantity, context.domain, context.diagnostics);
   if (!value) return {};
   const bool may_be_zero = shape_ == Shape::chirp && key != duration;
   const bool positive = key == frequency || key == end_frequency || key == duration || key == width;
   if (positive && (*value < 0 || (*value == 0 && !may_be_zero))) {
-    context.mistakes.error(formula.source().spot,
+    context.diagnostics.error(formula.source().spot,
                            formula.name() + (may_be_zero ? " must be at least 0" : " must be greater than 0") +
                                ", but is " + number_text(*value) + " " + unit_of(quantity, context.domain));
     return {};
@@ -308,7 +308,7 @@ std::optional<double> SignalPlan::value_of(Key key, const Environment& environme
   return value;
 }
 
-std::optional<Signal> SignalPlan::make(const Environment& environment, Context& context) const {
+std::optional<Signal> SignalTemplate::make(const Environment& environment, Context& context) const {
   const auto start = value_of(time, environment, context, 0);
   const auto level = value_of(offset, environment, context, 0);
   const auto angle = value_of(phase, environment, context, 0);
@@ -340,11 +340,11 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
       return Signal(Signal::Chirp{*main, *f, *f_end, *length, *angle, *start, *level});
     case Shape::pulse:
       if (*f > 0 && *high * *f >= 1) {
-        context.mistakes.error(keys_[width].source().spot, "`width` must be less than the period, 1/`frequency`");
+        context.diagnostics.error(keys_[width].source().spot, "`width` must be less than the period, 1/`frequency`");
         return {};
       }
       if (*f == 0 && *angle != 0) {
-        context.mistakes.error(keys_[phase].source().spot, "a `pulse` without `frequency` has no `phase`",
+        context.diagnostics.error(keys_[phase].source().spot, "a `pulse` without `frequency` has no `phase`",
                                "`time` says when it begins");
         return {};
       }
@@ -354,7 +354,7 @@ std::optional<Signal> SignalPlan::make(const Environment& environment, Context& 
   }
 }
 
-std::optional<Signal> SignalPlan::make_table(const Environment& environment, Context& context, double start,
+std::optional<Signal> SignalTemplate::make_table(const Environment& environment, Context& context, double start,
                                              double level) const {
   Signal::Table table{{}, {}, start, level, smooth_};
   if (file_name_) {
@@ -365,12 +365,12 @@ std::optional<Signal> SignalPlan::make_table(const Environment& environment, Con
     if (!quantity_ && !unit->plain) unit_ = unit_of(*unit);
     const auto factor = quantity_ ? as_quantity(*unit, *quantity_, context.domain) : unit->value;
     if (const auto* wrong = std::get_if<TextError>(&factor)) {
-      context.mistakes.error(file_name_->spot, "`table`: " + wrong->message,
+      context.diagnostics.error(file_name_->spot, "`table`: " + wrong->message,
                              file->unit.plain ? wrong->hint : "the unit is that of the header of the file");
       return {};
     }
     if (!std::isfinite(std::get<double>(factor))) {
-      context.mistakes.error(keys_[amplitude].source().spot, "`amplitude` must be finite, but is infinite");
+      context.diagnostics.error(keys_[amplitude].source().spot, "`amplitude` must be finite, but is infinite");
       return {};
     }
     for (const auto& [t, value] : file->points) {
@@ -380,11 +380,11 @@ std::optional<Signal> SignalPlan::make_table(const Environment& environment, Con
     return Signal(std::move(table));
   }
   for (const Point& point : points_) {
-    const auto t = point.time.evaluate_finite(environment, Quantity::time, context.domain, context.mistakes);
+    const auto t = point.time.evaluate_finite(environment, Quantity::time, context.domain, context.diagnostics);
     const auto value = scaled(point.value, environment, context);
     if (!t || !value) return {};
     if (!table.times.empty() && *t < table.times.back()) {
-      context.mistakes.error(point.time.source().spot, "the times of a table must not decrease");
+      context.diagnostics.error(point.time.source().spot, "the times of a table must not decrease");
       return {};
     }
     table.times.push_back(*t);

@@ -16,10 +16,10 @@
 namespace rheonet {
 
 /// A signal as given by the file: its shape is known; its numbers are evaluated in an environment.
-class SignalPlan {
+class SignalTemplate {
  public:
   /// `name` is used in messages: "velocity". Without a quantity any unit is accepted, but all values must share it.
-  SignalPlan(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context);
+  SignalTemplate(const TomlValue& source, const std::string& name, std::optional<Quantity> quantity, Context& context);
 
   /// The signal in `environment`; absent if anything in it is a mistake.
   std::optional<Signal> evaluate(const Environment& environment, Context& context) const;
@@ -40,10 +40,10 @@ class SignalPlan {
 
   static const std::array<std::string, key_count>& key_names();
   /// The entry that determines the shape; nullptr, with a mistake, unless exactly one does.
-  const TomlEntry* find_shape(const TomlValue& source, Mistakes& mistakes) const;
+  const TomlEntry* find_shape(const TomlValue& source, DiagnosticList& diagnostics) const;
   void read_table_signal(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
-  void read_columns(const TomlEntry& columns, Mistakes& mistakes);
+  void read_columns(const TomlEntry& columns, DiagnosticList& diagnostics);
   /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
   std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
   /// A remedy if both `formula` and the amplitude have a unit, else `hint`.

@@ -32,10 +32,10 @@ class TableReader {
       if (!first || named_.empty()) row(fields, first);
       first = false;
     }
-    if (mistakes_ > most_told)
-      context_.mistakes.error({file_, first_untold_, 1},
-                              "and " + std::to_string(mistakes_ - most_told) + " more mistakes in this table");
-    if (mistakes_ > 0) return {};
+    if (diagnostics_ > most_told)
+      context_.diagnostics.error({file_, first_untold_, 1},
+                              "and " + std::to_string(diagnostics_ - most_told) + " more mistakes in this table");
+    if (diagnostics_ > 0) return {};
     return std::move(table_);
   }
 
@@ -43,9 +43,9 @@ class TableReader {
   static constexpr int most_told = 10;  // a file of the wrong kind has a mistake in every row
 
   void refuse(int column, std::string message, std::string hint = {}) {
-    if (++mistakes_ <= most_told)
-      context_.mistakes.error({file_, line_, column}, std::move(message), std::move(hint));
-    else if (mistakes_ == most_told + 1)
+    if (++diagnostics_ <= most_told)
+      context_.diagnostics.error({file_, line_, column}, std::move(message), std::move(hint));
+    else if (diagnostics_ == most_told + 1)
       first_untold_ = line_;
   }
 
@@ -92,7 +92,7 @@ class TableReader {
     for (const auto& [wanted, column] : {std::pair(&named_[0], &time_column_), std::pair(&named_[1], &value_column_)}) {
       const auto found = std::find(names.begin(), names.end(), wanted->text);
       if (found == names.end()) {
-        context_.mistakes.error(wanted->spot, "the table has no column `" + wanted->text + "`",
+        context_.diagnostics.error(wanted->spot, "the table has no column `" + wanted->text + "`",
                                 did_you_mean(wanted->text, names, "its columns are " + list_names(names, "and")));
         return false;
       }
@@ -129,7 +129,7 @@ class TableReader {
       refuse(field.column, "`" + std::string(heading.unit) + "` is no unit: " + wrong.message, wrong.hint);
       return {};
     }
-    context_.mistakes.warning({file_, line_, field.column},
+    context_.diagnostics.warning({file_, line_, field.column},
                               "`" + std::string(heading.unit) + "` is no unit: this column is taken in SI");
     return one;
   }
@@ -141,20 +141,20 @@ class TableReader {
   TableFile table_{{}, {.value = 1, .dimension = {}}};
   double second_ = 1;  ///< unit of the times [s]
   int line_ = 0;
-  int mistakes_ = 0;
+  int diagnostics_ = 0;
   int first_untold_ = 0;  ///< line of the first mistake that is not listed
 };
 
 }  // namespace
 
 std::optional<TableFile> read_table_file(const TomlValue& name, const std::vector<TomlValue>& columns, Context& context) {
-  const auto found = context.files.find(name, name.spot.file, context.mistakes);
+  const auto found = context.files.find(name, name.spot.file, context.diagnostics);
   if (!found) return {};
-  const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.mistakes);
+  const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.diagnostics);
   if (!file) return {};
   auto table = TableReader(*file, columns, context).read();
   if (table && table->points.empty()) {
-    context.mistakes.error(name.spot, "the table `" + name.text + "` has no rows");
+    context.diagnostics.error(name.spot, "the table `" + name.text + "` has no rows");
     return {};
   }
   return table;

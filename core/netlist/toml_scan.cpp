@@ -26,7 +26,7 @@ std::size_t character_length(std::string_view text) {
 /// Steps through the text by characters, and keeps track of line and column.
 class Scan {
  public:
-  Scan(std::string_view text, int file, Mistakes& mistakes) : rest_(text), mistakes_(mistakes), spot_{file, 1, 1} {}
+  Scan(std::string_view text, int file, DiagnosticList& diagnostics) : rest_(text), diagnostics_(diagnostics), spot_{file, 1, 1} {}
 
   bool run() {
     int dots = 0;
@@ -39,7 +39,7 @@ class Scan {
         if (!string()) return false;
       } else {
         if (c == '.' && ++dots > longest_key) {
-          mistakes_.error(spot_, fmt::format("a key has at most {} parts, this one has more", longest_key));
+          diagnostics_.error(spot_, fmt::format("a key has at most {} parts, this one has more", longest_key));
           return false;
         }
         if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) dots = 0;
@@ -53,7 +53,7 @@ class Scan {
   bool step() {
     const std::size_t length = character_length(rest_);
     if (length == 0) {
-      mistakes_.error(spot_, fmt::format("byte 0x{:02X} is not UTF-8", static_cast<unsigned char>(rest_.front())),
+      diagnostics_.error(spot_, fmt::format("byte 0x{:02X} is not UTF-8", static_cast<unsigned char>(rest_.front())),
                       "a netlist is UTF-8 text: save the file in that encoding");
       return false;
     }
@@ -84,18 +84,18 @@ class Scan {
       if (quote == '"' && rest_.front() == '\\' && rest_.size() > 1 && !step()) return false;
       if (!step()) return false;
     }
-    mistakes_.error(opening, long_string ? "this string is never closed" : "this string is not closed on its line",
+    diagnostics_.error(opening, long_string ? "this string is never closed" : "this string is not closed on its line",
                     fmt::format("close it with {}", long_string ? long_quote : long_quote.substr(0, 1)));
     return false;
   }
 
   std::string_view rest_;
-  Mistakes& mistakes_;
+  DiagnosticList& diagnostics_;
   Spot spot_;
 };
 
 }  // namespace
 
-bool scan_toml(std::string_view text, int file, Mistakes& mistakes) { return Scan(text, file, mistakes).run(); }
+bool scan_toml(std::string_view text, int file, DiagnosticList& diagnostics) { return Scan(text, file, diagnostics).run(); }
 
 }  // namespace rheonet

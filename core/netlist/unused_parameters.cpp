@@ -33,17 +33,17 @@ void collect(const TomlValue& value, std::set<std::string>& names) {
   }
 }
 
-void warn(const std::string& name, Spot spot, const std::set<std::string>& used, const std::string& of, Mistakes& mistakes) {
+void warn(const std::string& name, Spot spot, const std::set<std::string>& used, const std::string& of, DiagnosticList& diagnostics) {
   if (used.contains(name)) return;
-  mistakes.warning(spot, "no expression" + of + " uses parameter `" + name + "`: its value changes nothing",
+  diagnostics.warning(spot, "no expression" + of + " uses parameter `" + name + "`: its value changes nothing",
                    "use it, as in stiffness = \"" + name + "\", or leave it out");
 }
 
 /// Warns of unused parameters; `parameters` is a table, or in a model a list of names. Its mistakes have been reported.
-void warn_of_unused(const TomlValue& parameters, const std::set<std::string>& used, const std::string& of, Mistakes& mistakes) {
-  for (const TomlEntry& entry : parameters.entries) warn(entry.key, entry.spot, used, of, mistakes);
+void warn_of_unused(const TomlValue& parameters, const std::set<std::string>& used, const std::string& of, DiagnosticList& diagnostics) {
+  for (const TomlEntry& entry : parameters.entries) warn(entry.key, entry.spot, used, of, diagnostics);
   for (const TomlValue& item : parameters.items) {
-    if (item.is_string()) warn(item.text, item.spot, used, of, mistakes);
+    if (item.is_string()) warn(item.text, item.spot, used, of, diagnostics);
   }
 }
 
@@ -55,10 +55,10 @@ std::set<std::string> identifiers_below(const TomlValue& table) {
   return names;
 }
 
-void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, Mistakes& mistakes) {
+void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, DiagnosticList& diagnostics) {
   if (const TomlEntry* parameters = document.find("parameters")) {
     used.merge(identifiers_below(document));
-    warn_of_unused(parameters->value, used, "", mistakes);
+    warn_of_unused(parameters->value, used, "", diagnostics);
   }
   const TomlEntry* models = document.find("models");
   if (!models) return;
@@ -69,7 +69,7 @@ void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> 
     for (const TomlEntry& entry : model.value.entries) {
       if (entry.key == "elements" || parameters->value.is_table()) inside.merge(identifiers_below(entry.value));
     }
-    warn_of_unused(parameters->value, inside, " of model `" + model.key + "`", mistakes);
+    warn_of_unused(parameters->value, inside, " of model `" + model.key + "`", diagnostics);
   }
 }
 

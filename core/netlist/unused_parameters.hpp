@@ -14,6 +14,6 @@ std::set<std::string> identifiers_below(const TomlValue& table);
 /// Warns of each parameter of a file, and of its models, that no expression uses. `used` are identifiers of expressions
 /// outside the file, on the command line. (Models of a library may share a list of parameters, so that one can replace
 /// another.)
-void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, Mistakes& mistakes);
+void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> used, DiagnosticList& diagnostics);
 
 }  // namespace rheonet

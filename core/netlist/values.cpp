@@ -92,24 +92,24 @@ std::vector<std::string> identifiers_of(std::string_view text) {
   return is_quantity(text) ? std::vector<std::string>{} : words_of(text);
 }
 
-Formula::Formula(const TomlValue& source, std::string name, Mistakes& mistakes) : name_(std::move(name)) {
+Formula::Formula(const TomlValue& source, std::string name, DiagnosticList& diagnostics) : name_(std::move(name)) {
   if (source.kind == TomlValue::Kind::number) {
     if (std::isnan(source.number)) {
-      mistakes.error(source.spot, name_ + " is not a number (NaN)");
+      diagnostics.error(source.spot, name_ + " is not a number (NaN)");
       return;
     }
     result_ = Number{.value = source.number, .dimension = {}};
   } else if (source.is_string()) {
     identifiers_ = identifiers_of(source.text);
   } else {
-    mistakes.error(source.spot, name_ + " must be a number or a string with a quantity or an expression, but is " +
+    diagnostics.error(source.spot, name_ + " must be a number or a string with a quantity or an expression, but is " +
                                     describe(source));
     return;
   }
   source_ = &source;
 }
 
-std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes& mistakes) const {
+std::optional<Number> Formula::evaluate(const Environment& environment, DiagnosticList& diagnostics) const {
   if (identifiers_.empty() && result_) return result_;
   std::vector<Number>& inputs = inputs_;
   bool changed = !result_;
@@ -139,10 +139,10 @@ std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes
     if ((hint.empty() || hint.starts_with("did you mean")) && is_quantity(source_->text) &&
         uses_names_of(environment, source_->text))
       hint = "a quantity is one number and a unit, it cannot be part of an expression: give it a name in [parameters]";
-    mistakes.error(mistakes.inside(*source_, wrong->offset), name_ + ": " + wrong->message, hint);
+    diagnostics.error(diagnostics.inside(*source_, wrong->offset), name_ + ": " + wrong->message, hint);
   } else if (const Number number = std::get<Number>(result); std::isnan(number.value)) {
     result_.reset();
-    mistakes.error(source_->spot, name_ + " is not a number: " + describe(*source_) + " has no defined value (NaN)");
+    diagnostics.error(source_->spot, name_ + " is not a number: " + describe(*source_) + " has no defined value (NaN)");
   } else {
     result_ = number;
   }
@@ -150,34 +150,34 @@ std::optional<Number> Formula::evaluate(const Environment& environment, Mistakes
 }
 
 std::optional<double> Formula::evaluate(const Environment& environment, Quantity quantity, Domain domain,
-                                        Mistakes& mistakes, double flow_index) const {
-  const auto number = evaluate(environment, mistakes);
+                                        DiagnosticList& diagnostics, double flow_index) const {
+  const auto number = evaluate(environment, diagnostics);
   if (!number) return {};
   const auto result = as_quantity(*number, quantity, domain, flow_index);
   if (const auto* wrong = std::get_if<TextError>(&result)) {
-    mistakes.error(source_->spot, name_ + ": " + wrong->message, wrong->hint);
+    diagnostics.error(source_->spot, name_ + ": " + wrong->message, wrong->hint);
     return {};
   }
   return std::get<double>(result);
 }
 
 std::optional<double> Formula::evaluate_finite(const Environment& environment, Quantity quantity, Domain domain,
-                                               Mistakes& mistakes) const {
-  const auto value = evaluate(environment, quantity, domain, mistakes);
+                                               DiagnosticList& diagnostics) const {
+  const auto value = evaluate(environment, quantity, domain, diagnostics);
   if (!value || std::isfinite(*value)) return value;
-  mistakes.error(source_->spot, name_ + " must be finite, but is infinite");
+  diagnostics.error(source_->spot, name_ + " must be finite, but is infinite");
   return {};
 }
 
 bool check_bounds(double value, const Parameter& parameter, const Formula& formula, Domain domain, double flow_index,
-                  Mistakes& mistakes) {
+                  DiagnosticList& diagnostics) {
   const std::string unit = unit_of(parameter.quantity, domain, flow_index);
   const Spot spot = formula.source().spot;
   if (std::isinf(value) && !parameter.may_be_infinite) {
     // The hint is for magnitudes alone: only there may a user expect a limit at infinity.
     const bool magnitude =
         parameter.kind == Parameter::Kind::value && parameter.lower >= 0 && std::isinf(parameter.upper);
-    mistakes.error(spot, formula.name() + " must be finite, but is infinite",
+    diagnostics.error(spot, formula.name() + " must be finite, but is infinite",
                    magnitude && value > 0
                        ? "\"inf\" is for laws that become another one there, and this one does not; a "
                          "value large beside those around it comes close"
@@ -186,13 +186,13 @@ bool check_bounds(double value, const Parameter& parameter, const Formula& formu
   }
   const bool too_low = parameter.lower_open ? value <= parameter.lower : value < parameter.lower;
   if (too_low && std::isfinite(parameter.lower)) {
-    mistakes.error(spot, fmt::format("{} must be {} {}, but is {}", formula.name(),
+    diagnostics.error(spot, fmt::format("{} must be {} {}, but is {}", formula.name(),
                                      parameter.lower_open ? "greater than" : "at least",
                                      with_unit(parameter.lower, unit), with_unit(value, unit)));
     return false;
   }
   if (value > parameter.upper) {
-    mistakes.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(),
+    diagnostics.error(spot, fmt::format("{} must be at most {}, but is {}", formula.name(),
                                      with_unit(parameter.upper, unit), with_unit(value, unit)));
     return false;
   }

@@ -18,7 +18,7 @@ class Formula {
   /// A value that is not given.
   Formula() = default;
   /// Anything but a number or a string is a mistake. `name` is used in messages: "`stiffness`".
-  Formula(const TomlValue& source, std::string name, Mistakes& mistakes);
+  Formula(const TomlValue& source, std::string name, DiagnosticList& diagnostics);
 
   bool given() const { return source_ != nullptr; }
   const TomlValue& source() const { return *source_; }
@@ -28,13 +28,13 @@ class Formula {
 
   /// The value in `environment`; absent, with a mistake, if it cannot be evaluated. The result is cached until one of its
   /// names changes its value, so that evaluation for a million elements costs little.
-  std::optional<Number> evaluate(const Environment& environment, Mistakes& mistakes) const;
+  std::optional<Number> evaluate(const Environment& environment, DiagnosticList& diagnostics) const;
   /// The value in SI; a mistake if it has not the dimension of `quantity`. It may be infinite, but is never NaN.
-  std::optional<double> evaluate(const Environment& environment, Quantity quantity, Domain domain, Mistakes& mistakes,
+  std::optional<double> evaluate(const Environment& environment, Quantity quantity, Domain domain, DiagnosticList& diagnostics,
                                  double flow_index = 1) const;
   /// The same; an infinite value is a mistake.
   std::optional<double> evaluate_finite(const Environment& environment, Quantity quantity, Domain domain,
-                                        Mistakes& mistakes) const;
+                                        DiagnosticList& diagnostics) const;
 
  private:
   const TomlValue* source_ = nullptr;
@@ -52,6 +52,6 @@ std::string number_text(double value);
 
 /// Whether `value` is within the bounds of `parameter`; a mistake if not.
 bool check_bounds(double value, const Parameter& parameter, const Formula& formula, Domain domain, double flow_index,
-                  Mistakes& mistakes);
+                  DiagnosticList& diagnostics);
 
 }  // namespace rheonet

@@ -10,12 +10,12 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
+#include "core/netlist/diagnostic_list.hpp"
 #include "core/netlist/loose_nodes.hpp"
-#include "core/netlist/mistakes.hpp"
 #include "core/netlist/records.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
-#include "core/network/listed.hpp"
 #include "core/network/parts.hpp"
 
 namespace rheonet {
@@ -111,7 +111,7 @@ class Adviser {
     }
     if (!at_rest.names.empty()) {
       found_.push_back(warning(at_rest.spot, fmt::format("{} {} the rest of the network at ground only, and nothing drives {}",
-                                                         listed(at_rest.names), at_rest.names.size() > 1 ? "touch" : "touches",
+                                                         format_list(at_rest.names), at_rest.names.size() > 1 ? "touch" : "touches",
                                                          at_rest.names.size() > 1 ? "them" : "it"),
                                "a node is mistyped, or an element is missing that joins it to the rest"));
       return;
@@ -128,7 +128,7 @@ class Adviser {
     if (unasked.names.empty()) return;
     const std::size_t first = static_cast<std::size_t>(std::find(counts.begin(), counts.end(), 1) - counts.begin());
     const Group told = is_chosen ? unasked : group(parts, [&](std::size_t p) { return counts[p] && p != first; });
-    found_.push_back(warning(told.spot, fmt::format("{} {} the rest of the network at ground only{}", listed(told.names), told.names.size() > 1 ? "touch" : "touches",
+    found_.push_back(warning(told.spot, fmt::format("{} {} the rest of the network at ground only{}", format_list(told.names), told.names.size() > 1 ? "touch" : "touches",
                                                     is_chosen ? ", and nothing is recorded there" : ": neither has an effect on the other"),
                              is_chosen ? "join it to the rest, record something of it, or leave it out"
                                        : "if these are several networks on purpose, say in `record` what is wanted of each"));

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 #include "core/network/effects.hpp"
-#include "core/network/index.hpp"
 #include "core/network/limits.hpp"
-#include "core/network/listed.hpp"
 #include "core/network/resolved.hpp"
 
 namespace rheonet {
@@ -59,7 +59,7 @@ void tell_meaningless(Network& network) {
     }
   }
   for (const auto& [reason, paths] : told) {
-    network.notes.push_back(fmt::format("{} mean{} nothing {}, and {} left out", listed(paths), paths.size() > 1 ? "" : "s", reason,
+    network.notes.push_back(fmt::format("{} mean{} nothing {}, and {} left out", format_list(paths), paths.size() > 1 ? "" : "s", reason,
                                         paths.size() > 1 ? "are" : "is"));
   }
 }

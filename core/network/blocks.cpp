@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/index.hpp"
 #include "core/network/effects.hpp"
-#include "core/network/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
 

@@ -56,8 +56,8 @@ class DeflectionBatch {
   /// Number of event functions of element i (0 for laws without memory).
   virtual int events(std::size_t i) const = 0;
   /// Event functions of element i at deflection p, its rate dp and velocity w; positive as long as the memory stays as it
-  /// is. `noise` is the dead band of reversals [m/s].
-  virtual void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const = 0;
+  /// is. `dead_band` is the dead band of reversals [m/s].
+  virtual void event_functions(std::size_t i, double p, double dp, double w, double dead_band, double* g) const = 0;
   /// Changes the memory of element i at its event `which`. The force does not change.
   virtual void switch_memory(std::size_t i, int which, double p, double w) = 0;
   /// The deflection jumps from p to p + jump at one event (a displacement step at an end), and the memory follows. Returns
@@ -127,7 +127,7 @@ class RateBatch {
   virtual void set_by_force(std::size_t i, bool by_force) = 0;
   /// Makes element i linear up to the velocity `w` if its slope would otherwise be infinite or 0 at rest: the integrator
   /// could not follow a mass that such an element brings to rest.
-  virtual void soften(std::size_t i, double w) = 0;
+  virtual void regularise(std::size_t i, double w) = 0;
   /// Growth of the force of element i at large velocities.
   virtual Growth growth(std::size_t i) const = 0;
   /// Impulse per unit of a displacement step of an end [N s/m]: the damping of a linear dashpot; infinite for faster growth,

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 #include "core/netlist/effects_table.hpp"
 #include "core/network/error.hpp"
-#include "core/network/index.hpp"
 #include "core/network/limits.hpp"
-#include "core/network/listed.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {

@@ -7,8 +7,8 @@
 #include <map>
 #include <queue>
 
-#include "core/network/index.hpp"
-#include "core/network/listed.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 
@@ -26,7 +26,7 @@ namespace {
   throw SimulationError(network.spot_of_node(first), fmt::format(
       "nothing determines the motion of node{} {}: no mass there, and no element that resists motion leads from there to "
       "ground, to a mass or to a prescribed motion; add one, or a mass",
-      names.size() > 1 ? "s" : "", listed(names)));
+      names.size() > 1 ? "s" : "", format_list(names)));
 }
 
 /// An element whose force is constant at present: it joins nodes, but its force does not depend on their motion.

@@ -9,11 +9,11 @@
 #include <map>
 #include <utility>
 
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
-#include "core/network/listed.hpp"
 #include "core/network/network.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -132,7 +132,7 @@ class FreeEndSearch {
 
   /// Removes a whole connected part from the free ends if anything in it may start at a displacement other than 0.
   void let_stressed_go() {
-    Sets together(held_.size());
+    DisjointSets together(held_.size());
     std::vector<std::size_t> displaced;
     for (std::size_t n = 0; n < held_.size(); ++n) {
       if (is_given(scene_.nodes[n].position)) displaced.push_back(n);
@@ -182,8 +182,8 @@ std::vector<std::string> tell_free_ends(const Scene& scene, const FreeEnds& ends
     if (what.elements.size() < 2) continue;
     const bool several = what.nodes.size() > 1;
     const std::string goes = node == ground ? (several ? "rest" : "rests") : (several ? "move with it" : "moves with it");
-    words.push_back(fmt::format("node{} {} hang{} on `{}` alone and {}: {} carry no force", several ? "s" : "", listed(what.nodes),
-                                several ? "" : "s", scene.nodes[at(node)].name, goes, listed(what.elements)));
+    words.push_back(fmt::format("node{} {} hang{} on `{}` alone and {}: {} carry no force", several ? "s" : "", format_list(what.nodes),
+                                several ? "" : "s", scene.nodes[at(node)].name, goes, format_list(what.elements)));
   }
   return words;
 }

@@ -224,8 +224,8 @@ void IwanBatch::linearise(const double* p, double* f, double* df, double* c, dou
   }
 }
 
-void IwanBatch::event_functions(std::size_t i, double p, double, double w, double noise, double* g) const {
-  g[0] = bundles_[i].direction() * w + noise;  // reversal
+void IwanBatch::event_functions(std::size_t i, double p, double, double w, double dead_band, double* g) const {
+  g[0] = bundles_[i].direction() * w + dead_band;  // reversal
   const double left = bundles_[i].to_kink(p);
   g[1] = std::isinf(left) ? 1 : left;
 }

@@ -137,7 +137,7 @@ class IwanBatch final : public DeflectionBatch {
   double start(std::size_t, double) override { return 0; }
   double start_with(std::size_t, double) override { return std::numeric_limits<double>::quiet_NaN(); }
   int events(std::size_t) const override { return 2; }
-  void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const override;
+  void event_functions(std::size_t i, double p, double dp, double w, double dead_band, double* g) const override;
   void switch_memory(std::size_t i, int which, double p, double w) override;
   double jump(std::size_t i, double p, double jump) override { return bundles_[i].jump(p, jump); }
   bool set_direction(std::size_t i, double p, double w, int direction) override;

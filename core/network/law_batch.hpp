@@ -94,8 +94,8 @@ class DeflectionBatchOf final : public DeflectionBatch {
     }
   }
   int events(std::size_t i) const override { return laws_[i].event_count(); }
-  void event_functions(std::size_t i, double p, double dp, double w, double noise, double* g) const override {
-    laws_[i].event_functions(p, dp, w, noise, g);
+  void event_functions(std::size_t i, double p, double dp, double w, double dead_band, double* g) const override {
+    laws_[i].event_functions(p, dp, w, dead_band, g);
   }
   void switch_memory(std::size_t i, int which, double p, double w) override {
     laws_[i].switch_memory(which, p, w);
@@ -162,7 +162,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
 ///       explicit Law(std::span<const double> values);
 ///       bool by_force() const;
 ///       Growth growth() const;
-///       void soften(double w);                          // see RateBatch::soften
+///       void regularise(double w);                          // see RateBatch::regularise
 ///       template <class T> T force(const T& w) const;   // f = force(w)
 ///       template <class T> T rate(const T& f) const;    // its inverse
 ///     };
@@ -180,7 +180,7 @@ class RateBatchOf final : public RateBatch {
   std::size_t size() const override { return laws_.size(); }
   bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
   void set_by_force(std::size_t i, bool by_force) override { by_force_[i] = by_force; }
-  void soften(std::size_t i, double w) override { laws_[i].soften(w); }
+  void regularise(std::size_t i, double w) override { laws_[i].regularise(w); }
   Growth growth(std::size_t i) const override { return laws_[i].growth(); }
 
   void evaluate(const double* in, double* out) const override {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/index.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
 #include "core/network/resolved.hpp"
 
 namespace rheonet {

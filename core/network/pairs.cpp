@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/network/network.hpp"
 #include "core/network/reductions.hpp"
 

@@ -1,8 +1,8 @@
 #include "core/network/parts.hpp"
 
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -82,7 +82,7 @@ class Joiner {
   }
 
   const Scene& scene_;
-  Sets sets_;
+  DisjointSets sets_;
   std::vector<char> shared_, ignored_, sensed_;
 };
 

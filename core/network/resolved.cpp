@@ -1,9 +1,9 @@
 #include "core/network/resolved.hpp"
 
+#include "core/base/index.hpp"
+#include "core/base/roundoff.hpp"
 #include "core/network/component.hpp"
 #include "core/network/effects.hpp"
-#include "core/network/index.hpp"
-#include "core/network/time_grain.hpp"
 
 namespace rheonet {
 
@@ -13,7 +13,7 @@ std::vector<double> resolved_values(const Scene& scene, const SceneElement& elem
   leave_out_effects(scene, element, values);
   for (std::size_t k = 0; k < values.size(); ++k) {
     const bool may_be_none = parameters[k].quantity == Quantity::time && !parameters[k].lower_open;
-    if (may_be_none && values[k] > 0 && values[k] <= time_grain(scene.stop - scene.start)) values[k] = 0;
+    if (may_be_none && values[k] > 0 && values[k] <= time_roundoff(scene.stop - scene.start)) values[k] = 0;
   }
   return values;
 }

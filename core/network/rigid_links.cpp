@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/network/index.hpp"
-#include "core/network/listed.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 
 bool is_rigid_link(const Network::Slider& slider) { return std::isinf(slider.law.breakaway); }
 
-Sets joined_by_links(const Network& network) {
-  Sets joined(network.nodes());
+DisjointSets joined_by_links(const Network& network) {
+  DisjointSets joined(network.nodes());
   for (const Network::Slider& s : network.sliders) {
     if (is_rigid_link(s)) joined.join(s.branch.a, s.branch.b);
   }
@@ -44,7 +44,7 @@ LinksBetween links_between(const Network& network, NodeId from, NodeId to) {
   }
   std::reverse(names.begin(), names.end());
   const bool several = names.size() > 1;
-  return {(several ? "rigid links " : "rigid link ") + listed(names), first, several};
+  return {(several ? "rigid links " : "rigid link ") + format_list(names), first, several};
 }
 
 }  // namespace rheonet

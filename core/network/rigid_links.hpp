@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/disjoint_sets.hpp"
 #include "core/network/network.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -12,7 +12,7 @@ namespace rheonet {
 bool is_rigid_link(const Network::Slider& slider);
 
 /// The nodes that rigid links join, of the whole network.
-Sets joined_by_links(const Network& network);
+DisjointSets joined_by_links(const Network& network);
 
 /// The rigid links on the shortest path between two nodes that they join, in words: "rigid link `l1`", "rigid links `l1`,
 /// `l2`".

@@ -6,8 +6,8 @@
 #include <boost/graph/connected_components.hpp>
 #include <numeric>
 
+#include "core/base/index.hpp"
 #include "core/network/forest.hpp"
-#include "core/network/index.hpp"
 #include "core/network/reductions.hpp"
 
 namespace rheonet {
@@ -18,13 +18,13 @@ using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS
 /// Joins the ends of sticking sliders. The representative is a known node if there is one, otherwise a massive one.
 void join(const Network& network, const Modes& modes, Structure& s) {
   const std::size_t n = s.kind.size();
-  Graph bonds(n);
+  Graph stuck_pairs(n);
   for (std::size_t k = 0; k < network.sliders.size(); ++k) {
     const Branch& b = network.sliders[k].branch;
-    if (modes.slider[k] == Modes::stuck) boost::add_edge(at(b.a), at(b.b), bonds);
+    if (modes.slider[k] == Modes::stuck) boost::add_edge(at(b.a), at(b.b), stuck_pairs);
   }
   std::vector<int> part(n);
-  const int parts = boost::connected_components(bonds, part.data());
+  const int parts = boost::connected_components(stuck_pairs, part.data());
   std::vector<NodeId> head(at(parts), -1);
   for (const Kind kind : {Kind::known, Kind::massive, Kind::floating}) {
     for (NodeId node : network.node_order) {

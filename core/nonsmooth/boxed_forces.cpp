@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/network/index.hpp"
-#include "core/network/sets.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
 #include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
@@ -162,7 +162,7 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
 /// within parts move. Scaled to a length of about 1, because products of forces might overflow.
 void BoxedForces::find_direction() {
   const int nodes = static_cast<int>(held_.size());
-  Sets parts(held_.size() + 1);  // the last member stands for held nodes
+  DisjointSets parts(held_.size() + 1);  // the last member stands for held nodes
   const auto slot = [&](int node) { return node < 0 || held_[at(node)] ? nodes : node; };
   const auto within = [&](std::size_t k) { return branches_[k].low < difference_[k] && difference_[k] < branches_[k].high; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {

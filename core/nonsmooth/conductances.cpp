@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

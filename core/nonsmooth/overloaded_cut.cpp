@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/network/index.hpp"
-#include "core/network/sets.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 
@@ -80,7 +80,7 @@ bool CutSearch::overloaded(const std::vector<char>& inside, int side) const {
 /// The connected parts of the nodes with this value, without the part that reaches a held node.
 std::vector<std::vector<char>> CutSearch::pieces(const std::vector<char>& of, char value) const {
   const std::size_t nodes = of.size();
-  Sets sets(nodes + 1);  // the last member stands for held nodes
+  DisjointSets sets(nodes + 1);  // the last member stands for held nodes
   const auto slot = [&](int node) { return node < 0 || held_[at(node)] ? static_cast<int>(nodes) : node; };
   const auto belongs = [&](int node) { return slot(node) == static_cast<int>(nodes) ? value == 0 : of[at(node)] == value; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {

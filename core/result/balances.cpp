@@ -8,10 +8,10 @@
 #include <map>
 #include <utility>
 
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
 #include "core/network/linear_law.hpp"
-#include "core/network/listed.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
@@ -105,12 +105,12 @@ void Balances::find_nodes(const Scene& scene) {
   }
 }
 
-std::optional<Imbalance> Balances::raise(const Course& course, double allowed, std::vector<RecordError>& errors) const {
+std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double allowed, std::vector<RecordError>& errors) const {
   std::optional<Imbalance> worst;
   double most = allowed;
   for (const Node& node : nodes_) {
     double largest = 0, sum = 0, time = 0;
-    for (const std::vector<double>& row : course.rows) {
+    for (const std::vector<double>& row : trajectory.rows) {
       for (const Term& term : node.terms) largest = std::max(largest, std::abs(row[term.record]));
     }
     const double rounding = sum_grains * std::numeric_limits<double>::epsilon() * largest;
@@ -119,17 +119,17 @@ std::optional<Imbalance> Balances::raise(const Course& course, double allowed, s
     const auto allows = [&](std::size_t i) {
       return i < node.forces.size() ? allowed * errors[node.forces[i]].scale : allowed * largest;
     };
-    for (std::size_t i = 0; i < course.rows.size(); ++i) {
+    for (std::size_t i = 0; i < trajectory.rows.size(); ++i) {
       double left = 0;
-      for (const Term& term : node.terms) left += term.sign * course.rows[i][term.record];
+      for (const Term& term : node.terms) left += term.sign * trajectory.rows[i][term.record];
       left = std::abs(left);
       if (left <= rounding) continue;
       for (std::size_t k = 0; k < first.size(); ++k) {
-        if (std::isnan(first[k]) && left > allows(k)) first[k] = course.times[i];
+        if (std::isnan(first[k]) && left > allows(k)) first[k] = trajectory.times[i];
       }
       if (left <= sum) continue;
       sum = left;
-      time = course.times[i];
+      time = trajectory.times[i];
     }
     if (sum == 0) continue;
     for (std::size_t k = 0; k < first.size(); ++k) {
@@ -151,7 +151,7 @@ std::optional<Imbalance> Balances::raise(const Course& course, double allowed, s
 }
 
 std::string describe(const Scene& scene, const Imbalance& imbalance) {
-  return fmt::format("the forces of {} at node `{}` sum to {}, {:.2g} of the largest of them, {}", listed(imbalance.elements),
+  return fmt::format("the forces of {} at node `{}` sum to {}, {:.2g} of the largest of them, {}", format_list(imbalance.elements),
                      imbalance.node, with_unit(scene, imbalance.sum, Quantity::force), imbalance.sum / imbalance.largest,
                      at_time(scene, imbalance.time - scene.start));
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/result/yardstick.hpp"
+#include "core/result/reference_solution.hpp"
 
 namespace rheonet {
 
@@ -32,7 +32,7 @@ class Balances {
   /// Raises the errors of the scene's own records, whose limit is `allowed` (relative), to the imbalances in the rows of a
   /// run of `scene()`. The error of a force is raised to the imbalance, that of a motion to its scale times imbalance /
   /// largest force there. Returns the imbalance behind the largest raised error above `allowed`; absent if there is none.
-  std::optional<Imbalance> raise(const Course& course, double allowed, std::vector<RecordError>& errors) const;
+  std::optional<Imbalance> raise(const Trajectory& trajectory, double allowed, std::vector<RecordError>& errors) const;
 
  private:
   struct Term { std::size_t record; double sign; };

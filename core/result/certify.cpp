@@ -81,9 +81,9 @@ class FirstColumns {
 /// A run to one tolerance, with its output held back. Its records are the scene's, followed by forces to balance.
 struct Attempt {
   double tolerance = 0;
-  Yardstick yardstick;
+  ReferenceSolution reference;
   Spool rows, events;
-  std::optional<Yardstick> other;  ///< a run of another order, if round-off matters
+  std::optional<ReferenceSolution> other;  ///< a run of another order, if round-off matters
   std::exception_ptr failure;      ///< null if the run is complete
 
   void hand_over(const Scene& scene, const RunSettings& settings) {
@@ -97,8 +97,8 @@ struct Attempt {
     rows.copy_to(settings.csv, "the results");
     if (!settings.row) return;
     const FirstColumns own(scene, nullptr);
-    const Course& course = yardstick.course;
-    for (std::size_t i = 0; i < course.times.size(); ++i) settings.row(course.times[i], own.first(course.rows[i]));
+    const Trajectory& trajectory = reference.trajectory;
+    for (std::size_t i = 0; i < trajectory.times.size(); ++i) settings.row(trajectory.times[i], own.first(trajectory.rows[i]));
   }
 };
 
@@ -125,7 +125,7 @@ class Certification {
     if (!kept_) kept_ = measured;
     kept_->hand_over(scene_, settings_);
     if (kept_->failure) std::rethrow_exception(kept_->failure);
-    result_.summary = kept_->yardstick.course.summary;
+    result_.summary = kept_->reference.trajectory.summary;
     if (tighter->failure) say_why(tighter->failure);
     return std::move(result_);
   }
@@ -140,7 +140,7 @@ class Certification {
     settings.row = [&rows](double time, const std::vector<double>& values) { rows.row(time, values); };
     settings.events = settings.events ? result->events.file() : nullptr;
     try {
-      result->yardstick = flushed(rows, [&] { return run_as_yardstick(balances_.scene(), shift_, std::move(settings)); });
+      result->reference = flushed(rows, [&] { return run_as_reference(balances_.scene(), shift_, std::move(settings)); });
     } catch (const SimulationError&) {
       result->failure = std::current_exception();
     }
@@ -152,7 +152,7 @@ class Certification {
     if (tolerance > Certificate::rounding_shows * (1 + rounding)) return attempt(settings_, tolerance);
     auto beside = std::async(std::launch::async, [&] {
       const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
-      return run_as_yardstick(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order, .account = false});
+      return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order, .account = false});
     });
     std::shared_ptr<Attempt> result = attempt(settings_, tolerance);
     try {
@@ -176,18 +176,18 @@ class Certification {
 
   void count(const Attempt& done) {
     result_.runs += done.other ? 2 : 1;
-    result_.cpu_seconds += done.yardstick.course.summary.cpu_seconds;
-    if (done.other) result_.cpu_seconds += done.other->course.summary.cpu_seconds;
+    result_.cpu_seconds += done.reference.trajectory.summary.cpu_seconds;
+    if (done.other) result_.cpu_seconds += done.other->trajectory.summary.cpu_seconds;
   }
 
   /// Measures a run. Returns true if it is accurate enough.
   bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {
     const ErrorMeasure as_promised{
         .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - Certificate::own_error)};
-    const Course& course = measured->yardstick.course;
-    std::vector<RecordError> errors = record_errors(scene_, course, tighter.yardstick, as_promised);
-    if (tighter.other) count_other(errors, record_errors(scene_, course, *tighter.other, as_promised));
-    const std::optional<Imbalance> imbalance = balances_.raise(course, scene_.accuracy, errors);
+    const Trajectory& trajectory = measured->reference.trajectory;
+    std::vector<RecordError> errors = record_errors(scene_, trajectory, tighter.reference, as_promised);
+    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised));
+    const std::optional<Imbalance> imbalance = balances_.raise(trajectory, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
     result_.rounds.push_back({measured->tolerance, worst, error});

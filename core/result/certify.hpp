@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/result/balances.hpp"
+#include "core/result/reference_solution.hpp"
 #include "core/result/run.hpp"
-#include "core/result/yardstick.hpp"
 
 namespace rheonet {
 

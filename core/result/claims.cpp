@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 
@@ -96,12 +96,12 @@ void Claims::begin(double t, const std::vector<double>& values, double fastest) 
   see(values);
   for (State& state : claims_) {
     const Claim& claim = state.claim;
-    const auto note = [&](Course& course, double value) {
-      course.last = value;
-      if (std::abs(t - claim.time) <= slack_) course.at = value;
+    const auto note = [&](Statistics& statistics, double value) {
+      statistics.last = value;
+      if (std::abs(t - claim.time) <= slack_) statistics.at = value;
       if (t < claim.from - slack_ || t > claim.to + slack_) return;
       state.looked = t;  // a jump takes no time
-      look(state, course, {t, value}, {});
+      look(state, statistics, {t, value}, {});
     };
     note(state.of, values[at(claim.record)]);
     if (claim.per >= 0) note(state.per, values[at(claim.per)]);
@@ -129,15 +129,15 @@ void Claims::see(const std::vector<double>& row) {
   for (std::size_t k = 0; k < row.size(); ++k) largest_[k] = std::max(largest_[k], std::abs(row[k]));
 }
 
-void Claims::end_piece(const State& state, Course& course, double to, double value) const {
+void Claims::end_piece(const State& state, Statistics& statistics, double to, double value) const {
   const double time = state.claim.time;
-  course.last = value;
-  if (to == time || (to < time && time - to <= slack_)) course.at = value;
+  statistics.last = value;
+  if (to == time || (to < time && time - to <= slack_)) statistics.at = value;
 }
 
 void Claims::piece(double from, double to, const Read& read, int halvings, double parent) {
   if (!any_over_time_) {
-    // All claims are about values at a given time, and do not depend on the course of a step.
+    // All claims are about values at a given time, and do not depend on what happens within a step.
     values_ = read(to);
     see(values_);
     for (State& state : claims_) {
@@ -167,15 +167,15 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
   values_ = rows.back();
   for (State& state : claims_) {
     const Claim& claim = state.claim;
-    const auto follow = [&](Course& course, int record) {
+    const auto follow = [&](Statistics& statistics, int record) {
       const Samples f = of_record(rows, record);
-      end_piece(state, course, to, f.back());
+      end_piece(state, statistics, to, f.back());
       if (middle < claim.from || middle > claim.to) return;
       for (std::size_t i = 0; i < f.size(); ++i) {
-        course.integral += lobatto_weights[i] * f[i] * (to - from);
-        course.squares += lobatto_weights[i] * f[i] * f[i] * (to - from);
+        statistics.integral += lobatto_weights[i] * f[i] * (to - from);
+        statistics.squares += lobatto_weights[i] * f[i] * f[i] * (to - from);
       }
-      course.length += to - from;
+      statistics.length += to - from;
       if (!is_over_points(claim.figure)) return;
       std::vector<Point> points;
       for (std::size_t i = 0; i < f.size(); ++i) points.push_back({times[i], f[i]});
@@ -184,7 +184,7 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
         points.push_back({t, read(t)[at(record)]});
       }
       std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.t < b.t; });
-      for (const Point& point : points) look(state, course, point, read);
+      for (const Point& point : points) look(state, statistics, point, read);
     };
     follow(state.of, claim.record);
     if (claim.per >= 0) follow(state.per, claim.per);
@@ -198,17 +198,17 @@ bool Claims::may_matter(double middle, const Rows& rows) const {
     const Claim& claim = state.claim;
     if (!is_over_time(claim.figure) || middle < claim.from || middle > claim.to) continue;
     if (!is_over_points(claim.figure)) return true;
-    const auto near = [&](const Course& course, int record) {
+    const auto near = [&](const Statistics& statistics, int record) {
       const Samples f = of_record(rows, record);
       const auto [least, most] = std::minmax_element(f.begin(), f.end());
       const double range = much_farther * (*most - *least);
       switch (claim.figure) {
         case Figure::max:
         case Figure::time_of_max:
-          return !(*most + range < course.largest);
+          return !(*most + range < statistics.largest);
         case Figure::min:
         case Figure::time_of_min:
-          return !(*least - range > course.smallest);
+          return !(*least - range > statistics.smallest);
         default:
           break;
       }
@@ -234,16 +234,16 @@ double Claims::off_cubic(double middle, const Rows& rows, double x, const std::v
   return most;
 }
 
-void Claims::look(State& state, Course& course, const Point& point, const Read& read) {
+void Claims::look(State& state, Statistics& statistics, const Point& point, const Read& read) {
   const Claim& claim = state.claim;
   // The comparisons are false for NaN, so that the first value is always taken.
-  if (!(point.value <= course.largest)) {
-    course.largest = point.value;
-    course.largest_at = point.t;
+  if (!(point.value <= statistics.largest)) {
+    statistics.largest = point.value;
+    statistics.largest_at = point.t;
   }
-  if (!(point.value >= course.smallest)) {
-    course.smallest = point.value;
-    course.smallest_at = point.t;
+  if (!(point.value >= statistics.smallest)) {
+    statistics.smallest = point.value;
+    statistics.smallest_at = point.t;
   }
   if (claim.figure != Figure::crossing || !std::isnan(state.crossed)) return;
   const double side = side_of(point.value, claim.level);
@@ -261,24 +261,24 @@ void Claims::look(State& state, Course& course, const Point& point, const Read& 
   state.looked = point.t;
 }
 
-double Claims::figure(const State& state, const Course& course) const {
+double Claims::figure(const State& state, const Statistics& statistics) const {
   switch (state.claim.figure) {
     case Figure::at:
-      return course.at;
+      return statistics.at;
     case Figure::final:
-      return course.last;
+      return statistics.last;
     case Figure::max:
-      return course.largest;
+      return statistics.largest;
     case Figure::min:
-      return course.smallest;
+      return statistics.smallest;
     case Figure::mean:
-      return course.integral / course.length;
+      return statistics.integral / statistics.length;
     case Figure::rms:
-      return std::sqrt(course.squares / course.length);
+      return std::sqrt(statistics.squares / statistics.length);
     case Figure::time_of_max:
-      return course.largest_at;
+      return statistics.largest_at;
     case Figure::time_of_min:
-      return course.smallest_at;
+      return statistics.smallest_at;
     case Figure::crossing:
       break;
   }

@@ -36,7 +36,7 @@ class Claims {
 
  private:
   /// Figures of one record, so far.
-  struct Course {
+  struct Statistics {
     double last = not_given, largest = not_given, smallest = not_given;
     double largest_at = not_given, smallest_at = not_given;  ///< first time of these values
     double integral = 0, squares = 0, length = 0;
@@ -44,7 +44,7 @@ class Claims {
   };
   struct State {
     Claim claim;      ///< its times count from the start of the run
-    Course of, per;   ///< `of`: the record; `per`: the record by which it is divided
+    Statistics of, per;   ///< `of`: the record; `per`: the record by which it is divided
     double side = 0;            ///< last side of the level: 1, -1; 0 if not known yet
     double looked = not_given;  ///< time of the last point examined
     double crossed = not_given;
@@ -61,9 +61,9 @@ class Claims {
   /// `probed`: the records there.
   double off_cubic(double middle, const Rows& rows, double x, const std::vector<double>& probed) const;
   void see(const std::vector<double>& row);
-  void end_piece(const State& state, Course& course, double to, double value) const;
-  void look(State& state, Course& course, const Point& point, const Read& read);
-  double figure(const State& state, const Course& course) const;
+  void end_piece(const State& state, Statistics& statistics, double to, double value) const;
+  void look(State& state, Statistics& statistics, const Point& point, const Read& read);
+  double figure(const State& state, const Statistics& statistics) const;
 
   std::vector<State> claims_;
   std::vector<double> cuts_;     ///< times named by claims, at which pieces end

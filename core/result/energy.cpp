@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/network/index.hpp"
-#include "core/network/time_grain.hpp"
+#include "core/base/index.hpp"
+#include "core/base/roundoff.hpp"
 
 namespace rheonet {
 
@@ -134,7 +134,7 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
   largest_ = std::max({largest_, std::abs(sum_.supplied + better.supplied), std::abs(sum_.dissipated + better.dissipated)});
   constexpr int deepest = 14;
   // The difference of the two rules far exceeds the error of the better one.
-  if (error <= tolerance_ * largest_ || depth >= deepest || half <= time_grain(b)) return better;
+  if (error <= tolerance_ * largest_ || depth >= deepest || half <= time_roundoff(b)) return better;
   const Power left = lobatto(integrator, a, middle, pa, pm, depth + 1);
   const Power right = lobatto(integrator, middle, b, pm, pb, depth + 1);
   return {left.supplied + right.supplied, left.dissipated + right.dissipated};

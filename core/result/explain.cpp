@@ -9,23 +9,23 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
 #include "core/network/effects.hpp"
-#include "core/network/index.hpp"
+#include "core/network/influence_cone.hpp"
 #include "core/network/limits.hpp"
-#include "core/network/listed.hpp"
-#include "core/network/merge.hpp"
 #include "core/network/network.hpp"
 #include "core/network/parts.hpp"
-#include "core/network/reach.hpp"
 #include "core/network/reductions.hpp"
 #include "core/network/resolved.hpp"
-#include "core/result/channels.hpp"
+#include "core/network/series_parallel_reduction.hpp"
 #include "core/result/cpu_time.hpp"
-#include "core/result/division.hpp"
-#include "core/result/excerpt.hpp"
 #include "core/result/grouped.hpp"
+#include "core/result/output_sampler.hpp"
+#include "core/result/partition.hpp"
 #include "core/result/possible_events.hpp"
 #include "core/result/run.hpp"
+#include "core/result/subscene.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet {
@@ -39,10 +39,10 @@ constexpr std::size_t least_steps = 4;
 class Explainer {
  public:
   explicit Explainer(const Scene& whole)
-      : whole_(whole), reach_(reach_of(whole)), cut_out_(reach_ ? cut_out(whole, reach_->node, reach_->element) : Scene{}),
+      : whole_(whole), reach_(influence_cone(whole)), cut_out_(reach_ ? cut_out(whole, reach_->node, reach_->element) : Scene{}),
         near_(reach_ ? cut_out_ : whole), asked_(divide(near_, {.apart = false})),
-        unmerged_(asked_.excerpts.empty() ? near_ : asked_.excerpts.front().scene), merging_(merge(unmerged_)),
-        scene_(merging_ ? merging_->scene : unmerged_), network_(build_network(scene_)) {}
+        unmerged_(asked_.subscenes.empty() ? near_ : asked_.subscenes.front().scene), reduction_(merge(unmerged_)),
+        scene_(reduction_ ? reduction_->scene : unmerged_), network_(build_network(scene_)) {}
 
   Explanation explain() {
     find_effects();
@@ -94,9 +94,9 @@ class Explainer {
 
   void find_parts_of_it() {
     result_.structure.parts = find_parts(near_).count;
-    const Division division = divide(near_, {.apart = !near_.output_events});
-    result_.structure.integrations = static_cast<int>(std::max<std::size_t>(division.excerpts.size(), 1));
-    for (const std::string& name : division.left_out) {
+    const Partition partition = divide(near_, {.apart = !near_.output_events});
+    result_.structure.integrations = static_cast<int>(std::max<std::size_t>(partition.subscenes.size(), 1));
+    for (const std::string& name : partition.left_out) {
       leave_out({.reduction = name_of(Reduction::unasked),
                  .what = "element",
                  .reason = "nothing that is recorded or claimed depends on its part of the network"},
@@ -117,16 +117,16 @@ class Explainer {
   }
 
   void find_merged() {
-    if (!merging_) return;
+    if (!reduction_) return;
     const std::string& chains = name_of(Reduction::chains);
-    for (const int e : merging_->elements) {
+    for (const int e : reduction_->elements) {
       const SceneElement& element = unmerged_.elements[at(e)];
       leave_out({.reduction = chains,
                  .what = components()[at(element.declaration)]->declaration.type,
                  .reason = "another one stands for all that are in series or side by side with it"},
                 element.name);
     }
-    for (const NodeId node : merging_->nodes) {
+    for (const NodeId node : reduction_->nodes) {
       leave_out({.reduction = chains, .what = "node", .reason = "it lies between elements for which one stands", .of_nodes = true},
                 unmerged_.nodes[at(node)].name);
     }
@@ -251,7 +251,7 @@ class Explainer {
       add(dae.force_unknown(static_cast<int>(r)), {.quantity = "force", .unit = unit(Quantity::force), .equation = "its law"},
           network_.name_of(network_.rates[r]));
     }
-    const BlockSignals& blocks = const_cast<Dae&>(dae).drive().blocks();
+    const BlockSignals& blocks = const_cast<Dae&>(dae).inputs().blocks();
     for (std::size_t k = 0; k < blocks.states(); ++k) {
       add(dae.block_unknown(k), {.quantity = "state", .equation = "its rate follows from what it takes in"},
           element(network_.blocks.blocks[at(blocks.block_of_state(k))].element));
@@ -322,10 +322,10 @@ class Explainer {
     const bool viscous = std::find(structure.kind.begin(), structure.kind.end(), Kind::viscous) != structure.kind.end();
     if (!floating.empty()) {
       s.index_as_wired = 2;
-      s.because = "springs and friction alone hold " + listed(floating) + ": the balance of forces there says nothing of the velocity";
+      s.because = "springs and friction alone hold " + format_list(floating) + ": the balance of forces there says nothing of the velocity";
     } else if (!carried.empty()) {
       s.index_as_wired = 2;
-      s.because = "a given motion carries " + listed(carried) + ": its force needs the rate of what is given";
+      s.because = "a given motion carries " + format_list(carried) + ": its force needs the rate of what is given";
     } else if (viscous || !network_.motions.empty()) {
       s.index_as_wired = 1;
       s.because = viscous ? "forces balance at nodes without mass" : "the forces of given motions follow from the others";
@@ -339,7 +339,7 @@ class Explainer {
     cost.sparse = dae.unknowns() > Integrator::dense_limit;
     const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;
     cost.fastest_rate = std::isfinite(rate) ? rate : 0;
-    cost.fastest_drive = dae.drive().fastest();
+    cost.fastest_drive = dae.inputs().fastest();
   }
 
   /// Runs a trial, and extrapolates from the second half of its steps.
@@ -370,12 +370,12 @@ class Explainer {
   }
 
   const Scene& whole_;
-  const std::optional<Reach> reach_;
+  const std::optional<InfluenceCone> reach_;
   const Scene cut_out_;
   const Scene& near_;      ///< `whole_` within reach
-  const Division asked_;
+  const Partition asked_;
   const Scene& unmerged_;  ///< `near_` without unasked parts
-  const std::optional<Merging> merging_;
+  const std::optional<SeriesParallelReduction> reduction_;
   const Scene& scene_;     ///< the scene that is integrated
   const Network network_;
   Explanation result_;

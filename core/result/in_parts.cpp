@@ -16,7 +16,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/network/listed.hpp"
+#include "core/base/format_list.hpp"
 #include "core/network/network.hpp"
 #include "core/result/csv.hpp"
 
@@ -55,27 +55,27 @@ class Text {
   std::FILE* file_;
 };
 
-/// Results of an excerpt.
+/// Results of a subscene.
 struct Outcome {
   std::vector<double> times;
   std::vector<std::vector<double>> rows;
   std::unique_ptr<Text> events;
   Summary summary;
   std::exception_ptr failure;
-  double reached = 0;   ///< fraction of the run done; for the thread of this excerpt alone
+  double reached = 0;   ///< fraction of the run done; for the thread of this subscene alone
   double fraction = 0;  ///< last fraction included in done_
 };
 
 class SideBySide {
  public:
-  SideBySide(const Scene& scene, const Division& division, const RunSettings& settings)
-      : scene_(scene), division_(division), settings_(settings), outcomes_(division.excerpts.size()) {}
+  SideBySide(const Scene& scene, const Partition& partition, const RunSettings& settings)
+      : scene_(scene), partition_(partition), settings_(settings), outcomes_(partition.subscenes.size()) {}
 
   Summary go() {
     std::vector<std::string> notes;
     check_unasked(notes);
     if (outcomes_.size() == 1) {  // it has all records and claims, in their order
-      Summary sum = run_whole(division_.excerpts.front().scene, settings_);
+      Summary sum = run_whole(partition_.subscenes.front().scene, settings_);
       sum.notes.insert(sum.notes.begin(), notes.begin(), notes.end());
       return sum;
     }
@@ -94,10 +94,10 @@ class SideBySide {
  private:
   /// Checks structure and start of the parts that are not integrated.
   void check_unasked(std::vector<std::string>& notes) const {
-    if (division_.left_out.empty()) return;
-    for (const Excerpt& excerpt : division_.unasked) check(excerpt.scene);
+    if (partition_.left_out.empty()) return;
+    for (const Subscene& subscene : partition_.unasked) check(subscene.scene);
     if (!scene_.blocks.empty()) build_network(scene_);  // ignored blocks may form an algebraic loop
-    notes.push_back(fmt::format("not integrated, since nothing asks for what happens there: {}{}", listed(division_.left_out),
+    notes.push_back(fmt::format("not integrated, since nothing asks for what happens there: {}{}", format_list(partition_.left_out),
                                 settings_.account ? "; the energy account is without it" : ""));
   }
 
@@ -129,13 +129,13 @@ class SideBySide {
         outcome.events = std::make_unique<Text>();
         settings.events = outcome.events->file();
       }
-      outcome.summary = run_whole(division_.excerpts[k].scene, settings);
+      outcome.summary = run_whole(partition_.subscenes[k].scene, settings);
     } catch (...) {
       outcome.failure = std::current_exception();
     }
   }
 
-  /// The failed excerpt with the fewest rows.
+  /// The failed subscene with the fewest rows.
   const Outcome* first_failed() const {
     const Outcome* first = nullptr;
     for (const Outcome& outcome : outcomes_) {
@@ -154,7 +154,7 @@ class SideBySide {
     for (std::size_t row = 0; row < count; ++row) {
       std::fill(values.begin(), values.end(), 0.0);
       for (std::size_t k = 0; k < outcomes_.size(); ++k) {
-        const std::vector<std::size_t>& records = division_.excerpts[k].records;
+        const std::vector<std::size_t>& records = partition_.subscenes[k].records;
         for (std::size_t r = 0; r < records.size(); ++r) values[records[r]] += outcomes_[k].rows[row][r];
       }
       const double time = outcomes_.front().times[row];
@@ -164,7 +164,7 @@ class SideBySide {
     csv.flush();
   }
 
-  /// Writes the events sorted by time, up to the first failure. An event that several excerpts report is written once.
+  /// Writes the events sorted by time, up to the first failure. An event that several subscenes report is written once.
   void write_events(const Outcome* failed) const {
     if (!settings_.events) return;
     std::vector<std::pair<double, std::string>> lines;
@@ -199,7 +199,7 @@ class SideBySide {
       sum.residual_evaluations += s.residual_evaluations;
       sum.jacobian_evaluations += s.jacobian_evaluations;
       sum.restarts += s.restarts;
-      // A motion that several excerpts share switches in each of them.
+      // A motion that several subscenes share switches in each of them.
       for (const Summary::Switched& one : s.switched) switched[one.element] = std::max(switched[one.element], one.times);
       sum.supplied += s.supplied;
       sum.stored += s.stored;
@@ -207,7 +207,7 @@ class SideBySide {
       sum.missing += s.missing;
       sum.largest += s.largest;
       sum.cpu_seconds += s.cpu_seconds;
-      for (std::size_t c = 0; c < s.findings.size(); ++c) sum.findings[division_.excerpts[k].claims[c]] = s.findings[c];
+      for (std::size_t c = 0; c < s.findings.size(); ++c) sum.findings[partition_.subscenes[k].claims[c]] = s.findings[c];
       for (const std::string& note : s.notes) {
         if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
       }
@@ -224,7 +224,7 @@ class SideBySide {
   }
 
   const Scene& scene_;
-  const Division& division_;
+  const Partition& partition_;
   const RunSettings& settings_;
   std::vector<Outcome> outcomes_;
   std::atomic<std::size_t> next_ = 0;
@@ -234,8 +234,8 @@ class SideBySide {
 
 }  // namespace
 
-Summary run_in_parts(const Scene& scene, const Division& division, const RunSettings& settings) {
-  return SideBySide(scene, division, settings).go();
+Summary run_in_parts(const Scene& scene, const Partition& partition, const RunSettings& settings) {
+  return SideBySide(scene, partition, settings).go();
 }
 
 }  // namespace rheonet

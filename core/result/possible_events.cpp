@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/result/grouped.hpp"
 
 namespace rheonet {

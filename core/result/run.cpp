@@ -11,18 +11,18 @@
 #include <tuple>
 #include <utility>
 
+#include "core/network/influence_cone.hpp"
 #include "core/network/network.hpp"
-#include "core/network/reach.hpp"
 #include "core/result/certify.hpp"
-#include "core/result/channels.hpp"
 #include "core/result/claims.hpp"
 #include "core/result/cpu_time.hpp"
 #include "core/result/csv.hpp"
 #include "core/result/energy.hpp"
-#include "core/result/excerpt.hpp"
 #include "core/result/in_parts.hpp"
-#include "core/result/manner.hpp"
-#include "core/result/merged.hpp"
+#include "core/result/output_sampler.hpp"
+#include "core/result/run_reduced.hpp"
+#include "core/result/simulation_method.hpp"
+#include "core/result/subscene.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet {
@@ -67,7 +67,7 @@ class Recorder final : public Observer {
     }
     if (claims_.any()) {
       claimed_.attach(dae, consistency);
-      claims_.begin(t, claimed_.read(t, y, yp), dae.drive().fastest());
+      claims_.begin(t, claimed_.read(t, y, yp), dae.inputs().fastest());
     }
     // A row at an output time also serves as the row after the event.
     bool written = false;
@@ -194,7 +194,7 @@ class Recorder final : public Observer {
   const Scene& scene_;
   double length_;  ///< of the run [s]
   std::vector<std::string> names_;
-  Channels channels_, claimed_;
+  OutputSampler channels_, claimed_;
   Claims claims_;
   std::function<void(double, const std::vector<double>&)> row_, state_;
   CsvWriter csv_, events_;
@@ -246,12 +246,12 @@ std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene,
 }
 
 Summary run_near(const Scene& scene, const RunSettings& settings) {
-  if (const std::optional<Merging> merging = merge(scene)) return run_merged(scene, *merging, settings, run_divided);
+  if (const std::optional<SeriesParallelReduction> reduction = merge(scene)) return run_reduced(scene, *reduction, settings, run_divided);
   return run_divided(scene, settings);
 }
 
 /// Removes the part of the scene out of reach before all other reductions.
-Summary run_within_reach(const Scene& scene, const Reach& reach, const RunSettings& settings) {
+Summary run_influence_cone(const Scene& scene, const InfluenceCone& reach, const RunSettings& settings) {
   Summary summary = run_near(cut_out(scene, reach.node, reach.element), settings);
   summary.notes.push_back(fmt::format(
       "not integrated, since nothing comes as far before the stop: {} elements, more than {} away from all that moves, starts or is recorded",
@@ -263,9 +263,9 @@ Summary run_within_reach(const Scene& scene, const Reach& reach, const RunSettin
 
 Summary run(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
-  const std::optional<Reach> reach = reach_of(scene);
+  const std::optional<InfluenceCone> reach = influence_cone(scene);
   if (!reach) return run_near(scene, settings);
-  Summary summary = run_within_reach(scene, *reach, settings);
+  Summary summary = run_influence_cone(scene, *reach, settings);
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   return summary;
 }
@@ -275,9 +275,9 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
   // Callbacks between rows, and rows at events, need the whole scene in one integration. Rows of parts are held in memory.
   const bool whole = scene.output_events || settings.state || settings.event || settings.profile ||
                      static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > most_held;
-  const Division division = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
-  if (division.excerpts.empty()) return run_whole(scene, settings);
-  Summary summary = run_in_parts(scene, division, settings);
+  const Partition partition = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
+  if (partition.subscenes.empty()) return run_whole(scene, settings);
+  Summary summary = run_in_parts(scene, partition, settings);
   summary.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
   return summary;
 }
@@ -341,12 +341,12 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
 
 Summary run_whole(const Scene& scene, const RunSettings& settings) { return integrate(scene, settings, true); }
 
-Summary run_in(const Manner& manner, const Scene& asked, const RunSettings& settings) {
-  const Scene& scene = manner.scene.empty() ? asked : manner.scene.front();
-  RunSettings in_manner = settings;
-  in_manner.order = manner.order;
-  if (manner.certified) return run_certified(scene, in_manner);
-  return manner.locate_events ? run(scene, in_manner) : integrate(scene, in_manner, false);
+Summary run_by(const SimulationMethod& method, const Scene& asked, const RunSettings& settings) {
+  const Scene& scene = method.scene.empty() ? asked : method.scene.front();
+  RunSettings by_method = settings;
+  by_method.order = method.order;
+  if (method.certified) return run_certified(scene, by_method);
+  return method.locate_events ? run(scene, by_method) : integrate(scene, by_method, false);
 }
 
 namespace {

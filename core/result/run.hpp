@@ -49,7 +49,7 @@ struct Summary {
   long rejected_steps = 0;
   long residual_evaluations = 0;
   long jacobian_evaluations = 0;
-  long events = 0;    ///< number of switches of elements: see core/solve/switches.hpp
+  long events = 0;    ///< number of switches of elements: see core/solve/mode_change_log.hpp
   long restarts = 0;  ///< of the integrator
   std::vector<Switched> switched;  ///< the elements that switched, most frequent first
   /// Steps attributed to a node or element: see core/solve/profile.hpp.

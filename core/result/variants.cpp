@@ -7,11 +7,11 @@
 #include <map>
 #include <utility>
 
-#include "core/network/alternatives.hpp"
+#include "core/base/index.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
 #include "core/network/reductions.hpp"
 #include "core/network/resolved.hpp"
+#include "core/network/surrogate_laws.hpp"
 #include "core/result/explain.hpp"
 #include "core/result/run.hpp"
 
@@ -48,8 +48,8 @@ Glance look(const Scene& scene) {
   Glance result;
   std::vector<int> elements;
   for (int e = 0; at(e) < scene.elements.size(); ++e) {
-    const auto is_its = [&](const Alternative& a) { return a.type == type_of(scene.elements[at(e)]); };
-    if (std::none_of(alternatives().begin(), alternatives().end(), is_its)) continue;
+    const auto is_its = [&](const SurrogateLaw& a) { return a.type == type_of(scene.elements[at(e)]); };
+    if (std::none_of(surrogate_laws().begin(), surrogate_laws().end(), is_its)) continue;
     elements.push_back(e);
     some.records.push_back({scene.elements[at(e)].name + ".velocity", Record::Subject::element, e, Record::Channel::velocity});
   }
@@ -61,7 +61,7 @@ Glance look(const Scene& scene) {
 }
 
 /// Replaces every moving element of the alternative's type by the alternative.
-Scene with(const Scene& scene, const Alternative& alternative, double share, const std::map<int, double>& fastest) {
+Scene with(const Scene& scene, const SurrogateLaw& alternative, double share, const std::map<int, double>& fastest) {
   Scene result = scene;
   for (const auto& [e, speed] : fastest) {
     SceneElement& element = result.elements[at(e)];
@@ -91,17 +91,17 @@ std::vector<std::string> worthwhile_reductions(const Scene& scene) {
 
 }  // namespace
 
-std::vector<Manner> manners(const Scene& scene) {
+std::vector<SimulationMethod> methods(const Scene& scene) {
   const Glance glance_at = look(scene);
-  std::vector<Manner> result;
+  std::vector<SimulationMethod> result;
   for (const int order : {5, 4, 3, 2}) result.push_back({.name = fmt::format("order up to {}", order), .order = order});
   if (glance_at.switches) result.push_back({.name = "events at the ends of steps", .locate_events = false});
   for (const std::string& reduction : worthwhile_reductions(scene)) {
-    Manner kept{.name = fmt::format("without the reduction `{}`", reduction), .scene = {scene}};
+    SimulationMethod kept{.name = fmt::format("without the reduction `{}`", reduction), .scene = {scene}};
     kept.scene.front().keep.push_back(reduction);
     result.push_back(std::move(kept));
   }
-  for (const Alternative& alternative : alternatives()) {
+  for (const SurrogateLaw& alternative : surrogate_laws()) {
     const auto moves = [&](const auto& element) {
       return element.second > 0 && type_of(scene.elements[at(element.first)]) == alternative.type;
     };

@@ -2,14 +2,14 @@
 
 #include <vector>
 
-#include "core/result/manner.hpp"
+#include "core/result/simulation_method.hpp"
 
 namespace rheonet {
 
-/// The usual manner first, then all others that change cost or accuracy and make sense for the scene. These are lower
+/// The usual method first, then all others that change cost or accuracy and make sense for the scene. These are lower
 /// orders; events not located, if there are any; reductions switched off, if they reduce the scene
-/// (core/network/reductions.hpp); and alternatives that components declare (core/network/alternatives.hpp), whose velocities
+/// (core/network/reductions.hpp); and alternatives that components declare (core/network/surrogate_laws.hpp), whose velocities
 /// and displacements are small shares of those in the run. Throws SimulationError if the scene cannot be simulated.
-std::vector<Manner> manners(const Scene& scene);
+std::vector<SimulationMethod> methods(const Scene& scene);
 
 }  // namespace rheonet

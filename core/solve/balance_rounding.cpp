@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "core/network/index.hpp"
-#include "core/network/sets.hpp"
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 
@@ -24,7 +24,7 @@ void BalanceRounding::attach(const Network& network, const Structure& structure)
   place_.assign(structure.kind.size(), 0);
   for (std::size_t n = 0; n < place_.size(); ++n) place_[n] = structure.group[n] + 1;
   const std::size_t places = structure.groups.size() + 1;
-  Sets together(places);
+  DisjointSets together(places);
   branches_.clear();
   for (std::size_t j = 0; j < structure.deflections.size(); ++j) {
     const int a = place_[at(structure.deflections[j].a)], b = place_[at(structure.deflections[j].b)];

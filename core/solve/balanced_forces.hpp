@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/network/structure.hpp"
 
 namespace rheonet {
@@ -21,10 +21,10 @@ class BalancedForces {
   void attach(const Structure& structure, std::vector<Branch> forces, std::size_t otherwise);
 
   void begin();
-  void add_told(const Branch& b, double noise) {
+  void add_told(const Branch& b, double dead_band) {
     if (b.a == b.b) return;
-    at_node_[at(b.a)] += noise;
-    at_node_[at(b.b)] += noise;
+    at_node_[at(b.a)] += dead_band;
+    at_node_[at(b.b)] += dead_band;
   }
   /// Propagates the errors through all balances. `other(k)` gives the error of force k where no balance determines it.
   template <class Other>
@@ -35,7 +35,7 @@ class BalancedForces {
     }
   }
   /// Error of force k [N]; 0 if nothing determines it.
-  double noise(std::size_t k) const { return noise_[k]; }
+  double dead_band(std::size_t k) const { return noise_[k]; }
 
  private:
   struct Found { std::size_t force; NodeId by; };  ///< `by`: the node whose balance determines it; -1: none

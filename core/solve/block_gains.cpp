@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

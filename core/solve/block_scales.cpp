@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
@@ -23,7 +23,7 @@ constexpr double output_grains = 64;
 void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < sorts; ++k) block_scale_[k].assign(seen_[k].size(), std::numeric_limits<double>::infinity());
-  BlockSignals& blocks = dae_->drive().blocks();
+  BlockSignals& blocks = dae_->inputs().blocks();
   for (std::size_t b = 0; b < block_output_seen_.size(); ++b) {
     block_output_seen_[b] = std::max(block_output_seen_[b], std::abs(dae_->output(static_cast<int>(b))));
   }
@@ -38,11 +38,11 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
     if (allowed > 0) block_scale_[sort][k] = std::min(block_scale_[sort][k], std::max(allowed, least));
   });
   if (network_.blocks.sensors.empty()) return;
-  blocks.update_slopes(dae_->drive().past());
+  blocks.update_slopes(dae_->inputs().history());
   for (std::size_t f = 0; f < network_.forces.size(); ++f) {
     const int block = network_.forces[f].block;
     if (block < 0) continue;
-    block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->drive().force[f]));
+    block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->inputs().force[f]));
     const double seen = std::max(block_force_seen_[f], floor_of_kind * largest_force);
     for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
       const Blocks::Sensor& sensor = network_.blocks.sensors[s];

@@ -9,9 +9,9 @@
 #include <map>
 #include <utility>
 
-#include "core/network/around.hpp"
-#include "core/network/index.hpp"
-#include "core/network/listed.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
+#include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
 
@@ -57,7 +57,7 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
     sliders_.push_back(static_cast<int>(k));
     events_.push_back({static_cast<int>(k), of_slider});
   }
-  const std::size_t limits = dae.drive().blocks().limits().size();
+  const std::size_t limits = dae.inputs().blocks().limits().size();
   limit_margin_.assign(limits, 0);
   for (std::size_t k = 0; k < limits; ++k) events_.push_back({static_cast<int>(k), of_limit});
 }
@@ -84,27 +84,27 @@ void NetworkEvents::find_pseudoplastic() {
 // In parallel with a pseudoplastic dashpot, a velocity within the dead band still causes a considerable force. There the
 // velocity is expressed by the dashpot's force, and its dead band by that of the force.
 NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& view) const {
-  const Flow plain{view.flow[at(law.branch)], tolerances_.noise(law.branch)};
+  const Flow plain{view.flow[at(law.branch)], tolerances_.dead_band(law.branch)};
   if (law.beside < 0) return plain;
   std::size_t i = 0;
   const RateBatch& dashpot = dae_.network().rate_of(law.beside, i);
-  const double resolved = noises_resolved * plain.noise, most = dashpot.force_at(i, resolved);
+  const double resolved = noises_resolved * plain.dead_band, most = dashpot.force_at(i, resolved);
   const double force = law.sign * view.rate_force[at(law.beside)];
   return {std::abs(force) < most ? resolved * (force / most) : plain.velocity,
-          std::clamp(resolved * (tolerances_.force_noise(law.beside) / most), std::numeric_limits<double>::min(), plain.noise)};
+          std::clamp(resolved * (tolerances_.force_noise(law.beside) / most), std::numeric_limits<double>::min(), plain.dead_band)};
 }
 
 int NetworkEvents::element(std::size_t k) const {
   const auto [branch, which] = events_[k];
   const Network& network = dae_.network();
   if (which == of_slider) return network.sliders[at(branch)].branch.element;
-  if (which == of_limit) return network.blocks.blocks[at(dae_.drive().blocks().limits()[at(branch)].block)].element;
+  if (which == of_limit) return network.blocks.blocks[at(dae_.inputs().blocks().limits()[at(branch)].block)].element;
   return network.deflections[at(branch)].element;
 }
 
 // Never exactly 0: a guard that begins at 0 would not be seen to fall.
 double NetworkEvents::limit_function(std::size_t k) const {
-  return dae_.drive().blocks().event_function(k) + limit_margin_[k] + std::numeric_limits<double>::min();
+  return dae_.inputs().blocks().event_function(k) + limit_margin_[k] + std::numeric_limits<double>::min();
 }
 
 double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) const {
@@ -143,7 +143,7 @@ void NetworkEvents::report_against_force(double t, int slider) const {
   throw SimulationError(network.spot_of(branch.element), fmt::format(
       "{} no motion was found in which `{}` slips the way it is pushed: the values of {} may lie too far apart for double "
       "precision; check them",
-      rheonet::at_time(*network.scene, t), network.name_of(branch), listed(elements_at(network, {branch.a, branch.b}))));
+      rheonet::at_time(*network.scene, t), network.name_of(branch), format_list(elements_at(network, {branch.a, branch.b}))));
 }
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
@@ -239,9 +239,9 @@ double NetworkEvents::looked_at(std::size_t i, const Dae::View& view) const {
 
 double NetworkEvents::held_function(const Held& held, const Dae::View& view) const {
   const Watched& law = watched_[held.law];
-  const auto [velocity, noise] = flow(law, view);
+  const auto [velocity, dead_band] = flow(law, view);
   std::array<double, most_events> g;
-  law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, noise, g.data());
+  law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, dead_band, g.data());
   return g[at(held.which)] + law_margin_[held.event];
 }
 
@@ -363,8 +363,8 @@ void NetworkEvents::evaluate(double t, const double* y, const double* yp, double
   const double* margin = law_margin_.data();
   for (const Watched& w : watched_) {
     const std::size_t j = at(w.branch);
-    const auto [velocity, noise] = flow(w, view);
-    w.batch->event_functions(w.i, view.p[j], view.dp[j], velocity, noise, g);
+    const auto [velocity, dead_band] = flow(w, view);
+    w.batch->event_functions(w.i, view.p[j], view.dp[j], velocity, dead_band, g);
     for (int k = 0; k < w.batch->events(w.i); ++k) *g++ += *margin++;
   }
   for (std::size_t k = 0; k < suddens(); ++k) *g++ = sudden_function(k, view);

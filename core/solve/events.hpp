@@ -59,7 +59,7 @@ class NetworkEvents final : public EventFunctions {
     double sign = 1;  ///< -1 if that branch has the opposite direction
   };
   /// A velocity for an event function, and its dead band [m/s].
-  struct Flow { double velocity, noise; };
+  struct Flow { double velocity, dead_band; };
   Flow flow(const Watched& law, const Dae::View& view) const;
   void find_pseudoplastic();
   const Dae::View& resolved(double t, const double* y, const double* yp);

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/solve/newton.hpp"
 #include "core/solve/vectors.hpp"
 
@@ -55,7 +55,7 @@ struct Integrator::Implementation {
   std::vector<double> left, between, right;  // event functions at both ends of a step and within
   std::vector<double> band;                  // dead band of each that fell in the last step: see EventFunctions
   bool locate = true;
-  Statistics past;  // before the last restart
+  Statistics history;  // before the last restart
   bool started = false;
   long rejected = 0;    // error tests failed since the restart
   int grown_back = 0;   // steps in a row whose increase was rejected at order 1
@@ -74,7 +74,7 @@ struct Integrator::Implementation {
     require(IDASetUserData(ida, this), "IDASetUserData");
     require(IDASetErrHandlerFn(ida, [](int, const char*, const char*, char*, void*) {}, nullptr), "IDASetErrHandlerFn");
     require(IDAWFtolerances(ida, weights), "IDAWFtolerances");
-    past.sparse = n > options.dense;
+    history.sparse = n > options.dense;
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
     require(IDASetEtaFixedStepBounds(ida, 1, growth), "IDASetEtaFixedStepBounds");
@@ -290,7 +290,7 @@ Integrator::~Integrator() = default;
 void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop) {
   Implementation& s = *impl_;
   const Statistics sum = statistics();
-  s.past = {sum.steps, sum.rejected, sum.residuals, sum.jacobians, sum.restarts + 1, sum.sparse};
+  s.history = {sum.steps, sum.rejected, sum.residuals, sum.jacobians, sum.restarts + 1, sum.sparse};
   s.y = y;
   s.yp = yp;
   s.begin = t;
@@ -384,7 +384,7 @@ int Integrator::last_order() const {
 }
 
 Integrator::Statistics Integrator::statistics() const {
-  Statistics total = impl_->past;
+  Statistics total = impl_->history;
   if (!impl_->started) return total;
   const Statistics now = impl_->present();
   total += now;

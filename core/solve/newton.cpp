@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

@@ -6,21 +6,21 @@
 #include <cmath>
 #include <limits>
 
-#include "core/dae/given_reversals.hpp"
-#include "core/dae/instant.hpp"
+#include "core/base/index.hpp"
+#include "core/base/roundoff.hpp"
+#include "core/dae/event_transition.hpp"
 #include "core/dae/polynomial.hpp"
+#include "core/dae/prescribed_reversals.hpp"
 #include "core/dae/start.hpp"
-#include "core/dae/steady.hpp"
-#include "core/network/index.hpp"
-#include "core/network/time_grain.hpp"
-#include "core/solve/foresight.hpp"
-#include "core/solve/fired.hpp"
-#include "core/solve/accumulation.hpp"
-#include "core/solve/headway.hpp"
-#include "core/solve/refusal.hpp"
-#include "core/solve/softening.hpp"
-#include "core/solve/systems.hpp"
-#include "core/solve/ties.hpp"
+#include "core/dae/steady_state.hpp"
+#include "core/solve/chatter_detection.hpp"
+#include "core/solve/event_processing.hpp"
+#include "core/solve/failure_report.hpp"
+#include "core/solve/global_error_model.hpp"
+#include "core/solve/indeterminate_motion.hpp"
+#include "core/solve/initial_scales.hpp"
+#include "core/solve/mode_cache.hpp"
+#include "core/solve/regularisation.hpp"
 
 namespace rheonet {
 
@@ -54,19 +54,19 @@ class Run {
         observer_(observer),
         classified_(classify(network)),
         begin_(start(network, classified_)),
-        drive_(begin_.drive),
-        given_reversals_(network, classified_, drive_),
+        inputs_(begin_.inputs),
+        given_reversals_(network, classified_, inputs_),
         state_(begin_.state),
-        instant_(network, classified_, drive_),
-        accumulation_(network, classified_, settings.stop),
-        tolerances_(network, tolerance(accumulation_.local_share())),
-        systems_(network, classified_, drive_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
-        switches_(network, drive_.blocks()),
-        headway_(network.scene->elements.size() + 1, settings.accuracy),
-        softening_(network) {
+        transition_(network, classified_, inputs_),
+        error_model_(network, classified_, settings.stop),
+        tolerances_(network, tolerance(error_model_.local_share())),
+        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
+        mode_changes_(network, inputs_.blocks()),
+        chatter_(network.scene->elements.size() + 1, settings.accuracy),
+        regularisation_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    drive_.past().disregard(jump_share * settings.accuracy);
+    inputs_.history().disregard(jump_share * settings.accuracy);
   }
 
   SimulationStatistics go() {
@@ -87,14 +87,14 @@ class Run {
       }
     }
     observer_.end(settings_.stop);
-    statistics_.integrator = systems_.statistics();
+    statistics_.integrator = mode_cache_.statistics();
     return std::move(statistics_);
   }
 
   /// Finds the initial state only.
   SimulationStatistics check() {
     begin();
-    statistics_.integrator = systems_.statistics();
+    statistics_.integrator = mode_cache_.statistics();
     return std::move(statistics_);
   }
 
@@ -106,7 +106,7 @@ class Run {
       modes_ = steady.modes;
       slider_force_ = steady.slider_force;
       statistics_.notes = steady.notes;
-      drive_.past().begin(state_.velocity);
+      inputs_.history().begin(state_.velocity);
     }
     try {
       cross(0, true, {});
@@ -115,11 +115,11 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
-    softening_.begin(drive_, state_.velocity);
-    if (const double steps = settings_.stop / drive_.past().longest_step(); steps > many_steps) {
+    regularisation_.begin(inputs_, state_.velocity);
+    if (const double steps = settings_.stop / inputs_.history().longest_step(); steps > many_steps) {
       statistics_.notes.push_back(fmt::format(
           "no step can be longer than the shortest delay in front of a prescribed motion, or behind what has no mass, {:.3g} s: "
-          "this run takes {:.1e} of them; without a delay as short as that hardly anything would be different", drive_.past().longest_step(), steps));
+          "this run takes {:.1e} of them; without a delay as short as that hardly anything would be different", inputs_.history().longest_step(), steps));
     }
     if (!given) return;
     const Dae::View& view = system_->dae.view(0, y_.data(), yp_.data());
@@ -131,17 +131,17 @@ class Run {
   /// Integrates to the next discontinuity of an input, crosses it, and returns its time.
   double advance(double from) {
     const double t = stretch(from);
-    std::vector<Drive::Break> breaks;
-    if (t >= drive_.next_break()) {
-      breaks = drive_.breaks(t);
-      for (const Drive::Break& b : breaks) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+    std::vector<Inputs::Break> breaks;
+    if (t >= inputs_.next_break()) {
+      breaks = inputs_.breaks(t);
+      for (const Inputs::Break& b : breaks) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
     } else if (t >= settings_.stop) {
       return t;
     }
     leave(t);
-    smooth_ = cross_smoothly(t, stopped_ && !breaks.empty() && !drive_.past().any() && steps_ <= steps_of_restart);
+    smooth_ = cross_smoothly(t, stopped_ && !breaks.empty() && !inputs_.history().any() && steps_ <= steps_of_restart);
     if (settings_.profile && !smooth_) {
-      for (const Drive::Break& b : breaks) settings_.profile->blame({b.element});
+      for (const Inputs::Break& b : breaks) settings_.profile->blame({b.element});
     }
     return t;
   }
@@ -151,7 +151,7 @@ class Run {
   bool cross_smoothly(double t, bool often) {
     const std::shared_ptr<System> before = system_;
     const double step = system_->integrator.time() - system_->integrator.previous_time();
-    const double difference = std::max(share_of_step * step, time_grain(t));
+    const double difference = std::max(share_of_step * step, time_roundoff(t));
     const std::vector<double> y = y_;
     std::vector<double> yp(y.size()), ypp, new_ypp;
     if (often) {
@@ -161,41 +161,41 @@ class Run {
     cross(t, true, {});
     if (!often || system_ != before || tolerances_.blind()) return false;
     system_->consistency.second_derivative(t, difference, y_, yp_, new_ypp);
-    const double ahead = time_until(std::min(drive_.next_break(), settings_.stop), t);
+    const double ahead = time_until(std::min(inputs_.next_break(), settings_.stop), t);
     return stay_close({y, yp, ypp}, {y_, yp_, new_ypp}, ahead, tolerances_.values());
   }
 
   /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds the new state, reports
   /// both.
-  void cross(double t, bool stepped, const Instant::Fired& fired) {
+  void cross(double t, bool stepped, const EventTransition::Fired& fired) {
     if (stepped) {
-      drive_.enter(t);
+      inputs_.enter(t);
     } else {
-      drive_.mark(t);
+      inputs_.mark(t);
     }
-    const Instant::Change change = instant_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    const EventTransition::Change change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
     const std::shared_ptr<System> before = system_;
-    system_ = systems_.of_modes();
+    system_ = mode_cache_.of_modes();
     for (std::size_t k = 0; k < modes_.slider.size(); ++k) {
       if (system_->structure.stuck[k]) modes_.slider[k] = Modes::stuck;
     }
     if (system_ != before) {
       tolerances_.attach(system_->dae);
-      softening_.attach(system_->structure);
+      regularisation_.attach(system_->structure);
     }
     Dae& dae = system_->dae;
     dae.enter(t, state_, modes_, y_);
     yp_.assign(y_.size(), 0);
-    dae.stand(t, y_.data(), yp_.data(), change.standing);
+    dae.enter_sliding_modes(t, y_.data(), yp_.data(), change.sliding_modes);
     system_->consistency.project(t, y_);
     dae.choose_limits(t, y_.data(), yp_.data());
-    drive_.blocks().fire({});
+    inputs_.blocks().fire({});
     system_->consistency.derivative(t, y_, yp_);
     const Dae::View& view = dae.view(t, y_.data(), yp_.data());
-    drive_.remember(t, view.velocity, view.acceleration);
+    inputs_.remember(t, view.velocity, view.acceleration);
     for (const std::string& note : check_ties(dae, t, [this] { tell_overload(); })) note_once(note);
-    for (const Event& event : switches_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
+    for (const Event& event : mode_changes_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
@@ -221,12 +221,12 @@ class Run {
   }
 
   /// Time to the next known discontinuity of an input or the end, limited by the period of the inputs [s].
-  double horizon(double t) const { return std::min(course(t), time_until(drive_.next_break(), t)); }
+  double horizon(double t) const { return std::min(course(t), time_until(inputs_.next_break(), t)); }
 
   /// The same without discontinuities that come through delays: delayed signals are smooth except at a few times.
   double course(double t) const {
-    const double h = time_until(std::min(drive_.next_signal_break(), settings_.stop), t);
-    const double omega = drive_.fastest();
+    const double h = time_until(std::min(inputs_.next_signal_break(), settings_.stop), t);
+    const double omega = inputs_.fastest();
     return omega > 0 ? std::min(h, 1 / omega) : h;
   }
 
@@ -234,18 +234,18 @@ class Run {
 
   /// Integrates from t over events to the next discontinuity or reversal of an input, or the end. Returns the time reached.
   double stretch(double t) {
-    const double given = std::min(drive_.next_break(), settings_.stop);
+    const double given = std::min(inputs_.next_break(), settings_.stop);
     double until = std::min(given, given_reversals_.next(t, given));
     stopped_ = false;
     steps_ = 0;
-    if (until - t <= time_grain(t)) return until;  // too short for a step: a discontinuity just before the stop, say
+    if (until - t <= time_roundoff(t)) return until;  // too short for a step: a discontinuity just before the stop, say
     double shrink = 1;
     if (smooth_) {
       go_on(t, until);
     } else {
       restart(t, until, shrink);
     }
-    headway_.reset();
+    chatter_.reset();
     while (true) {
       if (settings_.interrupt && settings_.interrupt->load(std::memory_order_relaxed)) {
         throw SimulationError(fmt::format("interrupted {}", at_time(*network_.scene, system_->integrator.time())));
@@ -261,7 +261,7 @@ class Run {
         system_->consistency.derivative(t, y_, yp_);
         leave(t);
         if (settings_.profile) settings_.profile->blame_failure(system_->integrator);
-        if (gets_nowhere(t, {solver()}) || headway_.failing(t, glimpse * horizon(t))) fail(outcome);
+        if (gets_nowhere(t, {solver()}) || chatter_.failing(t, glimpse * horizon(t))) fail(outcome);
         tolerances_.trust(false);
         restart(t, until, shrink);
         continue;
@@ -274,18 +274,18 @@ class Run {
       }
       t = system_->integrator.time();
       if (settings_.profile) settings_.profile->step(system_->integrator);
-      accumulation_.follow(t, view);
+      error_model_.follow(t, view);
       tolerances_.trust(true);
-      const double local = tolerance(accumulation_.local_share());
-      tolerances_.allow(local, network_.bundles ? tolerance(accumulation_.dense_share()) : local);
+      const double local = tolerance(error_model_.local_share());
+      tolerances_.allow(local, network_.bundles ? tolerance(error_model_.dense_share()) : local);
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       if (network_.bundles) deflections_ = view.p;
       observer_.step(system_->integrator);
-      if (drive_.past().any()) {
+      if (inputs_.history().any()) {
         const Dae::View& end = view_of_step();
-        drive_.remember(t, end.velocity, end.acceleration);
+        inputs_.remember(t, end.velocity, end.acceleration);
       }
-      for (const Event& event : switches_.follow_step(system_->integrator, system_->dae, deflections_, settings_.switch_times)) {
+      for (const Event& event : mode_changes_.follow_step(system_->integrator, system_->dae, deflections_, settings_.switch_times)) {
         observer_.event(event);
       }
       soften_laws();
@@ -297,14 +297,14 @@ class Run {
         return until;
       }
       if (outcome == Integrator::Outcome::step) {
-        if (headway_.standing(t, time_grain(t))) fail(Integrator::Outcome::stuck);
+        if (chatter_.stalled(t, time_roundoff(t))) fail(Integrator::Outcome::stuck);
         shrink = 1;
         continue;
       }
       switch_memories(t);
       if (settings_.profile) settings_.profile->blame(fired_);
       if (gets_nowhere(t, fired_)) report_chatter(t);
-      until = std::min(until, drive_.next_break());  // the event may be a discontinuity of a delayed signal
+      until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
       restart(t, until, shrink);
     }
@@ -327,17 +327,17 @@ class Run {
 
   /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.
   bool gets_nowhere(double t, const std::vector<int>& causes) {
-    if (!headway_.lost(t, causes, state_)) return false;
-    const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), drive_.fastest());
-    if (rate > 0 ? (t - headway_.since()) * rate < 1 : t - headway_.since() < lookahead * horizon(t)) return true;
-    return headway_.without_end(t, instant * settings_.stop);
+    if (!chatter_.lost(t, causes, state_)) return false;
+    const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest());
+    if (rate > 0 ? (t - chatter_.since()) * rate < 1 : t - chatter_.since() < lookahead * horizon(t)) return true;
+    return chatter_.without_end(t, instant * settings_.stop);
   }
 
   [[noreturn]] void report_chatter(double t) const {
-    const std::vector<int> busy = headway_.busiest();
+    const std::vector<int> busy = chatter_.busiest();
     const auto is_element = [&](int cause) { return cause != solver(); };
     const auto first = std::find_if(busy.begin(), busy.end(), is_element);
-    throw SimulationError(network_.spot_of(first == busy.end() ? 0 : *first), at_time(*network_.scene, t) + " " + headway_.describe(network_, t));
+    throw SimulationError(network_.spot_of(first == busy.end() ? 0 : *first), at_time(*network_.scene, t) + " " + chatter_.describe(network_, t));
   }
 
   void switch_memories(double t) {
@@ -346,24 +346,24 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
-    drive_.blocks().fire(fired.limits);
+    inputs_.blocks().fire(fired.limits);
     cross(t, false, fired.sudden);
   }
 
   void soften_laws() {
-    if (system_->dae.rough()) softening_.apply(tolerances_);
+    if (system_->dae.rough()) regularisation_.apply(tolerances_);
   }
 
   void restart(double t, double until, double shrink) {
     double ahead = lookahead * course(t);
     std::vector<double> ypp;
     // The difference step must exceed the round-off of time, even in a short interval.
-    system_->consistency.second_derivative(t, std::max(glimpse * course(t), time_grain(t)), y_, yp_, ypp);
+    system_->consistency.second_derivative(t, std::max(glimpse * course(t), time_roundoff(t)), y_, yp_, ypp);
     double foreseen = 0;
     if (tolerances_.blind()) {
       const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
       if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
-      foreseen = ahead = std::max(ahead, std::min(grains_ahead * time_grain(t), until - t));
+      foreseen = ahead = std::max(ahead, std::min(grains_ahead * time_roundoff(t), until - t));
     }
     std::vector<double> size;
     if (foreseen > 0) size = coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen);
@@ -380,27 +380,27 @@ class Run {
     limit_step();
     if (settings_.profile) settings_.profile->restart(system_->dae);
     system_->consistency.rest();
-    system_->integrator.restart(drive_.exact(t), y_, yp_, std::min(std::max(shrink * h, time_grain(t)), until - t),
-                                 drive_.exact_break(until));
+    system_->integrator.restart(inputs_.exact(t), y_, yp_, std::min(std::max(shrink * h, time_roundoff(t)), until - t),
+                                 inputs_.exact_break(until));
   }
 
   /// Continues across a discontinuity with the integrator's history.
   void go_on(double t, double until) {
     system_->events.begin(t, y_.data(), yp_.data());
     limit_step();
-    system_->integrator.go_on(drive_.exact_break(until));
+    system_->integrator.go_on(inputs_.exact_break(until));
   }
 
   void limit_step() {
     const NetworkEvents& events = system_->events;
-    system_->integrator.limit_step(longest_step(drive_, events.sticks(), events.slips_along(), settings_.accuracy));
+    system_->integrator.limit_step(longest_step(inputs_, events.sticks(), events.slips_along(), settings_.accuracy));
   }
 
   double tolerance(double share) const { return std::max(share * settings_.accuracy, Tolerances::least_tolerance); }
 
   void tell_overload() const {
     const double t = std::max(left_, system_->integrator.time());
-    instant_.check_load(t, t + soon * horizon(t), state_, slider_force_);
+    transition_.check_load(t, t + soon * horizon(t), state_, slider_force_);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
@@ -408,7 +408,7 @@ class Run {
     yp_ = system_->integrator.yp();
     leave(system_->integrator.time());
     tell_overload();
-    refuse_to_go_on(*system_, tolerances_.values(), outcome);
+    report_failure(*system_, tolerances_.values(), outcome);
   }
 
   const Network& network_;
@@ -416,15 +416,15 @@ class Run {
   Observer& observer_;
   const Structure classified_;
   Start begin_;
-  Drive& drive_;
-  const GivenReversals given_reversals_;
+  Inputs& inputs_;
+  const PrescribedReversals given_reversals_;
   State& state_;
-  Instant instant_;
-  Accumulation accumulation_;
+  EventTransition transition_;
+  GlobalErrorModel error_model_;
   Tolerances tolerances_;
   Modes modes_;
-  Systems systems_;
-  Switches switches_;
+  ModeCache mode_cache_;
+  ModeChangeLog mode_changes_;
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
@@ -434,8 +434,8 @@ class Run {
   std::vector<double> y_, yp_;
   std::vector<double> deflections_;  ///< at the end of the last step [m]
   SimulationStatistics statistics_;
-  Headway headway_;
-  Softening softening_;
+  ChatterDetection chatter_;
+  Regularisation regularisation_;
   std::vector<int> fired_;  ///< elements at the last event
 };
 

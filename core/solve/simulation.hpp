@@ -8,8 +8,8 @@
 #include "core/dae/consistency.hpp"
 #include "core/dae/dae.hpp"
 #include "core/solve/integrator.hpp"
+#include "core/solve/mode_change_log.hpp"
 #include "core/solve/profile.hpp"
-#include "core/solve/switches.hpp"
 
 namespace rheonet {
 

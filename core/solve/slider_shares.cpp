@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {

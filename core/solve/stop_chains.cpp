@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
@@ -29,10 +29,10 @@ void Tolerances::find_stopping(const Dae::View& view) {
   stopping_.assign(dae_->structure().kind.size(), std::numeric_limits<double>::infinity());
   for (const StopChain& chain : stop_chains_) {
     const double together = std::min(std::abs(view.velocity[at(chain.a)]), std::abs(view.velocity[at(chain.b)]));
-    double most = 0, least = 0, noise = 0, largest_exponent = 0;
+    double most = 0, least = 0, dead_band = 0, largest_exponent = 0;
     for (const int r : chain.rates) {
       carried_seen_[at(r)] = std::max(carried_seen_[at(r)], together);
-      noise = carried_noise(at(r));
+      dead_band = carried_noise(at(r));
       std::size_t i = 0;
       const RateBatch& law = network_.rate_of(r, i);
       const double n = law.growth(i).exponent, allowed = local() * dashpot_seen_[at(r)];
@@ -44,7 +44,7 @@ void Tolerances::find_stopping(const Dae::View& view) {
     if (least == 0) continue;  // no force yet
     const double n = largest_exponent;
     const double steepening = n < 0.5 ? std::max(most_steepening, std::pow(last_share, (1 - 2 * n) / (1 - n))) : 1;
-    most = std::max({steepening * most, least, noise});
+    most = std::max({steepening * most, least, dead_band});
     for (const NodeId node : {chain.a, chain.b}) stopping_[at(node)] = std::min(stopping_[at(node)], most);
   }
 }

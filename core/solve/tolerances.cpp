@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
 #include "core/dae/rate_law.hpp"
-#include "core/network/index.hpp"
-#include "core/network/sets.hpp"
 
 namespace rheonet {
 
@@ -23,7 +23,7 @@ constexpr double least_distance = 1e-7, distance_grains = 64;
 // A position's tolerance, loosened for the error of its velocity, is at most this multiple of its own.
 constexpr double most_of_velocity = 10;
 // Round-off of time that a step may be off by without being rejected [ulps]: each of the few past times that a prediction
-// uses is rounded by one ulp. (Fewer than in time_grain.hpp, within which two times are equal: faster changes count.)
+// uses is rounded by one ulp. (Fewer than in time_roundoff.hpp, within which two times are equal: faster changes count.)
 constexpr double time_grains = 8;
 // Round-off of a deflection that a step may be off by [ulps] (a sum of two terms).
 constexpr double value_grains = 4;
@@ -32,7 +32,7 @@ constexpr double balance_grains = 4;
 
 }  // namespace
 
-Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), kinks_(network), block_gains_(network) {
+Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), bundle_corners_(network), block_gains_(network) {
   const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
   seen_ = {std::vector<double>(nodes, 0), std::vector<double>(deflections, 0), std::vector<double>(network.rates.size(), 0),
            std::vector<double>{}, std::vector<double>(network.blocks.blocks.size(), 0)};
@@ -88,7 +88,7 @@ void Tolerances::attach(Dae& dae) {
     stands_for(dae.velocity_unknown(static_cast<NodeId>(k)), Sort::velocity, k);
     stands_for(dae.position_unknown(static_cast<NodeId>(k)), Sort::position, k);
   }
-  for (std::size_t k = 0; k < dae.drive().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
+  for (std::size_t k = 0; k < dae.inputs().blocks().states(); ++k) stands_for(dae.block_unknown(k), Sort::block, k);
   if (!dae.integrated_positions().empty()) see_positions();
   balanced_.assign(network_.deflections.size(), -1);
   any_balanced_ = any_solved_;
@@ -122,7 +122,7 @@ void Tolerances::see_positions() {
 void Tolerances::find_held() {
   const Structure& structure = dae_->structure();
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
-  Sets held(structure.kind.size());
+  DisjointSets held(structure.kind.size());
   for (std::size_t k = 0; k < structure.stuck.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     if (structure.stuck[k] && !known(b.a) && !known(b.b)) held.join(b.a, b.b);
@@ -218,7 +218,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   see(y, view);
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(std::abs(y[i]), ahead > 0 ? coming_size[i] : 0.0);
   find_slider_shares();
-  if (!network_.blocks.blocks.empty()) block_gains_.follow(dae_->drive().blocks());
+  if (!network_.blocks.blocks.empty()) block_gains_.follow(dae_->inputs().blocks());
   find_rounding(view);
   find_difference_rounding(view);
   find_stopping(view);
@@ -232,7 +232,7 @@ void Tolerances::forget() {
   for (std::vector<double>& sort : foreseen_) std::fill(sort.begin(), sort.end(), 0.0);
 }
 
-double Tolerances::local() const { return kinks_.dense() ? dense_ : relative_; }
+double Tolerances::local() const { return bundle_corners_.dense() ? dense_ : relative_; }
 
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
@@ -251,7 +251,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
     find_force_rounding(view);
     find_rounding_now(view);
   }
-  kinks_.follow(*dae_, view);
+  bundle_corners_.follow(*dae_, view);
   find_stopping(view);
   update(t, yp, view);
 }
@@ -261,7 +261,7 @@ void Tolerances::follow(double t, const std::vector<double>& y, const std::vecto
 Tolerances::Scales Tolerances::scales_to_come(double time, const Scales& largest) const {
   Scales scales = largest;
   const auto of = [&](Sort sort) -> double& { return scales[static_cast<std::size_t>(sort)]; };
-  Drive::Reach reach = coming_reach(dae_->drive(), {of(Sort::velocity)});
+  Inputs::Reach reach = coming_reach(dae_->inputs(), {of(Sort::velocity)});
   for (const double m : dae_->structure().mass) {
     if (of(Sort::velocity) == 0 && m > 0) reach.velocity = std::max(reach.velocity, reach.force * time / m);
   }

@@ -8,7 +8,7 @@
 #include "core/solve/balance_rounding.hpp"
 #include "core/solve/balanced_forces.hpp"
 #include "core/solve/block_gains.hpp"
-#include "core/solve/kinks.hpp"
+#include "core/solve/bundle_corners.hpp"
 #include "core/solve/stop_chains.hpp"
 
 namespace rheonet {
@@ -39,7 +39,7 @@ class Tolerances {
   /// False: take no scales from the states that follow. When the integrator has just failed, the equations may be so nearly
   /// singular that velocities are arbitrarily large. True once they are solved again.
   void trust(bool trusted) { trusted_ = trusted; }
-  /// Sets the tolerance relative to the scale, and `dense`, the one used where small kinks are dense (kinks.hpp).
+  /// Sets the tolerance relative to the scale, and `dense`, the one used where small kinks are dense (bundle_corners.hpp).
   void allow(double relative, double dense) {
     relative_ = relative;
     dense_ = dense;
@@ -62,7 +62,7 @@ class Tolerances {
   /// Velocity at which the force of a dilatant dashpot equals the error of the forces around it [m/s].
   double unfelt_dilatant(int rate) const;
   /// Dead band of the velocity of a branch for its reversals [m/s].
-  double noise(int branch) const;
+  double dead_band(int branch) const;
   /// Dead band of the force of a rate branch that is solved for its force [N].
   double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
@@ -137,7 +137,7 @@ class Tolerances {
   const Network& network_;
   Dae* dae_ = nullptr;
   double relative_, dense_;
-  Kinks kinks_;
+  BundleCorners bundle_corners_;
   BalanceRounding balance_rounding_;
   double begin_ = not_given;  ///< start of the run [s]
   double restarted_ = 0;      ///< time of the last restart [s]

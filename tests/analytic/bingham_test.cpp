@@ -135,7 +135,7 @@ TEST_CASE("Slider parallel to a dashpot, pushed below its force") {
   const double amplitude = 0.93 * Fc;
   const std::string sine = fmt::format("{{ sine = {:.17g}, frequency = {:.17g} }}", amplitude, frequency);
   for (const double accuracy : accuracies) {
-    const Trajectory rows = simulate(pushed(sine, Fc, 1.913), accuracy);
+    const RunTable rows = simulate(pushed(sine, Fc, 1.913), accuracy);
     for (const char* column : {"end.position", "end.velocity", "slider.velocity", "dashpot.force"})
       check_exactly(rows, column, 0);
     check_against(rows, {"slider.force", [=](double t) { return -amplitude * std::sin(omega * t); }}, accuracy);
@@ -184,7 +184,7 @@ TEST_CASE("Bingham's body behind a spring, in three forms, at constant speed") {
       };
       if (form > 0) expected.push_back({"body.force", [=](double t) { return start.force(t); }});
       check_at_all_accuracies(toml, expected);
-      const Trajectory rows = simulate(toml, 1e-6);
+      const RunTable rows = simulate(toml, 1e-6);
       for (const char* channel : {"displacement", "velocity"}) {
         check_exactly(rows, prefix + "s1." + channel, 0, 0, 0.999 * start.yield());
       }
@@ -205,11 +205,11 @@ TEST_CASE("Bingham's body in three forms is the same, to and fro") {
   // Sums of the same terms in another order, gathered over a run; see composition_test.cpp.
   constexpr double same = 1e-12;
   const std::string velocity = fmt::format("{{ sine = 0.217, frequency = {}, phase = 0.4, time = 0.0173 }}", frequency);
-  const Trajectory nodes = simulate(moved(velocity, forms[0], 2.13), 1e-6);
+  const RunTable nodes = simulate(moved(velocity, forms[0], 2.13), 1e-6);
   CHECK_LE(nodes.scale("s1.force"), Fc);
   CHECK_GT(nodes.scale("c1.force"), 0.1 * Fc);
   for (int form = 1; form < 3; ++form) {
-    const Trajectory other = simulate(moved(velocity, forms[form], 2.13), 1e-6);
+    const RunTable other = simulate(moved(velocity, forms[form], 2.13), 1e-6);
     for (const std::string element : {"k1", "c1", "s1"}) {
       for (const char* channel : {".force", ".displacement", ".velocity"}) {
         const std::vector<double>&x = nodes[element + channel], &y = other["body." + element + channel];

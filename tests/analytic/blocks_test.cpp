@@ -25,7 +25,7 @@ std::string scene(const std::string& blocks, double stop, int points, const std:
 }
 
 /// Largest difference of a record from a function of time, in parts of its largest magnitude.
-double error(const Trajectory& run, const std::string& record, const std::function<double(double)>& expected) {
+double error(const RunTable& run, const std::string& record, const std::function<double(double)>& expected) {
   double worst = 0;
   for (std::size_t k = 0; k < run.time().size(); ++k)
     worst = std::max(worst, std::abs(run[record][k] - expected(run.time()[k])));
@@ -79,7 +79,7 @@ TEST_CASE("a limiter cuts a sine off, and its corners are events at their times"
   for (const double accuracy : accuracies) {
     const Scene read = scene_of(text, accuracy);
     std::vector<double> found;
-    const Trajectory run = simulate(read);
+    const RunTable run = simulate(read);
     const std::vector<double>& t = run.time();
     for (std::size_t k = 1; k < t.size(); ++k)
       if (t[k] == t[k - 1]) found.push_back(t[k]);
@@ -98,7 +98,7 @@ TEST_CASE("a limit that is only just reached, and left again within one step, is
       "g = { type = \"generator\", signal = { sine = 1, frequency = 1 } }\n"
       "y = { type = \"limiter\", in = \"g\", upper = 0.999999 }\nz = { type = \"integrator\", in = \"y\" }",
       0.6, 4, ", events = true");
-  const Trajectory run = simulate(text, 1e-3);
+  const RunTable run = simulate(text, 1e-3);
   const double up = std::asin(0.999999) / (2 * pi);
   REQUIRE_EQ(run.time().size(), 8);
   CHECK(std::abs(run.time()[2] - up) < 1e-9);
@@ -106,7 +106,7 @@ TEST_CASE("a limit that is only just reached, and left again within one step, is
 }
 
 TEST_CASE("a limiter on one side, and one that nothing reaches") {
-  const Trajectory run = simulate(scene(
+  const RunTable run = simulate(scene(
       "g = { type = \"generator\", signal = { sine = 2, frequency = 1 } }\n"
       "half = { type = \"limiter\", in = \"g\", upper = \"inf\", lower = 0 }\n"
       "wide = { type = \"limiter\", in = \"-g\", upper = 2.1 }",
@@ -129,7 +129,7 @@ TEST_CASE("a dead band is felt beyond its bound, though within it all cancels") 
   for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
     CAPTURE(accuracy);
     Summary summary;
-    const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+    const RunTable run = simulate(scene_of(text, accuracy), &summary);
     CHECK(summary.steps < 500);
     CHECK(error(run, "m.velocity", [&](double t) {
             return t < reached ? F / m * t : w + F / B * (1 - std::exp(-B / m * (t - reached)));
@@ -138,7 +138,7 @@ TEST_CASE("a dead band is felt beyond its bound, though within it all cancels") 
 }
 
 TEST_CASE("gain and sum: signs, and a signal that is taken in twice") {
-  const Trajectory run = simulate(scene(
+  const RunTable run = simulate(scene(
       "u = { type = \"generator\", signal = { ramp = 0.7 } }\nv = { type = \"generator\", signal = 1.3 }\n"
       "w = { type = \"sum\", in = [\"u\", \"-v\", \"u\", \"-x\"] }\nx = { type = \"gain\", in = \"-v.out\", gain = 5 }",
       1, 11));
@@ -166,7 +166,7 @@ TEST_CASE("a delay puts out what was put in, exactly so much later") {
                     "z = {{ type = \"integrator\", in = \"d\" }}",
                     signal, T, y0),
         1.313, 202);
-    const Trajectory run = simulate(text, 1e-9);
+    const RunTable run = simulate(text, 1e-9);
     const auto delayed = [&value](double t) { return t < T ? y0 : -0.5 * value(t - T); };
     CHECK(error(run, "d.out", delayed) < 1e-9);
     CHECK(error(run, "dd.out", [&](double t) { return t < 0.05 ? 0 : delayed(t - 0.05); }) < 1e-9);
@@ -183,7 +183,7 @@ TEST_CASE("a delay puts out what was put in, exactly so much later") {
 TEST_CASE("a jump stays sharp through a chain of delays") {
   std::string blocks = "d0 = { type = \"generator\", signal = { step = 1, time = 0.05 } }\ny = { type = \"integrator\", in = \"d9\" }\n";
   for (int k = 1; k <= 9; ++k) blocks += fmt::format("d{} = {{ type = \"delay\", in = \"d{}\", delay = 0.1 }}\n", k, k - 1);
-  const Trajectory run = simulate(scene(blocks, 1.3, 27), 1e-3);
+  const RunTable run = simulate(scene(blocks, 1.3, 27), 1e-3);
   CHECK(error(run, "y.out", [](double t) { return std::max(0.0, t - 0.95); }) < 1e-12);
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("delayed feedback through a delay much shorter than a step") {
     const std::string text = delayed_feedback(T, k, 11);
     for (const double accuracy : accuracies) {
       Summary summary;
-      const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+      const RunTable run = simulate(scene_of(text, accuracy), &summary);
       double worst = 0;
       for (std::size_t row = 1; row < run.time().size(); ++row)
         worst = std::max(worst, std::abs(run["x.out"][row] - std::exp(l * (run.time()[row] + T)) / (1 + l * T)));
@@ -264,7 +264,7 @@ record = ["mv.force", "mw.force"]
     return (std::sin(w * t) - y) / tau;
   };
   for (const double accuracy : accuracies) {
-    const Trajectory run = simulate(text, accuracy);
+    const RunTable run = simulate(text, accuracy);
     double mass = 0, state = 0;
     for (std::size_t row = 0; row < run.time().size(); ++row) {
       const double then = run.time()[row] - T;
@@ -283,7 +283,7 @@ TEST_CASE("blocks that start steady: a lag at its end, a delay of what has alway
       "y = { type = \"lag\", in = \"g\", time_constant = 0.2, gain = 2 }\n"
       "d = { type = \"delay\", in = \"y\", delay = 0.4 }\n"
       "f = { type = \"force\", at = \"a\", force = { block = \"d\" } }";
-  const Trajectory run = simulate(scene(blocks, 1, 11) + "start_from = \"steady\"\n");
+  const RunTable run = simulate(scene(blocks, 1, 11) + "start_from = \"steady\"\n");
   CHECK_EQ(run["y.out"][0], 6);
   for (std::size_t k = 0; k < 4; ++k) CHECK(std::abs(run["d.out"][k] - 6) < 1e-12);
   CHECK(std::abs(run["a.position"][0] - 6) < 1e-12);

@@ -31,7 +31,7 @@ const std::string pushed =
     "drive = { type = \"force\", at = \"end\", force = { sine = 2.37, frequency = 2.9, time = 0.0173 } }\n"
     "inertia = { type = \"mass\", at = \"end\", mass = 0.217 }\n";
 
-Trajectory run_elements(const std::string& elements) {
+RunTable run_elements(const std::string& elements) {
   return simulate(netlist({}, "[elements]\n" + elements, 0.713, 101), accuracy);
 }
 
@@ -53,9 +53,9 @@ void check_trees(const std::string& drive) {
     INFO(tree.composed);
     INFO(tree.wired);
     INFO(tree.shuffled);
-    const Trajectory composed = run_elements(drive + tree.composed);
-    const Trajectory wired = run_elements(drive + tree.wired);
-    const Trajectory shuffled = run_elements(drive + tree.shuffled);
+    const RunTable composed = run_elements(drive + tree.composed);
+    const RunTable wired = run_elements(drive + tree.wired);
+    const RunTable shuffled = run_elements(drive + tree.shuffled);
     for (const auto& [inner, plain] : tree.elements) {
       for (const char* quantity : {".force", ".displacement", ".velocity"}) {
         compare(composed[inner + quantity], wired[plain + quantity], same_order, plain + quantity);
@@ -93,7 +93,7 @@ series = [
   { name = "c2", type = "dashpot", damping = 21.9 },
 ]
 )";
-  const Trajectory rows = run_elements(moved + elements);
+  const RunTable rows = run_elements(moved + elements);
   const auto sum = [&](const std::string& channel, const std::vector<std::string>& names) {
     std::vector<double> total(rows.time().size());
     for (const std::string& name : names) {

@@ -48,7 +48,7 @@ double force(double after, double t) {
 
 /// The same for N layers: their own modes sin(n pi y), which at the middles of layers are orthogonal, and decay at
 /// 4 N^2 sin^2(n pi/(2 N)) B/m.
-struct Ladder {
+struct ModelHierarchy {
   int N;
   double after;
 
@@ -75,7 +75,7 @@ struct Errors {
   double profile = 0, wall = 0;
 };
 Errors errors(int N, double after) {
-  const Trajectory rows = simulate(including(scene(N, after, start + 3 * T1, 31)), 1e-9);
+  const RunTable rows = simulate(including(scene(N, after, start + 3 * T1, 31)), 1e-9);
   Errors worst;
   for (std::size_t row = 0; row < rows.time().size(); ++row) {
     const double t = rows.time()[row] - start;
@@ -94,7 +94,7 @@ Errors errors(int N, double after) {
 TEST_CASE("Couette ladder: each layer goes as the modes of the ladder say") {
   for (const double after : {0.0, -1.0}) {
     for (const int N : {1, 2, 7}) {
-      const Ladder ladder{N, after};
+      const ModelHierarchy ladder{N, after};
       CAPTURE(N);
       Expectations expected;
       for (int j = 0; j < N; ++j) {
@@ -132,12 +132,12 @@ TEST_CASE("Couette ladder: velocities and the force on the wall come to the thes
 TEST_CASE("Couette ladder: its first time constant comes to (h/pi)^2/nu with 1/N^2") {
   double last = 0;
   for (const int N : {5, 10, 20, 40}) {
-    const Trajectory rows = simulate(including(scene(N, 0, start + 6 * T1, 61)), 1e-10);
+    const RunTable rows = simulate(including(scene(N, 0, start + 6 * T1, 61)), 1e-10);
     // From where the second mode is e^-12 of its start to the end.
     const auto& t = rows.time();
     const auto& f = rows["hold.force"];
     const double measured = (t[60] - t[40]) / std::log(f[40] / f[60]);
-    const double of_ladder = 1 / Ladder{N, 0}.rate(1), error = std::abs(of_ladder / T1 - 1);
+    const double of_ladder = 1 / ModelHierarchy{N, 0}.rate(1), error = std::abs(of_ladder / T1 - 1);
     CAPTURE(N);
     CHECK(measured == doctest::Approx(of_ladder).epsilon(1e-5));
     if (last > 0) CHECK(last / error == doctest::Approx(4).epsilon(0.03));

@@ -227,7 +227,7 @@ TEST_CASE("davidenkov has the force at the start that is given, however small, a
         CAPTURE(share);
         const double f0 = s * share * Fc;
         const std::string held = "type = \"motion\"\nposition = 0";
-        const Trajectory rows = simulate(scene(n, held, 1.3, fmt::format("f0 = {:.17g}\n", f0)));
+        const RunTable rows = simulate(scene(n, held, 1.3, fmt::format("f0 = {:.17g}\n", f0)));
         for (const double force : rows["friction.force"]) CHECK(std::abs(force - f0) <= 1e-14 * std::abs(f0));
       }
 }

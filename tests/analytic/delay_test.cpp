@@ -93,7 +93,7 @@ TEST_CASE("a delayed vfm on a given motion: the force of one without delay, late
       b.between("now", "vfm", ends[reversed], ends[!reversed], {{"damping", B}, {"stiffness", sigma}});
       b.between("later", "vfm", ends[reversed], ends[!reversed], {{"damping", B}, {"stiffness", sigma}, {"delay", TD}});
       b.between("much_later", "vfm", ends[reversed], ends[!reversed], {{"damping", B}, {"stiffness", sigma}, {"delay", 7.7}});
-      const Trajectory run = simulate(b.finish(rows * every, rows, accuracy));
+      const RunTable run = simulate(b.finish(rows * every, rows, accuracy));
       const std::vector<double>&now = run["now.force"], &later = run["later.force"];
       double worst = 0;
       for (std::size_t k = 0; k < later.size(); ++k) {
@@ -121,7 +121,7 @@ TEST_CASE("delays far shorter and far longer than a step: a given motion comes t
     for (const auto& [name, delay] : delays)
       b.between(name, "vfm", "a", "ground", {{"damping", B}, {"stiffness", sigma}, {"delay", delay}});
     Summary summary;
-    const Trajectory run = simulate(b.finish(stop, 100, accuracy), &summary);
+    const RunTable run = simulate(b.finish(stop, 100, accuracy), &summary);
     for (const auto& [name, delay] : delays) check_against(run, {name + ".force", late(delay)}, accuracy);
     CHECK_LT(summary.steps, 20000);
   }
@@ -138,10 +138,10 @@ TEST_CASE("a delay far shorter than what happens changes it by as little") {
     b.between("v", "vfm", "ground", "a", {{"damping", B}, {"stiffness", sigma}, {"delay", delay}});
     return simulate(b.finish(1.2, 60, 1e-8));
   };
-  const Trajectory none = run(0);
+  const RunTable none = run(0);
   double worst[2] = {0, 0};
   for (const double delay : {4e-4, 1e-4}) {
-    const Trajectory some = run(delay);
+    const RunTable some = run(delay);
     for (std::size_t row = 0; row < none.time().size(); ++row)
       worst[delay < 2e-4] = std::max(worst[delay < 2e-4], std::abs(some["a.velocity"][row] - none["a.velocity"][row]));
   }
@@ -170,7 +170,7 @@ TEST_CASE("a mass that a delayed vfm slows down: what it does now depends on wha
       b.between("v", "vfm", "ground", "a", {{"damping", B}, {"stiffness", sigma}, {"delay", delay}});
       const int rows = 60;
       Summary summary;
-      const Trajectory run = simulate(b.finish(stop, rows, accuracy), &summary);
+      const RunTable run = simulate(b.finish(stop, rows, accuracy), &summary);
       const auto at = [&](std::size_t column, double sign) {
         return [&, column, sign](double t) {
           const auto row = static_cast<std::size_t>(std::llround(t / stop * static_cast<double>(y.size() - 1)));
@@ -198,7 +198,7 @@ TEST_CASE("without a mass: a delayed vfm behind a dashpot, and behind a spring")
     b.between("k", "spring", "a", "end", {{"stiffness", k}});
     b.between("u", "vfm", "end", "ground", {{"damping", B}, {"stiffness", sigma}, {"delay", TD}});
     const int rows = 80;
-    const Trajectory run = simulate(b.finish(stop, rows, accuracy));
+    const RunTable run = simulate(b.finish(stop, rows, accuracy));
     // Over the first delays by hand, with r = sigma/B: nothing comes through until TD; then the nodes felt move with v.
     constexpr double r = sigma / B;
     const auto begun = [&](double t) { return t < TD ? 0 : B * v * (1 - std::exp(-r * (t - TD))); };
@@ -237,7 +237,7 @@ TEST_CASE("what follows a motion through a spring, without any force, is felt a 
       b.motion("drive", "a", "velocity", Signal(Signal::Sine{A, frequency, 0, 0, 0}));
       b.between("k", "spring", "a", "mid", {{"stiffness", k}});
       b.between("v", "vfm", "mid", "ground", {{"damping", B}, {"stiffness", sigma}, {"delay", late}});
-      const Trajectory run = simulate(b.finish(2 * late, 140, accuracy));
+      const RunTable run = simulate(b.finish(2 * late, 140, accuracy));
       const double gain = B * A / (1 + w * w * lag * lag);
       double worst = 0;
       for (std::size_t row = 0; row < run.time().size(); ++row) {
@@ -256,7 +256,7 @@ TEST_CASE("a step through a spring comes back through the delay, again and again
   b.motion("drive", "a", "position", Signal(Signal::Step{dx, 0.02, 0}));
   b.between("k", "spring", "a", "end", {{"stiffness", k}});
   b.between("u", "vfm", "end", "ground", {{"damping", B}, {"stiffness", sigma}, {"delay", TD}});
-  const Trajectory run = simulate(b.finish(2.5 * TD, 500, accuracy));
+  const RunTable run = simulate(b.finish(2.5 * TD, 500, accuracy));
   constexpr double r = sigma / B;
   for (std::size_t row = 0; row < run.time().size(); ++row) {
     const double s = run.time()[row] - 0.02 - TD, s2 = s - TD;

@@ -75,7 +75,7 @@ f2 = { type = "force", between = ["mid", "b"], force = { step = "F", time = "on"
     for (const double accuracy : accuracies) {
       rheonet::Scene scene = scene_of(text, accuracy);
       scene.keep = {"parts"};
-      const Trajectory rows = simulate(scene);
+      const RunTable rows = simulate(scene);
       for (std::size_t k = 0; k < brakes.size(); ++k) {
         const auto [m, on] = brakes[k];
         check_against(rows, {fmt::format("x{}.velocity", k), [m = m, on = on](double t) { return std::max(0.0, v0 - F / m * std::max(0.0, t - on)); }}, accuracy);

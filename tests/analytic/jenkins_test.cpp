@@ -187,7 +187,7 @@ TEST_CASE("A slider behind a spring holds still until its force is reached, on b
     CAPTURE(factor);
     const Path path = straight("there and back", {0, factor * Fc / k, -0.3 * Fc / k, 0.2 * Fc / k});
     for (const double accuracy : {1e-6, 1e-9}) {
-      const Trajectory rows = simulate(jenkins(path, Fc), accuracy);
+      const RunTable rows = simulate(jenkins(path, Fc), accuracy);
       CHECK_LE(rows.scale("slider.force"), Fc);
       if (factor < 1) check_exactly(rows, "slider.displacement", 0);
       if (factor > 1) CHECK_EQ(rows["mid.position"].back(), doctest::Approx(1e-3 * Fc / k).epsilon(1e-2));

@@ -72,7 +72,7 @@ TEST_CASE("Kelvin-Voigt, stretched suddenly: the forces after the impulse") {
     const Response x = strain.position();
     CAPTURE(strain.name);
     for (const double accuracy : accuracies) {
-      Trajectory trajectory;
+      RunTable trajectory;
       try {
         trajectory = simulate(netlist({{"k", k}, {"B", B}}, strain.element + wired, stop), accuracy);
       } catch (const std::runtime_error& refused) {

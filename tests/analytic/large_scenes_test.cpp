@@ -52,7 +52,7 @@ record = ["x.position", "bundle.force"]
     folder.shell(fmt::format("ulimit -v 1000000; rheonet run scene.toml -q -o rows.csv --accuracy {}", accuracy), 0);
     std::FILE* const file = std::fopen((folder.path() / "rows.csv").c_str(), "r");
     REQUIRE(file);
-    const Trajectory rows = read_rows(file);
+    const RunTable rows = read_rows(file);
     std::fclose(file);
     for (std::size_t i = 0; i < rows.time().size(); ++i) {
       const double t = rows.time()[i], x = 1.3 * std::sin(2 * pi * t);
@@ -98,7 +98,7 @@ record = ["m.position", "m.velocity"]
   for (const double accuracy : accuracies) {
     CAPTURE(accuracy);
     const double begin = cpu_time();
-    const Trajectory rows = simulate(text, accuracy);
+    const RunTable rows = simulate(text, accuracy);
     CHECK(cpu_time() - begin < 10);  // 95 s with the integral computed anew
     REQUIRE(rows.time().size() == x.size());
     for (const auto& [name, exact] : {std::pair{"m.position", &x}, std::pair{"m.velocity", &v}}) {

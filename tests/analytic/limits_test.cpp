@@ -125,7 +125,7 @@ TEST_CASE("cfm on its way to its limits: the difference falls as the distance do
     CAPTURE(way.name);
     double worst[2] = {0, 0};
     for (const double times : {near, nearer}) {
-      const Trajectory run = simulate(scene(way.element(times)), 1e-9);
+      const RunTable run = simulate(scene(way.element(times)), 1e-9);
       for (std::size_t row = 0; row < run.time().size(); ++row) {
         const double difference = std::abs(run["friction.force"][row] - way.limit(run.time()[row]));
         worst[times == nearer] = std::max(worst[times == nearer], difference);
@@ -138,7 +138,7 @@ TEST_CASE("cfm on its way to its limits: the difference falls as the distance do
 
 // Coulomb's law jumps where velocity reverses. There the way to it takes Fc/sigma; elsewhere it is much nearer.
 TEST_CASE("cfm on its way to Coulomb's law") {
-  const Trajectory run = simulate(scene(cfm("5e6", "\"Fc\"", "1e6")), 1e-9);
+  const RunTable run = simulate(scene(cfm("5e6", "\"Fc\"", "1e6")), 1e-9);
   int rows = 0;
   for (std::size_t row = 0; row < run.time().size(); ++row) {
     const double t = run.time()[row], since = std::fmod(t, 0.5 / frequency);

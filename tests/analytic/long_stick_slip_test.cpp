@@ -65,7 +65,7 @@ TEST_CASE("Stick-slip: after thousands of slips each is at its time") {
   check_at_all_accuracies(pulled(700), expected);
   const std::string text = pulled(asked ? std::atof(asked) : 3000);
   for (const double accuracy : {1e-3, 1e-6}) {
-    const Trajectory rows = simulate(text, accuracy);
+    const RunTable rows = simulate(text, accuracy);
     for (const Expectation& e : expected) check_against(rows, e, accuracy);
   }
 }

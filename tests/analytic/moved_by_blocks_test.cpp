@@ -43,7 +43,7 @@ std::string scene(const std::string& motion) {
 
 /// All that both record is the same.
 void check_same(const std::string& by_blocks, const std::string& by_signal, double accuracy) {
-  const Trajectory one = simulate(by_blocks, accuracy), other = simulate(by_signal, accuracy);
+  const RunTable one = simulate(by_blocks, accuracy), other = simulate(by_signal, accuracy);
   int compared = 0;
   for (const std::string& name : other.header) {
     if (name == "time") continue;
@@ -151,7 +151,7 @@ b = { velocity = "v0" }
 }
 
 TEST_CASE("a steady start on a belt that a lag moves") {
-  const Trajectory run = simulate(R"(
+  const RunTable run = simulate(R"(
 [elements]
 g = { type = "generator", signal = { step = -0.4, offset = 0.6, time = 0.2 } }
 l = { type = "lag", in = "g", time_constant = 0.1, gain = 2 }
@@ -181,7 +181,7 @@ TEST_CASE("a slider to what blocks move slips as soon as they move") {
                         integrators);
     for (const double accuracy : accuracies) {
       Summary summary;
-      const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+      const RunTable run = simulate(scene_of(text, accuracy), &summary);
       for (std::size_t row = 1; row < run.time().size(); ++row) CHECK_EQ(run["s.force"][row], -0.3);
       CHECK(summary.dissipated == doctest::Approx(-0.3 * run["a.position"].back()).epsilon(10 * accuracy));
       CHECK(std::abs(summary.missing) <= 10 * accuracy * summary.largest);
@@ -210,7 +210,7 @@ output = { points = 116 }
 )";
   for (const double accuracy : {1e-3, 1e-6, 1e-8}) {
     Summary summary;
-    const Trajectory run = simulate(scene_of(text, accuracy), &summary);
+    const RunTable run = simulate(scene_of(text, accuracy), &summary);
     CHECK(std::abs(summary.missing) <= 10 * accuracy * summary.largest);
     for (std::size_t row = 1; row < run.time().size(); ++row) {
       CHECK_EQ(run["b.velocity"][row], run["a.velocity"][row]);

@@ -94,7 +94,7 @@ bool jumps(const std::string& column) { return column.ends_with(".velocity"); }
 
 /// The largest magnitude of what is recorded in the same unit: beside it a slider that hardly slips shows what the
 /// solver leaves open.
-double scale_of(const std::string& column, const Trajectory& run) {
+double scale_of(const std::string& column, const RunTable& run) {
   const auto kind = [](const std::string& path) {
     const std::string channel = path.substr(path.rfind('.') + 1);
     return channel == "position" ? "displacement" : channel;
@@ -106,7 +106,7 @@ double scale_of(const std::string& column, const Trajectory& run) {
   return scale;
 }
 
-void compare(const Trajectory& together, const Trajectory& apart, double accuracy) {
+void compare(const RunTable& together, const RunTable& apart, double accuracy) {
   REQUIRE_EQ(together.header, apart.header);
   for (const std::string& column : together.header) {
     const double scale = scale_of(column, apart);
@@ -128,7 +128,7 @@ void compare(const Trajectory& together, const Trajectory& apart, double accurac
 namespace {
 
 struct Run {
-  Trajectory rows;
+  RunTable rows;
   Summary summary;
 };
 

@@ -33,7 +33,7 @@ TEST_CASE("a pseudoplastic dashpot brings a mass to rest: its force is as close 
       b.at("m", "mass", "a", {{"mass", m}});
       b.between("c", "dashpot", "ground", "a", {{"damping", B}, {"flow_index", n}});
       b.start("a", 0.2, -v0);
-      const Trajectory run = simulate(b.finish(1.2 * exact.at_rest(), 2000, accuracy));
+      const RunTable run = simulate(b.finish(1.2 * exact.at_rest(), 2000, accuracy));
       check_against(run, {"c.force", [&](double t) { return exact.force(t); }}, accuracy);
       check_against(run, {"a.velocity", [&](double t) { return -exact.velocity(t); }}, accuracy);
       check_against(run, {"m.force", [&](double t) { return exact.force(t); }}, accuracy);
@@ -55,7 +55,7 @@ TEST_CASE("a pseudoplastic dashpot brings two masses to rest against each other"
       b.between("c", "dashpot", "a", "b", {{"damping", B}, {"flow_index", n}});
       b.start("a", 0, v0 + 0.4);
       b.start("b", 0, 0.4);
-      const Trajectory run = simulate(b.finish(1.2 * exact.at_rest(), 500, accuracy));
+      const RunTable run = simulate(b.finish(1.2 * exact.at_rest(), 500, accuracy));
       check_against(run, {"c.force", [&](double t) { return exact.force(t); }}, accuracy);
       const double both = 0.4 + v0 * m1 / (m1 + m2);
       check_against(run, {"b.velocity", [&](double t) { return both - exact.velocity(t) * m1 / (m1 + m2); }}, accuracy);
@@ -76,7 +76,7 @@ TEST_CASE("pseudoplastic dashpots in series bring a mass to rest") {
       b.between("c1", "dashpot", "a", "b", {{"damping", B1}, {"flow_index", n}});
       b.between("c2", "dashpot", "b", "ground", {{"damping", B2}, {"flow_index", n}});
       b.start("a", 0.2, v0);
-      const Trajectory run = simulate(b.finish(1.2 * exact.at_rest(), 1000, accuracy));
+      const RunTable run = simulate(b.finish(1.2 * exact.at_rest(), 1000, accuracy));
       for (const char* force : {"c1.force", "c2.force"}) check_against(run, {force, [&](double t) { return exact.force(t); }}, accuracy);
       check_against(run, {"a.velocity", [&](double t) { return exact.velocity(t); }}, accuracy);
     }

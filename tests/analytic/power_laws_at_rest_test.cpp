@@ -48,7 +48,7 @@ TEST_CASE("power laws in series behind a velocity that begins with 0") {
         b.between("c" + std::to_string(k), "dashpot", "n" + std::to_string(k), end,
                   {{"damping", chain[k].B}, {"flow_index", chain[k].n}});
       }
-      const Trajectory run = simulate(b.finish(2, 97, accuracy));
+      const RunTable run = simulate(b.finish(2, 97, accuracy));
       const auto force = [&](double t) { return force_of(chain, v * std::sin(2 * std::numbers::pi * frequency * t)); };
       check_against(run, {"c0.force", force}, accuracy);
       check_against(run, {"n1.velocity", [&](double t) {

@@ -88,7 +88,7 @@ x = { position = "x0" }
 // A load cell: the force of a spring, through a lag, gives the force that relieves it. m v' = F - f, f = k x, T F' + F = -G f.
 TEST_CASE("force feedback through a lag, against the same network with the loop solved by hand") {
   constexpr double m = 0.8, k = 55, G = 0.6, T = 0.09, v0 = 1.1;
-  const Trajectory run = simulate(netlist({{"m", m}, {"k", k}, {"G", G}, {"T", T}, {"v0", v0}}, R"(
+  const RunTable run = simulate(netlist({{"m", m}, {"k", k}, {"G", G}, {"T", T}, {"v0", v0}}, R"(
 [elements]
 mass  = { type = "mass", at = "x", mass = "m" }
 cell  = { type = "spring", between = ["x", "ground"], stiffness = "k" }
@@ -127,8 +127,8 @@ s = { type = "slider", between = ["b", "ground"], coulomb = 0.4, breakaway = 0.5
 push = { type = "force", at = "b", force = { square = 2.1, frequency = 0.7 } }
 )";
   const std::string rest = "[simulate]\nstop = 6\noutput = { points = 301 }\nrecord = [\"a.position\", \"b.velocity\", \"s.force\"]\n";
-  const Trajectory passive = simulate(fmt::format("{}c = {{ type = \"dashpot\", between = [\"a\", \"b\"], damping = 0.9 }}\n{}", network, rest), 1e-8);
-  const Trajectory active = simulate(fmt::format(
+  const RunTable passive = simulate(fmt::format("{}c = {{ type = \"dashpot\", between = [\"a\", \"b\"], damping = 0.9 }}\n{}", network, rest), 1e-8);
+  const RunTable active = simulate(fmt::format(
       "{}g = {{ type = \"gain\", in = \"l.velocity\", gain = -0.9 }}\n"
       "f = {{ type = \"force\", between = [\"a\", \"b\"], force = {{ block = \"g\" }} }}\n{}", network, rest), 1e-8);
   for (const char* record : {"a.position", "b.velocity"})
@@ -157,7 +157,7 @@ stop   = 10
 output = { points = 1001 }
 record = ["x.position", "x.velocity", "lim.out"]
 )";
-  const Trajectory exact = simulate(text, 1e-11);
+  const RunTable exact = simulate(text, 1e-11);
   for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
     CAPTURE(accuracy);
     CHECK(largest_error(simulate(text, accuracy), exact) <= accuracy);

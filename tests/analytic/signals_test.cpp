@@ -241,7 +241,7 @@ dashpot = { type = "dashpot", between = ["end", "ground"], damping = "B" }
 stop = 0.1
 output = { every = 0.01 }
 )";
-  const Trajectory rows = simulate("[parameters]\nB = 12.9\n" + tables, 1e-6);
+  const RunTable rows = simulate("[parameters]\nB = 12.9\n" + tables, 1e-6);
   REQUIRE_EQ(rows.time().size(), 11);
   CHECK_EQ(rows["dashpot.force"][4], doctest::Approx(B * -0.219).epsilon(1e-5));
   CHECK_EQ(rows["dashpot.force"][5], doctest::Approx(B * (0.731 - 0.219)).epsilon(1e-5));

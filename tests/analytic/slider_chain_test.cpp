@@ -54,7 +54,7 @@ struct Told {
 
 /// Checks in each row that every slider obeys its law: its force is within its bounds, and where it is not at a
 /// standstill exactly what it slips at.
-Told check_laws(const Scene& scene, const Trajectory& rows, double accuracy) {
+Told check_laws(const Scene& scene, const RunTable& rows, double accuracy) {
   Told told;
   for (const SceneElement& e : scene.elements) {
     if (declarations()[std::size_t(e.declaration)]->type != "slider") continue;
@@ -78,7 +78,7 @@ Told check_laws(const Scene& scene, const Trajectory& rows, double accuracy) {
 }
 
 /// The sum of the forces at every node, in every row, against the largest applied.
-double imbalance(const Scene& scene, const Trajectory& rows) {
+double imbalance(const Scene& scene, const RunTable& rows) {
   std::vector<std::vector<double>> sum(scene.nodes.size(), std::vector<double>(rows.time().size(), 0));
   for (const SceneElement& e : scene.elements) {
     const std::vector<double>& f = rows[e.name + ".force"];
@@ -102,7 +102,7 @@ TEST_CASE("A chain of 200 masses joined by sliders, shaken: laws, balance, energ
     CAPTURE(accuracy);
     const Scene scene = scene_of(shaken(1), accuracy), mirrored = scene_of(shaken(-1), accuracy);
     Summary summary;
-    const Trajectory rows = simulate(scene, &summary), other = simulate(mirrored);
+    const RunTable rows = simulate(scene, &summary), other = simulate(mirrored);
     REQUIRE_EQ(rows.time().size(), 227);
     for (const std::string& name : rows.header) {
       for (const double x : rows[name]) {
@@ -175,11 +175,11 @@ output = {{ points = 101 }}
     // At 1e-9 it takes some hundred thousand steps: springs that nothing stretches are followed to the roundings of the
     // velocities at their ends.
     for (const double accuracy : {1e-3, 1e-6}) {
-      const Trajectory rows = simulate(toml, accuracy);
+      const RunTable rows = simulate(toml, accuracy);
       for (const Expectation& one : expected) check_against(rows, one, accuracy);
     }
     for (const double accuracy : {1e-3, 1e-6}) {
-      const Trajectory rows = simulate(toml, accuracy);
+      const RunTable rows = simulate(toml, accuracy);
       for (std::size_t row = 0; row < rows.time().size(); ++row) {
         const double t = rows.time()[row];
         if (std::abs(t - breaks) <= accuracy * end) continue;

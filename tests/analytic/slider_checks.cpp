@@ -14,11 +14,11 @@ namespace rheonet::test {
 
 namespace {
 
-double length(const Trajectory& rows) { return rows.time().back() - rows.time().front(); }
+double length(const RunTable& rows) { return rows.time().back() - rows.time().front(); }
 
-Trajectory away_from(const Trajectory& rows, const std::vector<double>& jumps, double accuracy) {
+RunTable away_from(const RunTable& rows, const std::vector<double>& jumps, double accuracy) {
   const double distance = accuracy * length(rows);
-  Trajectory result{{}, rows.header};
+  RunTable result{{}, rows.header};
   for (std::size_t row = 0; row < rows.time().size(); ++row) {
     const double t = rows.time()[row];
     if (std::any_of(jumps.begin(), jumps.end(), [=](double jump) { return std::abs(t - jump) <= distance; })) continue;
@@ -39,7 +39,7 @@ void check_between(const std::string& toml, const Expectations& expected, const 
   INFO(toml);
   for (const double accuracy : accuracies) {
     try {
-      const Trajectory rows = simulate(toml, accuracy), kept = away_from(rows, jumps, accuracy);
+      const RunTable rows = simulate(toml, accuracy), kept = away_from(rows, jumps, accuracy);
       CHECK_GT(kept.time().size(), 0.4 * double(rows.time().size()));
       for (const Expectation& one : expected) check_against(kept, one, accuracy);
     } catch (const std::runtime_error& refused) {
@@ -53,11 +53,11 @@ void check_events(const std::string& toml, const std::vector<double>& changes, c
   INFO(toml);
   std::vector<double> instants = changes;
   instants.insert(instants.end(), drive.begin(), drive.end());
-  const auto at_stop = [](const Trajectory& rows, double t) { return t == rows.time().back(); };  // the drive may end there
+  const auto at_stop = [](const RunTable& rows, double t) { return t == rows.time().back(); };  // the drive may end there
   for (const double accuracy : accuracies) {
     CAPTURE(accuracy);
     try {
-      const Trajectory rows = simulate(toml, accuracy);
+      const RunTable rows = simulate(toml, accuracy);
       std::vector<double> found;
       for (std::size_t row = 1; row < rows.time().size(); ++row) {
         if (rows.time()[row] == rows.time()[row - 1]) found.push_back(rows.time()[row]);
@@ -81,7 +81,7 @@ void check_events(const std::string& toml, const std::vector<double>& changes, c
 
 namespace {
 
-void check_within(const Trajectory& rows, const std::string& column, double value, double since, double until,
+void check_within(const RunTable& rows, const std::string& column, double value, double since, double until,
                   double rounding) {
   const std::vector<double>& x = rows[column];
   for (std::size_t row = 0; row < x.size(); ++row) {
@@ -94,11 +94,11 @@ void check_within(const Trajectory& rows, const std::string& column, double valu
 
 }  // namespace
 
-void check_exactly(const Trajectory& rows, const std::string& column, double value, double since, double until) {
+void check_exactly(const RunTable& rows, const std::string& column, double value, double since, double until) {
   check_within(rows, column, value, since, until, 0);
 }
 
-double check_constant(const Trajectory& rows, const std::string& column, double since, double rounding) {
+double check_constant(const RunTable& rows, const std::string& column, double since, double rounding) {
   const auto first = std::lower_bound(rows.time().begin(), rows.time().end(), since) - rows.time().begin();
   REQUIRE_LT(std::size_t(first) + 1, rows.time().size());
   const double value = rows[column][std::size_t(first)];

@@ -21,15 +21,15 @@ void check_events(const std::string& toml, const std::vector<double>& changes, c
                   const std::function<bool(double t, double accuracy)>& creeps = {});
 
 /// Checks that a column has this value to the last bit in every row from `since` to `until`.
-void check_exactly(const Trajectory& rows, const std::string& column, double value, double since = 0,
+void check_exactly(const RunTable& rows, const std::string& column, double value, double since = 0,
                    double until = HUGE_VAL);
 
 /// Checks that a column does not change from `since` on, by a single bit or by more than `rounding`. Its value there.
-double check_constant(const Trajectory& rows, const std::string& column, double since, double rounding = 0);
+double check_constant(const RunTable& rows, const std::string& column, double since, double rounding = 0);
 
 /// A run with its summary, for the notes and the energy account.
 struct Outcome {
-  Trajectory rows;
+  RunTable rows;
   Summary summary;
 };
 Outcome outcome(const std::string& toml, double accuracy = 0);

@@ -60,7 +60,7 @@ void check_motion(double c, double Fs, double x0, double v0) {
 void check_stopped(const std::string& toml, double t, double x, double scale) {
   INFO(toml);
   for (const double accuracy : accuracies) {
-    const Trajectory rows = simulate(toml, accuracy);
+    const RunTable rows = simulate(toml, accuracy);
     const double since = t + accuracy * stop;
     CHECK_LE(std::abs(check_constant(rows, "block.position", since) - x), 10 * accuracy * scale);
     check_exactly(rows, "block.velocity", 0, since);
@@ -82,7 +82,7 @@ TEST_CASE("A mass on a spring and a slider: turning points, and where it stops")
   for (const double sign : {1.0, -1.0}) {
     check_events(scene(0, Fc, sign * x0, 0, "points = 2, events = true"), turns);
     check_stopped(scene(0, Fc, sign * x0, 0), turns.back(), -sign * (x0 - 10 * reach), x0);
-    const Trajectory rows = simulate(scene(0, Fc, sign * x0, 0, "points = 2, events = true"), 1e-9);
+    const RunTable rows = simulate(scene(0, Fc, sign * x0, 0, "points = 2, events = true"), 1e-9);
     std::size_t n = 0;
     double last = 0;
     for (std::size_t row = 1; row < rows.time().size(); ++row) {
@@ -129,7 +129,7 @@ TEST_CASE("A mass stops within the reach of the slider and not beyond it") {
       const int swings = beside < 0 ? 4 : 5;
       const double rest = (swings % 2 ? -1 : 1) * (x0 - 2 * swings * reach), last = swings * std::numbers::pi / omega;
       for (const double accuracy : {1e-6, 1e-9}) {
-        const Trajectory rows = simulate(scene(0, Fs, x0, 0), accuracy);
+        const RunTable rows = simulate(scene(0, Fs, x0, 0), accuracy);
         CHECK_LE(std::abs(check_constant(rows, "block.position", last + accuracy * stop) - rest), 10 * accuracy * x0);
       }
     }
@@ -139,13 +139,13 @@ TEST_CASE("A mass stops within the reach of the slider and not beyond it") {
 TEST_CASE("A mass within the reach of the slider does not move at all") {
   for (const double Fs : {Fc, 1.53 * Fc}) {
     for (const double x0 : {0.999 * Fs / k, -0.999 * Fs / k}) {
-      const Trajectory rows = simulate(scene(0, Fs, x0, 0), 1e-6);
+      const RunTable rows = simulate(scene(0, Fs, x0, 0), 1e-6);
       check_exactly(rows, "block.position", x0);
       check_exactly(rows, "block.velocity", 0);
       CHECK_EQ(check_constant(rows, "slider.force", 0), doctest::Approx(-k * x0).epsilon(1e-12));
     }
     for (const double x0 : {1.001 * Fs / k, -1.001 * Fs / k}) {
-      const Trajectory rows = simulate(scene(0, Fs, x0, 0), 1e-9);
+      const RunTable rows = simulate(scene(0, Fs, x0, 0), 1e-9);
       // Half a swing about the place where Fc holds the spring.
       const double s = x0 < 0 ? -1 : 1;
       CHECK_EQ(rows["block.position"].back(), doctest::Approx(s * 2 * reach - x0).epsilon(1e-8));

@@ -127,7 +127,7 @@ TEST_CASE("Two masses joined by a slider lock, and keep their momentum") {
   check_pair("0", Fc, v1, v2, stop, {{0, steady(0), 0}});
   check_pair("0", 1.43 * Fc, v2, v1, stop, {{0, steady(0), 0}});
   for (const double accuracy : accuracies) {
-    const Trajectory rows = simulate(pair("0", Fc, v1, v2, stop), accuracy);
+    const RunTable rows = simulate(pair("0", Fc, v1, v2, stop), accuracy);
     for (std::size_t row = 0; row < rows.time().size(); ++row) {
       const double momentum = m1 * rows["upper.velocity"][row] + m2 * rows["lower.velocity"][row];
       CHECK_LE(std::abs(momentum - M * together), 10 * accuracy * m1 * v1);
@@ -173,7 +173,7 @@ TEST_CASE("Two masses joined by a slider, one pushed by a sine") {
 TEST_CASE("Two masses joined by a slider, pushed below its force, move as one") {
   const double F = 0.999 * Fc * M / m2;
   for (const double accuracy : accuracies) {
-    const Trajectory rows = simulate(pair(fmt::format("{:.17g}", F), Fc, 0.317, 0.317, 1.13), accuracy);
+    const RunTable rows = simulate(pair(fmt::format("{:.17g}", F), Fc, 0.317, 0.317, 1.13), accuracy);
     check_constant(rows, "slider.displacement", 0, rounding);
     check_exactly(rows, "slider.velocity", 0);
     check_against(rows, {"lower.velocity", [=](double t) { return 0.317 + F / M * t; }}, accuracy);
@@ -205,7 +205,7 @@ TEST_CASE("Sliders side by side: their forces add up, and share the load equally
       }
       check_between(toml, shares, exact.instants());
 
-      const Trajectory rows = simulate(toml, 1e-6);
+      const RunTable rows = simulate(toml, 1e-6);
       for (std::size_t row = 0; row < rows.time().size(); ++row) {
         double sum = rows["mass.force"][row];
         for (std::size_t j = 0; j < forces.size(); ++j) {

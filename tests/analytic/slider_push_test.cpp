@@ -69,7 +69,7 @@ struct Levels {
 void check_still(const std::string& force, double stop, const Exact& friction) {
   INFO(force);
   for (const double accuracy : accuracies) {
-    const Trajectory rows = simulate(scene(force, Fc, Fc, stop), accuracy);
+    const RunTable rows = simulate(scene(force, Fc, Fc, stop), accuracy);
     for (const char* column :
          {"block.position", "block.velocity", "slider.displacement", "slider.velocity", "mass.force"})
       check_exactly(rows, column, 0);

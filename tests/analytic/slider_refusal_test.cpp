@@ -63,7 +63,7 @@ void check_refused(const std::string& toml, double t, const std::vector<std::str
   // A message gives six digits.
   CHECK_LE(std::abs(time_in(text) - t), 1e-6);
   // The rows up to there have been written, and nothing has moved.
-  const Trajectory rows = read_rows(csv.get());
+  const RunTable rows = read_rows(csv.get());
   CHECK_EQ(rows.time().size(), std::size_t(t / scene.output_every) + 1);
   check_exactly(rows, "end.velocity", 0);
 }

@@ -50,9 +50,9 @@ struct Phase {
 };
 
 /// Where the phases are at t.
-class Course {
+class Trajectory {
  public:
-  explicit Course(std::vector<Phase> phases) : phases_(std::move(phases)) {}
+  explicit Trajectory(std::vector<Phase> phases) : phases_(std::move(phases)) {}
   double velocity(double t) const { return at(t).velocity(t - at(t).start); }
   double acceleration(double t) const { return at(t).velocity.derivative()(t - at(t).start); }
   double force(double t) const { return at(t).force(t - at(t).start); }
@@ -93,7 +93,7 @@ TEST_CASE("Slider in series with a dashpot, behind a mass that is pushed and let
   REQUIRE_LT(sticks, 0.9 * stop);
   for (const double s : {1.0, -1.0}) {
     const Response first = Response::constant(s * F / B).lag(m / B, 0), last = Response().lag(m / B, s * Fc / B);
-    const Course course({{0, first, B * first},
+    const Trajectory course({{0, first, B * first},
                          {slips, Response::constant(s * (F - Fc) / m).integral(s * Fc / B), Response::constant(s * Fc)},
                          {lets_go, Response::constant(-s * Fc / m).integral(s * fastest), Response::constant(s * Fc)},
                          {sticks, last, B * last}});
@@ -112,7 +112,7 @@ TEST_CASE("Slider in series with vfm, moved at two speeds") {
   const double fast = 1.7 * Fc / B, slow = 0.6 * Fc / B, slows = 0.1937, stop = 0.613;
   const double slips = -tau * std::log(1 - Fc / (B * fast));
   for (const double s : {1.0, -1.0}) {
-    const Course course({{0, Response::constant(s * fast), Response::constant(s * B * fast).lag(tau, 0)},
+    const Trajectory course({{0, Response::constant(s * fast), Response::constant(s * B * fast).lag(tau, 0)},
                          {slips, Response::constant(s * fast), Response::constant(s * Fc)},
                          {slows, Response::constant(s * slow), Response::constant(s * B * slow).lag(tau, s * Fc)}});
     const auto slip = [&](double t) { return t < slips || t >= slows ? 0 : s * (fast - Fc / B); };
@@ -141,7 +141,7 @@ TEST_CASE("Slider in series with vfm, behind a mass that is pushed and let go") 
     REQUIRE_LT(sticks, 0.9 * stop);
     // It sticks when B v is back at Fc, and then f' = (B v - f)/tau = 0.
     const Response last = Response().second_order(r1, r2, s * Fc, 0);
-    const Course course({{0, velocity_of(first), first},
+    const Trajectory course({{0, velocity_of(first), first},
                          {slips, sliding, Response::constant(s * Fc)},
                          {lets_go, Response::constant(-s * Fc / m).integral(fastest), Response::constant(s * Fc)},
                          {sticks, velocity_of(last), last}});
@@ -212,7 +212,7 @@ TEST_CASE("Slider in series with sfm, behind a mass that is pushed") {
     REQUIRE_LT(turns, 0.9 * stop);
     // From there it swings freely: the force goes from Fc to -Fc and back.
     const Response last = Response().second_order(i, -i, s * Fc / sigma, 0);
-    const Course course({{0, first.derivative(), sigma * first},
+    const Trajectory course({{0, first.derivative(), sigma * first},
                          {slips, sliding, Response::constant(s * Fc)},
                          {lets_go, Response::constant(-s * Fc / m).integral(fastest), Response::constant(s * Fc)},
                          {turns, last.derivative(), sigma * last}});

@@ -113,7 +113,7 @@ TEST_CASE("Sliders in series turn with every turn of what moves them, with nothi
     for (const std::string& beside : {std::string(), slow}) {
       rheonet::Scene scene = scene_of(netlist({}, "[elements]\n" + drive + chain({Fc, second}) + beside, 40 * stop, 1201) + "record = [\"s1.force\", \"s2.force\"]\n");
       scene.keep = {"parts", "unasked"};
-      const Trajectory rows = simulate(scene);
+      const RunTable rows = simulate(scene);
       for (std::size_t k = 0; k < rows.time().size(); ++k) {
         const double velocity = std::sin(omega * rows.time()[k] + 0.7);
         if (std::abs(velocity) < 1e-6) continue;
@@ -132,7 +132,7 @@ TEST_CASE("Two sliders in series without mass, pushed below the weaker one's for
                     amplitude, frequency),
         chain({Fc, second}));
     for (const double accuracy : accuracies) {
-      const Trajectory rows = simulate(toml, accuracy);
+      const RunTable rows = simulate(toml, accuracy);
       for (const char* column : {"end.position", "n1.position", "end.velocity", "n1.velocity"})
         check_exactly(rows, column, 0);
       const auto force = [=](double t) { return amplitude * std::sin(omega * t); };

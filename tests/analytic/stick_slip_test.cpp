@@ -143,7 +143,7 @@ TEST_CASE("Stick-slip: while it sticks nothing moves by a single bit") {
   for (const Pull& pull : {as_everywhere, generic, nearly_equal}) {
     const StickSlip exact(pull);
     const double accuracy = 1e-6, guard = accuracy * pull.stop;
-    const Trajectory rows = simulate(pulled(pull), accuracy);
+    const RunTable rows = simulate(pulled(pull), accuracy);
     CHECK_LE(rows.scale("slider.force"), pull.Fs);
     for (std::size_t n = 0; n < exact.slips().size(); ++n) {
       const double from = n == 0 ? 0 : exact.sticks()[n - 1] + guard, to = exact.slips()[n] - guard;

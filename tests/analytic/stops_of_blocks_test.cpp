@@ -64,7 +64,7 @@ TEST_CASE("A stop made of blocks: contact for half a swing") {
       const double rounding = 1e3 * 2.3e-16 * place * s.omega() / s.v;
       for (const double accuracy : accuracies) {
         if (rounding > accuracy) continue;
-        const Trajectory rows = simulate(scene(s), accuracy);
+        const RunTable rows = simulate(scene(s), accuracy);
         check_against(rows, {"a.position", [&](double t) { return s.position(t); }}, accuracy);
         check_against(rows, {"wall.force", [&](double t) { return std::max(0.0, s.k * (place - s.position(t))); }, s.v * std::sqrt(s.k * s.m)}, accuracy);
         // Of a velocity that turns within a moment rows see the two sides.
@@ -138,7 +138,7 @@ record = ["a.velocity", "k1.force"]
       const auto velocity = [=](double t) { return (X * s * std::exp(s * t)).imag(); };
       const auto spring = [=](double t) { return -k * (X * std::exp(s * t)).imag(); };
       for (const double accuracy : accuracies) {
-        const Trajectory rows = simulate(text, accuracy);
+        const RunTable rows = simulate(text, accuracy);
         for (const auto& [name, exact, scale] : {std::tuple{"a.velocity", Exact(velocity), std::abs(X * s)}, std::tuple{"k1.force", Exact(spring), k * std::abs(X)}}) {
           double worst = 0;
           for (std::size_t i = 0; i < rows.time().size(); ++i) {

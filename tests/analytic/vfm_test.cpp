@@ -89,7 +89,7 @@ series = [ { type = "spring", stiffness = "sigma" }, { type = "dashpot", damping
 )";
   const double accuracy = 1e-11;
   for (const Strain& strain : smooth_strains()) {
-    const Trajectory both = simulate(scene(strain.element + element + wired), accuracy);
+    const RunTable both = simulate(scene(strain.element + element + wired), accuracy);
     const double scale = both.scale("oil.force");
     CHECK_GT(scale, 1);
     for (std::size_t row = 0; row < both.time().size(); ++row) {

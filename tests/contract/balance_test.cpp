@@ -35,7 +35,7 @@ double direction(const Component& component) {
 TEST_CASE("contract: forces balance at every node and output") {
   for_each(cases(), [](const Case&, const Situation& situation) {
     const Scene& scene = situation.scene;
-    const Trajectory run = simulate(scene);
+    const RunTable run = simulate(scene);
     const std::size_t rows = run.time().size();
     std::vector<std::vector<double>> sum(scene.nodes.size(), std::vector<double>(rows, 0));
     std::vector<double> largest(scene.nodes.size(), 0);

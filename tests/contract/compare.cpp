@@ -17,7 +17,7 @@ constexpr double rounding = 1e-11;
 
 }  // namespace
 
-void check_related(const Scene& scene, const Trajectory& base, const Trajectory& other,
+void check_related(const Scene& scene, const RunTable& base, const RunTable& other,
                    const std::function<Relation(const Record&)>& relation, double time) {
   const std::vector<double>&t = base.time(), &t_other = other.time();
   REQUIRE_EQ(t.size(), t_other.size());
@@ -45,7 +45,7 @@ void check_related(const Scene& scene, const Trajectory& base, const Trajectory&
   }
 }
 
-void check_identical(const Trajectory& base, const Trajectory& other) {
+void check_identical(const RunTable& base, const RunTable& other) {
   for (const std::string& name : other.header) CHECK_MESSAGE(base[name] == other[name], name);
 }
 

@@ -15,10 +15,10 @@ struct Relation {
 /// Checks every row and record of `other` against `base`, a run of `scene`, through the relation of each record; times
 /// are multiplied by `time`. Both runs are as good as `accuracy` promises of the scene, so that a difference of ten
 /// times that is one of the identity.
-void check_related(const Scene& scene, const Trajectory& base, const Trajectory& other,
+void check_related(const Scene& scene, const RunTable& base, const RunTable& other,
                    const std::function<Relation(const Record&)>& relation, double time = 1);
 
 /// The same for a run that is to agree to the last bit.
-void check_identical(const Trajectory& base, const Trajectory& other);
+void check_identical(const RunTable& base, const RunTable& other);
 
 }  // namespace rheonet::test

@@ -62,7 +62,7 @@ Scene without_velocities(Scene scene) {
 }
 
 /// Where the trajectory of values near the limit is not near that of the limit.
-std::vector<std::string> misses_of(const Scene& law, const Trajectory& nearby, const Trajectory& of_limit) {
+std::vector<std::string> misses_of(const Scene& law, const RunTable& nearby, const RunTable& of_limit) {
   constexpr double distance = 1e-5;
   std::vector<std::string> misses;
   for (const Record& r : law.records) {
@@ -110,7 +110,7 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
         CHECK_EQ(refusal(at_limit), refusal(law));
         continue;
       }
-      const Trajectory of_limit = simulate(at_limit);
+      const RunTable of_limit = simulate(at_limit);
       check_identical(of_limit, simulate(law));
 
       // That it is the right law: the trajectory of values nearby is near, but for the start, where what the limit does
@@ -122,7 +122,7 @@ TEST_CASE("contract: at a limit a law is the law of the limit") {
       ++tried;
       std::vector<std::string> misses;
       for (const double small : distances) {
-        Trajectory nearby;
+        RunTable nearby;
         try {
           nearby = simulate(situate(*c.component, near(values, generic, small), c.place, c.seed).scene);
         } catch (const SimulationError&) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
@@ -78,11 +78,11 @@ TEST_CASE("y' of a consistent state is the slope of the trajectory") {
   Probe probe(scene);
   Dae& dae = probe.dae();
   const std::size_t n = at(dae.size());
-  struct Instant {
+  struct EventTransition {
     double t;
     std::vector<double> y, yp;
   };
-  std::vector<Instant> three;
+  std::vector<EventTransition> three;
   std::vector<double> worst(n, 0), largest(n, 0);
   int compared = 0;
   probe.along(5, 3, [&](double t, const std::vector<double>& y, const std::vector<double>& yp) {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <vector>
 
-#include "core/dae/drive.hpp"
+#include "core/dae/inputs.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/scene_builder.hpp"
 
@@ -14,12 +14,12 @@ namespace rheonet::test {
 struct Driven {
   Scene scene;
   Network network;
-  Drive drive;
+  Inputs inputs;
 
   Driven(const SceneBuilder& builder, double start, const std::vector<double>& positions)
       : scene(builder.finish(1, 10, 1e-6)),
         network(build_network(scene)),
-        drive(network, classify(network), start, before(network, start, positions)) {}
+        inputs(network, classify(network), start, before(network, start, positions)) {}
   Driven(const Driven&) = delete;
 
   /// Nodes that a position drives have followed it so far.
@@ -31,8 +31,8 @@ struct Driven {
   }
 
   double relative_velocity(int a, int b, double t) {
-    drive.evaluate(t);
-    const auto v = [&](int i) { return i < 0 ? 0 : drive.velocity[static_cast<std::size_t>(i)]; };
+    inputs.evaluate(t);
+    const auto v = [&](int i) { return i < 0 ? 0 : inputs.velocity[static_cast<std::size_t>(i)]; };
     return v(a) - v(b);
   }
 };

@@ -38,7 +38,7 @@ std::vector<double> reversals_by_trying(Driven& driven, int a, int b, double t, 
 std::vector<double> reversals(Driven& driven, int a, int b, double t, double limit) {
   std::vector<double> found;
   for (double next = t; found.size() < 1000;) {
-    next = driven.drive.next_reversal(a, b, next, limit);
+    next = driven.inputs.next_reversal(a, b, next, limit);
     if (next == infinity) break;
     found.push_back(next);
   }
@@ -57,7 +57,7 @@ TEST_CASE("reversals of a branch between two given motions: all of them, for gen
     const Signal a = smooth(random.below(4), a_by_position ? 0.1 : 1, random),
                  b = smooth(random.below(4), b_by_position ? 0.1 : 1, random);
     Driven driven(two_motions(a, a_by_position, b, b_by_position), 0, {0, 0, 0});
-    driven.drive.enter(0);
+    driven.inputs.enter(0);
     const int second = random.below(3) == 0 ? -1 : 1;
     const std::vector<double> expected = reversals_by_trying(driven, 0, second, 0, limit, 3000);
     const std::vector<double> found = reversals(driven, 0, second, 0, limit);
@@ -79,7 +79,7 @@ TEST_CASE("a velocity that touches zero does not reverse; one that just crosses 
         const double level = side * amplitude * (crosses ? 1 - excess : 1 + excess);
         Driven driven(two_motions(Signal(Signal::Sine{amplitude, frequency, 0.3, 0, level}), false, Signal(), true), 0,
                       {0, 0, 0});
-        driven.drive.enter(0);
+        driven.inputs.enter(0);
         const std::vector<double> found = reversals(driven, 0, 1, 0, 0.9 / frequency);
         REQUIRE_EQ(found.size(), crosses ? 2 : 0);
         if (!crosses) continue;
@@ -96,25 +96,25 @@ TEST_CASE("a velocity that touches zero does not reverse; one that just crosses 
 TEST_CASE("two equal motions do not reverse against each other, nor does one at rest") {
   const Signal sine(Signal::Sine{0.7, 2.3, 0.4, 0, 0.1});
   Driven driven(two_motions(sine, false, sine, false), 0, {0, 0, 0});
-  driven.drive.enter(0);
-  CHECK_EQ(driven.drive.next_reversal(0, 1, 0, 3.1), infinity);
-  CHECK(driven.drive.next_reversal(0, -1, 0, 3.1) < 0.5);
+  driven.inputs.enter(0);
+  CHECK_EQ(driven.inputs.next_reversal(0, 1, 0, 3.1), infinity);
+  CHECK(driven.inputs.next_reversal(0, -1, 0, 3.1) < 0.5);
 
   Driven rest(two_motions(Signal(), true, Signal(), false), 0, {0, 0, 0});
-  rest.drive.enter(0);
-  CHECK_EQ(rest.drive.next_reversal(0, 1, 0, 3.1), infinity);
-  CHECK_EQ(rest.drive.next_reversal(0, -1, 0.5, 0.5), infinity);
-  CHECK_EQ(rest.drive.next_reversal(0, -1, 0.5, infinity), infinity);
+  rest.inputs.enter(0);
+  CHECK_EQ(rest.inputs.next_reversal(0, 1, 0, 3.1), infinity);
+  CHECK_EQ(rest.inputs.next_reversal(0, -1, 0.5, 0.5), infinity);
+  CHECK_EQ(rest.inputs.next_reversal(0, -1, 0.5, infinity), infinity);
 }
 
 TEST_CASE("a reversal at which one stands is not the next one") {
   constexpr double frequency = 1.3;
   Driven driven(two_motions(Signal(Signal::Sine{0.7, frequency, 0, 0, 0}), false, Signal(), true), 0, {0, 0, 0});
-  driven.drive.enter(0);
-  CHECK_EQ(driven.drive.next_reversal(0, -1, 0, 2), doctest::Approx(0.5 / frequency).epsilon(1e-12));
-  const double first = driven.drive.next_reversal(0, -1, 0, 2);
-  CHECK_EQ(driven.drive.next_reversal(0, -1, first, 2), doctest::Approx(1 / frequency).epsilon(1e-12));
-  CHECK_EQ(driven.drive.next_reversal(0, -1, 0, 0.4999 / frequency), infinity);
+  driven.inputs.enter(0);
+  CHECK_EQ(driven.inputs.next_reversal(0, -1, 0, 2), doctest::Approx(0.5 / frequency).epsilon(1e-12));
+  const double first = driven.inputs.next_reversal(0, -1, 0, 2);
+  CHECK_EQ(driven.inputs.next_reversal(0, -1, first, 2), doctest::Approx(1 / frequency).epsilon(1e-12));
+  CHECK_EQ(driven.inputs.next_reversal(0, -1, 0, 0.4999 / frequency), infinity);
 }
 
 // What is remembered of one search must serve the next ones, over instants at which nothing changes and over those at
@@ -135,14 +135,14 @@ TEST_CASE("the next reversal is the same whatever was asked before") {
     Driven driven(builder, 0, {0, 0, 0, 0, 0});
     for (double t = 0; t < stop;) {
       CAPTURE(t);
-      driven.drive.enter(t);
+      driven.inputs.enter(t);
       Driven fresh(builder, 0, {0, 0, 0, 0, 0});
-      fresh.drive.enter(t);
-      const double limit = std::min(driven.drive.next_break(), stop);
+      fresh.inputs.enter(t);
+      const double limit = std::min(driven.inputs.next_break(), stop);
       double next = limit;
       for (const auto& [a, b] : pairs) {
-        const double expected = fresh.drive.next_reversal(a, b, t, limit);
-        const double found = driven.drive.next_reversal(a, b, t, limit);
+        const double expected = fresh.inputs.next_reversal(a, b, t, limit);
+        const double found = driven.inputs.next_reversal(a, b, t, limit);
         ++asked;
         if (std::isfinite(expected)) {
           ++finite;
@@ -153,11 +153,11 @@ TEST_CASE("the next reversal is the same whatever was asked before") {
         next = std::min(next, found);
       }
       // With one limit throughout, only the stretches tell that the signals have changed.
-      const double far = fresh.drive.next_reversal(0, 1, t, stop), again = driven.drive.next_reversal(0, 1, t, stop);
+      const double far = fresh.inputs.next_reversal(0, 1, t, stop), again = driven.inputs.next_reversal(0, 1, t, stop);
       CHECK((std::isfinite(far) ? std::abs(again - far) < 1e-12 : again == far));
       // Also between reversals, as events of other laws would have it, and with a nearer limit.
       const double between = t + (next - t) * random.uniform(0.1, 0.9);
-      const double nearer = driven.drive.next_reversal(0, -1, between, between + 0.01);
+      const double nearer = driven.inputs.next_reversal(0, -1, between, between + 0.01);
       CHECK((nearer == infinity || (nearer > between && nearer <= between + 0.01)));
       t = random.below(3) == 0 ? between : next;
     }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/simulate.hpp"
@@ -81,9 +81,9 @@ TEST_CASE("with delays shorter than a step the Jacobian is exact, and so is y'")
         largest[row] = std::max(largest[row], std::abs(values[at(e)]));
       }
     }
-    for (const double now : dae.drive().felt_now) felt += now != 0;
-    for (std::size_t atom = 0; atom < dae.drive().blocks().atoms(); ++atom)
-      coupled += dae.drive().blocks().slope(dae.network().forces[1].block, atom) != 0;
+    for (const double now : dae.inputs().felt_now) felt += now != 0;
+    for (std::size_t atom = 0; atom < dae.inputs().blocks().atoms(); ++atom)
+      coupled += dae.inputs().blocks().slope(dae.network().forces[1].block, atom) != 0;
     dae.residual(t, moved.data(), moved_rate.data(), r_moved.data());
     for (std::size_t i = 0; i < n; ++i) CHECK(std::abs(r_moved[i] - r[i] - product[i]) <= 1e-9 * (1 + largest[i]));
   });
@@ -98,16 +98,16 @@ TEST_CASE("delays of every kind, far shorter than a step: they change what happe
     std::string text = linear_scene;
     text.replace(text.find("1e-4 s"), 6, delay);
     Summary summary;
-    const Trajectory rows = simulate(scene_of(text, accuracy), &summary);
+    const RunTable rows = simulate(scene_of(text, accuracy), &summary);
     steps = summary.steps;
     return rows;
   };
   long none_steps = 0, steps = 0;
-  const Trajectory none = run("1e-13 s", none_steps);
+  const RunTable none = run("1e-13 s", none_steps);
   for (const char* record : {"heavy.velocity", "loose.position", "v1.force", "v2.force", "draw.force"}) {
     CAPTURE(record);
     const auto change = [&](const char* delay) {
-      const Trajectory some = run(delay, steps);
+      const RunTable some = run(delay, steps);
       CHECK_LT(steps, 3 * none_steps);
       double worst = 0;
       for (std::size_t row = 0; row < none.time().size(); ++row)
@@ -132,7 +132,7 @@ TEST_CASE("a velocity without mass that follows from itself a delay ago, with a 
         CAPTURE(gain);
         CAPTURE(T);
         CAPTURE(accuracy);
-        const Trajectory run = simulate(scene_of(fmt::format(R"([elements]
+        const RunTable run = simulate(scene_of(fmt::format(R"([elements]
 m    = {{ type = "mass", at = "o", mass = 1 }}
 k    = {{ type = "spring", between = ["o", "ground"], stiffness = 40 }}
 c    = {{ type = "dashpot", between = ["b", "ground"], damping = {} }}
@@ -164,7 +164,7 @@ record = ["b.velocity"]
 TEST_CASE("a slider under a load that a delay shorter than all steps holds up") {
   for (const double delay : {1e-9, 1e-6, 1e-3, 0.3}) {
     CAPTURE(delay);
-    const Trajectory run = simulate(scene_of(fmt::format(R"([elements]
+    const RunTable run = simulate(scene_of(fmt::format(R"([elements]
 s     = {{ type = "slider", between = ["b", "ground"], coulomb = 1 }}
 push  = {{ type = "force", at = "b", force = 5 }}
 other = {{ type = "motion", at = "x", velocity = {{ table = [[0, 0], [0.5, 0], [0.7, 1], [1, 1]] }} }}

@@ -161,7 +161,7 @@ TEST_CASE("a spring in series with a slider takes its part of an initial force, 
       if (others) b.between("other", "spring", "a", "ground", {{"stiffness", k3}});
       b.between("slider", "slider", "a", "c", {{"coulomb", coulomb}, {"breakaway", coulomb}});
       b.between("behind", "spring", "c", "ground", {{"stiffness", k2}});
-      const Trajectory run = simulate(b.finish(1, 10, 1e-9));
+      const RunTable run = simulate(b.finish(1, 10, 1e-9));
       const double beside = others ? k3 : 0;
       double x = -f0 / (k + beside + k2);
       if (k2 * -x > coulomb) x = -(f0 - coulomb) / (k + beside);

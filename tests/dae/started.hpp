@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "tests/support/probe.hpp"
 #include "tests/support/scene_builder.hpp"
 
@@ -49,7 +49,7 @@ class Started {
   Dae::View view_;
 
  public:
-  const Instant::Change& jump;
+  const EventTransition::Change& jump;
 };
 
 inline doctest::Approx exactly(double value) { return doctest::Approx(value).epsilon(1e-12); }

@@ -72,7 +72,7 @@ TEST_CASE("steady: forces and velocities of random networks stay, or the reason 
   for (std::uint64_t seed = 1; seed <= 230; ++seed) {
     CAPTURE(seed);
     const Scene scene = random_network(seed);
-    Trajectory run;
+    RunTable run;
     try {
       run = simulate(scene);
     } catch (const SimulationError& error) {

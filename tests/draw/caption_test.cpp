@@ -7,8 +7,8 @@
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
 #include "tests/draw/drawn.hpp"
+#include "tools/draw/literals.hpp"
 #include "tools/draw/schematic.hpp"
-#include "tools/draw/typed.hpp"
 
 using namespace rheonet;
 using namespace rheonet::draw;

@@ -26,7 +26,7 @@ constexpr double touch = 0.02;  // px: coordinates this close are one
 struct Piece {
   NodeId node;
   Point from, to;  ///< from.x <= to.x, from.y <= to.y
-  const Wire* wire;
+  const SignalConnection* wire;
 
   bool horizontal() const { return to.y - from.y < touch; }
   bool holds(Point p) const {
@@ -64,7 +64,7 @@ Box covered(const Mark& mark, const Scene& scene) {
 class Inspection {
  public:
   Inspection(const Picture& picture, const Scene& scene) : picture_(picture), scene_(scene) {
-    for (const Wire& wire : picture.wires)
+    for (const SignalConnection& wire : picture.wires)
       for (std::size_t i = 0; i + 1 < wire.points.size(); ++i) {
         const Point a = wire.points[i], b = wire.points[i + 1];
         pieces_.push_back(

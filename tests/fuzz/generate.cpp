@@ -30,7 +30,7 @@ double value(Random& random) {
 
 TomlValue signal(Random& random) {
   if (random.below(3) == 0) return number_value(random.sign() * value(random));
-  const std::vector<std::string>& shapes = SignalPlan::shape_names();
+  const std::vector<std::string>& shapes = SignalTemplate::shape_names();
   const std::string& shape = shapes[static_cast<std::size_t>(random.below(static_cast<int>(shapes.size())))];
   Entries entries;
   if (shape == "table") {

@@ -100,7 +100,7 @@ bool thin(TomlValue& root, std::vector<Part>& parts, const std::function<bool(co
 std::optional<TomlValue> parse_netlist(const std::string& text) {
   Sources sources;
   sources.files.push_back({.path = "seed.toml", .text = text});
-  Mistakes mistakes(sources);
+  DiagnosticList mistakes(sources);
   return parse_toml(0, sources, mistakes);
 }
 

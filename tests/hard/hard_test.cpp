@@ -52,7 +52,7 @@ std::string said(const fs::path& file, const std::string& key) {
 }
 
 /// Every row of one run is a row of the other, to the last bit.
-void check_same_rows(const Trajectory& some, const Trajectory& all) {
+void check_same_rows(const RunTable& some, const RunTable& all) {
   std::size_t found = 0;
   for (std::size_t row = 0, other = 0; row < some.time().size(); ++row) {
     while (other < all.time().size() && all.time()[other] < some.time()[row]) ++other;
@@ -108,7 +108,7 @@ TEST_CASE("Hard cases: the rows of a run are the same to the last bit, however m
     CAPTURE(accuracy);
     const std::string asked = fmt::format("simulate.accuracy={}", accuracy);
     const auto rows = [&](int points) { return simulate(scene_of(file, {asked, fmt::format("simulate.output.points={}", points)})); };
-    const Trajectory dense = rows(65537);  // intervals are powers of 2 s: all have their times in common
+    const RunTable dense = rows(65537);  // intervals are powers of 2 s: all have their times in common
     for (const int points : {3, 17, 1025}) check_same_rows(rows(points), dense);
   }
 }
@@ -140,11 +140,11 @@ TEST_CASE("Hard cases: one scene in nanometres, in megametres and in SI is the s
     Scene scene = scene_of(netlists / "hard/units.toml",
                            {"parameters.length=1 m", "parameters.time=1 s", "parameters.force=1 N"});
     scene.accuracy = accuracy;
-    const Trajectory plain = simulate(scene);
+    const RunTable plain = simulate(scene);
     for (const Scaling& units : {Scaling{1e9, 1e9, 1e9}, {1e-6, 1e9, 1e-6}, {1e9, 1e-6, 1e-9}, {0x1p-20, 0x1p-40, 0x1p-10}}) {
       CAPTURE(units.length);
       CAPTURE(units.time);
-      const Trajectory scaled = simulate(rescaled(scene, units));
+      const RunTable scaled = simulate(rescaled(scene, units));
       for (const Record& record : scene.records) {
         CAPTURE(record.path);
         const double by = factor(scene, record, units), scale = plain.scale(record.path);
@@ -162,9 +162,9 @@ TEST_CASE("Hard cases: a mass that goes to 0 comes to what is without one, in pr
   const auto rows = [](double mass) {
     return run_file("hard/mass-to-nothing.toml", {"simulate.accuracy=1e-9", fmt::format("parameters.m={} kg", mass)}).rows;
   };
-  const Trajectory none = rows(0);
+  const RunTable none = rows(0);
   const auto apart = [&](double mass) {
-    const Trajectory some = rows(mass);
+    const RunTable some = rows(mass);
     double off = 0;
     for (std::size_t row = 0; row < none.time().size(); ++row) off = std::max(off, std::abs(some["k1.force"][row] - none["k1.force"][row]));
     return off / none.scale("k1.force");

@@ -52,7 +52,7 @@ TEST_CASE("blocks in a model take in what is inside, and the node at its port") 
   const Scene scene = sound(held);
   REQUIRE_EQ(scene.blocks.size(), 3);
   CHECK_EQ(unit_text(scene, record(scene, "pd.sum.out")), "N");
-  const Trajectory run = simulate(scene);
+  const RunTable run = simulate(scene);
   const double a = 2 / 1.6, w = std::sqrt(40 / 0.8 - a * a);
   for (std::size_t k = 0; k < run.time().size(); ++k) {
     const double t = run.time()[k];
@@ -89,7 +89,7 @@ x = { velocity = 2 }
 [simulate]
 stop = 1
 )");
-  const Trajectory run = simulate(scene);
+  const RunTable run = simulate(scene);
   CHECK_EQ(run["o.i.look.out"], run["x.velocity"]);
 }
 

@@ -42,7 +42,7 @@ const Model models[] = {
 };
 
 // Two copies in one run: one step size, so what is left is the rounding of the linear algebra, over some hundred steps.
-void check_same(const Trajectory& rows, const std::string& a, const std::string& b) {
+void check_same(const RunTable& rows, const std::string& a, const std::string& b) {
   const double scale = rows.scale(b);
   CHECK_GT(scale, 1e-3);
   double worst = 0;
@@ -54,7 +54,7 @@ void check_same(const Trajectory& rows, const std::string& a, const std::string&
 void check_models(const std::string& head) {
   for (const Model& model : models) {
     CAPTURE(model.type);
-    const Trajectory rows = simulate(
+    const RunTable rows = simulate(
         head + R"(
 [elements.drive]
 type = "motion"

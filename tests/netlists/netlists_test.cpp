@@ -15,7 +15,7 @@
 #include "core/netlist/read.hpp"
 #include "core/network/advice.hpp"
 #include "core/network/component.hpp"
-#include "core/result/course.hpp"
+#include "core/result/trajectory.hpp"
 
 using namespace rheonet;
 
@@ -35,15 +35,15 @@ std::vector<std::filesystem::path> scenes() {
 }
 
 /// Records are what their scene says they are, to its accuracy.
-void check_closed_forms(const Scene& scene, const Course& course) {
+void check_closed_forms(const Scene& scene, const Trajectory& trajectory) {
   for (const ExactRecord& form : scene.exact) {
     const std::size_t k = static_cast<std::size_t>(form.record);
     CAPTURE(scene.records[k].path);
     double off = 0, scale = 0;
-    for (std::size_t i = 0; i < course.rows.size(); ++i) {
-      const double value = form.value(course.times[i]);
+    for (std::size_t i = 0; i < trajectory.rows.size(); ++i) {
+      const double value = form.value(trajectory.times[i]);
       REQUIRE(std::isfinite(value));
-      off = std::max(off, std::abs(course.rows[i][k] - value));
+      off = std::max(off, std::abs(trajectory.rows[i][k] - value));
       scale = std::max(scale, std::abs(value));
     }
     CHECK(off <= scene.accuracy * scale);
@@ -60,10 +60,10 @@ ReadResult read_sound(const std::filesystem::path& file, ReadOptions options = {
 
 /// Runs a scene: it ends, its claims and closed forms hold, and no energy is missing.
 void check_run(const Scene& scene) {
-  Course course;
-  CHECK_NOTHROW(course = run_to_memory(scene));
-  check_closed_forms(scene, course);
-  const Summary& summary = course.summary;
+  Trajectory trajectory;
+  CHECK_NOTHROW(trajectory = run_to_memory(scene));
+  check_closed_forms(scene, trajectory);
+  const Summary& summary = trajectory.summary;
   CHECK_GT(summary.steps, 0);
   for (std::size_t i = 0; i < summary.findings.size(); ++i)
     CHECK_MESSAGE(summary.findings[i].holds,
@@ -122,7 +122,7 @@ TEST_CASE("a slider begins where its scene is, at a number") {
   for (const std::filesystem::path& file : demos()) {
     CAPTURE(file.string());
     const ReadResult read = read_sound(file);
-    Mistakes mistakes(read.sources);
+    DiagnosticList mistakes(read.sources);
     const auto document = parse_toml(0, read.sources, mistakes);
     REQUIRE(document);
     for (const Demo::Slider& slider : read.presentation.demo.sliders) {
@@ -192,10 +192,10 @@ TEST_CASE("stick-slip ends at the velocity that the demo gives") {
   for (const double factor : {0.999, 1.001}) {
     ReadOptions options;
     options.overrides = {fmt::format("parameters.v={} m/s", factor * border)};
-    const Course course = run_to_memory(*read_sound(folder / "teaching/stick-slip.toml", options).scene);
+    const Trajectory trajectory = run_to_memory(*read_sound(folder / "teaching/stick-slip.toml", options).scene);
     bool sticks_again = false;
-    for (std::size_t i = 0; i < course.rows.size(); ++i)
-      sticks_again |= course.times[i] > 1 && std::abs(course.rows[i][1] - factor * border) < 1e-9;
+    for (std::size_t i = 0; i < trajectory.rows.size(); ++i)
+      sticks_again |= trajectory.times[i] > 1 && std::abs(trajectory.rows[i][1] - factor * border) < 1e-9;
     CHECK(sticks_again == (factor < 1));
   }
 }

@@ -43,7 +43,7 @@ double torque(double after, double t, int terms = 60, double last = 1) {
 
 TEST_CASE("couette.toml") {
   const SceneFile file = run_file("thesis/couette.toml");
-  const Trajectory& rows = file.rows;
+  const RunTable& rows = file.rows;
   CHECK(file.value("vfm1", "damping") / file.value("vfm1", "stiffness") == doctest::Approx(T1));
   CHECK(T1 == doctest::Approx(0.0249).epsilon(2e-3));  // the thesis: 0.025 s by its fit
   const double steady = A * mu * uw / h * (R + h);
@@ -81,7 +81,7 @@ TEST_CASE("couette-terms.toml") {
     CAPTURE(K);
     const SceneFile file = run_file("thesis/couette-terms.toml",
                                     {fmt::format("parameters.K={}", K), fmt::format("parameters.last={}", last)});
-    const Trajectory& rows = file.rows;
+    const RunTable& rows = file.rows;
     const double scale = rows.scale("odd.force");
     double worst = 0;
     for (std::size_t row = 0; row < rows.time().size(); ++row) {

@@ -29,7 +29,7 @@ std::string without(const std::string& list) { return "[effects]\nwithout = [" +
 
 /// Every digit of both runs is the same.
 void check_same(const std::string& reduced, const std::string& written) {
-  const Trajectory found = simulate(reduced), expected = simulate(written);
+  const RunTable found = simulate(reduced), expected = simulate(written);
   for (const std::string& column : expected.header) {
     CAPTURE(column);
     CHECK(found[column] == expected[column]);
@@ -58,7 +58,7 @@ TEST_CASE("without all that makes its force an element has none") {
   for (const auto& [friction, list] : {std::pair{vfm, "\"viscosity\""}, std::pair{sfm, "\"dry_friction\""},
                                        std::pair{cfm, "\"dry_friction\", \"viscosity\""}}) {
     CAPTURE(friction);
-    const Trajectory found = simulate(dragged(friction, preload + without(list)));
+    const RunTable found = simulate(dragged(friction, preload + without(list)));
     CHECK_EQ(found.scale("brake.force"), 0);
     const double omega = std::sqrt(90 / 0.7);
     for (std::size_t k = 0; k < found.time().size(); ++k) {
@@ -69,7 +69,7 @@ TEST_CASE("without all that makes its force an element has none") {
 
 TEST_CASE("without inertia a mass is not there") {
   // The spring takes what the vfm passes on; the block goes where they balance.
-  const Trajectory found = simulate(dragged("type = \"dashpot\", damping = 5", without("\"inertia\"")));
+  const RunTable found = simulate(dragged("type = \"dashpot\", damping = 5", without("\"inertia\"")));
   for (std::size_t k = 0; k < found.time().size(); ++k) CHECK(std::abs(found["brake.force"][k] - found["k1.force"][k]) < 1e-6);
   CHECK(found.scale("k1.force") > 0.5);
 }
@@ -86,7 +86,7 @@ without = ["elasticity"]
 stop = 2
 record = ["a.velocity", "b.velocity", "k1.force"]
 )";
-  const Trajectory found = simulate(pulled);
+  const RunTable found = simulate(pulled);
   CHECK(found["a.velocity"] == found["b.velocity"]);
   for (std::size_t k = 0; k < found.time().size(); ++k)
     CHECK(std::abs(found["k1.force"][k] - 3 * std::sin(2 * M_PI * found.time()[k])) < 1e-5);
@@ -103,7 +103,7 @@ cart = { type = "mass", at = "cart", mass = 2 }
 look = { type = "gain", in = "cart.velocity", gain = 10 }
 )" + table + "[simulate]\nstop = 1\noutput = { points = 11 }\nrecord = [\"cart.velocity\", \"look.out\"]\n";
   };
-  const Trajectory closed = simulate(servo("")), open = simulate(servo("[effects]\nwithout = [\"feedback\"]\n"));
+  const RunTable closed = simulate(servo("")), open = simulate(servo("[effects]\nwithout = [\"feedback\"]\n"));
   for (std::size_t k = 0; k < closed.time().size(); ++k) {
     const double t = closed.time()[k];
     CHECK(std::abs(closed["cart.velocity"][k] - 3 * (1 - std::exp(-2 * t))) < 1e-5);
@@ -128,7 +128,7 @@ TEST_CASE("a cfm at a limit of its parameters does without effects as the model 
       CAPTURE(parameters);
       CAPTURE(effect);
       const std::string out = without("\"" + effect + ":brake\"");
-      const Trajectory limit = simulate(dragged("type = \"cfm\", " + parameters + ", " + rest, out)), same = simulate(dragged(model, out));
+      const RunTable limit = simulate(dragged("type = \"cfm\", " + parameters + ", " + rest, out)), same = simulate(dragged(model, out));
       for (std::size_t k = 0; k < same.time().size(); ++k)
         CHECK(std::abs(limit["brake.force"][k] - same["brake.force"][k]) <= 1e-6 * same.scale("brake.force"));
     }

@@ -54,7 +54,7 @@ TEST_CASE("what hangs on one node alone moves with it, and carries no force") {
     REQUIRE_EQ(network.notes.size(), 1);
     CHECK_EQ(network.notes[0], "nodes `x`, `y`, `z` hang on `" + anchor + "` alone and " + (anchor == "m" ? "move with it" : "rest") +
                                     ": `h1`, `h2`, `h3`, `h4` carry no force");
-    const Trajectory run = simulate(scene);
+    const RunTable run = simulate(scene);
     for (const char* element : {"h1", "h2", "h3", "h4"}) {
       CHECK_EQ(run.scale(std::string(element) + ".force"), 0);
       CHECK_EQ(run.scale(std::string(element) + ".displacement"), 0);

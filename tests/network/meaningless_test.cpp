@@ -68,7 +68,7 @@ TEST_CASE("many that are left out for one reason are told at once, also where an
 TEST_CASE("a start displacement means the same at a limit") {
   for (const char* stiffness : {"\"inf\"", "0", "3.1"}) {
     CAPTURE(stiffness);
-    const Trajectory run = simulate(std::string("[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n"
+    const RunTable run = simulate(std::string("[elements]\nm = { type = \"mass\", at = \"a\", mass = 1 }\n"
                                                 "e = { type = \"spring\", between = [\"a\", \"b\"], d0 = 0.31, stiffness = ") +
                                     stiffness + " }\nk = { type = \"spring\", between = [\"b\", \"ground\"], stiffness = 2 }\n"
                                                 "mb = { type = \"mass\", at = \"b\", mass = 1 }\n"

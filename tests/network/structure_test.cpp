@@ -1,4 +1,4 @@
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "core/network/structure.hpp"
 
 #include <doctest/doctest.h>

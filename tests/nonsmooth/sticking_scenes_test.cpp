@@ -34,7 +34,7 @@ std::string netlist_of(const SliderNetwork& network, double stop, bool rising, b
   return text + fmt::format("[simulate]\nstop = {:.17g}\noutput = {{ points = 7 }}\n", stop);
 }
 
-std::vector<double> forces_at(const Trajectory& rows, std::size_t row, std::size_t sliders) {
+std::vector<double> forces_at(const RunTable& rows, std::size_t row, std::size_t sliders) {
   std::vector<double> force;
   for (std::size_t k = 0; k < sliders; ++k) force.push_back(rows[fmt::format("s{}.force", k)][row]);
   return force;
@@ -60,7 +60,7 @@ void check_row(const SliderNetwork& network, const std::vector<double>& force) {
   for (const double out : left) REQUIRE(std::abs(out) <= 1e-14 * network.largest_load());
 }
 
-bool moves(const Trajectory& rows, int nodes) {
+bool moves(const RunTable& rows, int nodes) {
   for (int n = 0; n < nodes; ++n) {
     if (rows.scale(fmt::format("n{}.velocity", n)) != 0) return true;
   }
@@ -93,7 +93,7 @@ TEST_CASE("three nodes that lean on each other bear their loads at rest") {
         CAPTURE(masses);
         CAPTURE(rising);
         CAPTURE(accuracy);
-        const Trajectory rows = simulate(netlist_of(three, 1.2, rising, masses), accuracy);
+        const RunTable rows = simulate(netlist_of(three, 1.2, rising, masses), accuracy);
         CHECK_FALSE(moves(rows, 3));
         REQUIRE(rows.time().size() == 7);
         for (std::size_t row = 0; row < 7; ++row) {
@@ -114,7 +114,7 @@ TEST_CASE("random networks of sliders at rest balance at every node with least n
     CAPTURE(number);
     const SliderNetwork network = random_network(random, random.around(1, number % 3 == 0 ? 1e6 : 3), 3, 0.999);
     const bool rising = number % 2 == 0;
-    const Trajectory rows = simulate(netlist_of(network, 1.2, rising, number % 4 < 2), number % 5 == 0 ? 1e-9 : 1e-6);
+    const RunTable rows = simulate(netlist_of(network, 1.2, rising, number % 4 < 2), number % 5 == 0 ? 1e-9 : 1e-6);
     REQUIRE_FALSE(moves(rows, network.nodes));
     for (std::size_t row = rising ? 1 : 0; row < rows.time().size(); ++row) {
       const SliderNetwork now = at_part(network, rising ? std::min(rows.time()[row], 1.0) : 1);
@@ -139,7 +139,7 @@ TEST_CASE("a set of nodes slips when its load is what the sliders around it can 
     CHECK_FALSE(moves(simulate(netlist_of(network, time * (1 - 1e-9), true, true), accuracy), network.nodes));
     // The loads of those that slip grow: so does the excess over what the sliders take, and the momentum is its integral.
     const double later = time * (1 + 1e-3);
-    const Trajectory rows = simulate(netlist_of(network, later, true, true), accuracy);
+    const RunTable rows = simulate(netlist_of(network, later, true, true), accuracy);
     const double excess = largest_excess(network.nodes, network.branches, at_part(network, later).load);
     double momentum = 0;
     for (int n = 0; n < network.nodes; ++n) momentum += std::abs(rows[fmt::format("n{}.velocity", n)].back());

@@ -34,7 +34,7 @@ TEST_CASE("Siconos: friction oscillator") {
   const auto theirs = reference("siconos-friction-oscillator.csv");
   if (!theirs) return;
   constexpr double every = 0.05, error = 2.5e-2;
-  const Trajectory ours = simulate(oscillator("every = 0.05"), 1e-8);
+  const RunTable ours = simulate(oscillator("every = 0.05"), 1e-8);
   for (std::size_t row = 0; row < theirs->time().size(); ++row) {
     const auto index = std::size_t(std::lround(theirs->time()[row] / every));
     REQUIRE_LT(std::abs(ours.time()[index] - theirs->time()[row]), 1e-9);
@@ -53,7 +53,7 @@ TEST_CASE("Siconos: friction oscillator, exact") {
   for (const double accuracy : accuracies) {
     CAPTURE(accuracy);
     const double error = accuracy * 100;  // of the run's length
-    const Trajectory rows = simulate(oscillator("points = 101, events = true"), accuracy);
+    const RunTable rows = simulate(oscillator("points = 101, events = true"), accuracy);
     int turns = 0;
     double last = -1;
     for (std::size_t row = 1; row < rows.time().size(); ++row) {
@@ -82,7 +82,7 @@ TEST_CASE("Siconos: friction oscillator, exact") {
 TEST_CASE("Chopra: elastic-perfectly-plastic frame, wired from a spring and a slider") {
   const double exact[] = {0, 0.0328, 0.2332, 0.6487, 1.1778, 1.7112, 2.1113, 2.2324, 2.0660, 1.6942};
   for (const double accuracy : accuracies) {
-    const Trajectory rows = simulate(R"toml(
+    const RunTable rows = simulate(R"toml(
 [parameters]
 m = 0.2533
 k = 10

@@ -16,7 +16,7 @@ constexpr double accuracy = 1e-8;
 TEST_CASE("Modelica Standard Library: Damper") {
   const auto theirs = reference("msl-damper.csv");
   if (!theirs) return;
-  const Trajectory ours = simulate(R"(
+  const RunTable ours = simulate(R"(
 [elements]
 wall    = { type = "motion", at = "wall", position = 4.5 }
 mass1   = { type = "mass", at = "end1", mass = 1 }
@@ -54,7 +54,7 @@ output = { every = 0.0025 }
 TEST_CASE("Modelica Standard Library: Oscillator") {
   const auto theirs = reference("msl-oscillator.csv");
   if (!theirs) return;
-  const Trajectory ours = simulate(R"(
+  const RunTable ours = simulate(R"(
 [elements]
 wall    = { type = "motion", at = "wall", position = 1 }
 push1   = { type = "force", at = "end1", force = { sine = 1, frequency = 15.9155 } }
@@ -84,7 +84,7 @@ output = { every = 0.0025 }
 TEST_CASE("Modelica Standard Library: InitialConditions") {
   const auto theirs = reference("msl-initialconditions.csv");
   if (!theirs) return;
-  const Trajectory ours = simulate(R"(
+  const RunTable ours = simulate(R"(
 [elements]
 wall1   = { type = "motion", at = "wall1", position = -1 }
 spring1 = { type = "spring", between = ["m1", "wall1"], stiffness = 1e3, rest = "1 + 0.5" }
@@ -127,7 +127,7 @@ output = { every = 0.004 }
 TEST_CASE("Modelica Standard Library: WhyArrows") {
   const auto theirs = reference("msl-whyarrows.csv");
   if (!theirs) return;
-  const Trajectory ours = simulate(R"(
+  const RunTable ours = simulate(R"(
 [elements]
 wall   = { type = "motion", at = "wall", position = -1.9 }
 spring = { type = "spring", between = ["end", "wall"], stiffness = 11, rest = 2 }

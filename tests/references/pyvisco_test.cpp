@@ -82,7 +82,7 @@ TEST_CASE("pyvisco: relaxation over 30 decades") {
       const double stop = 3.7 * std::pow(10, decade);
       CAPTURE(accuracy);
       CAPTURE(stop);
-      const Trajectory run = simulate(scene(terms, stop), accuracy);
+      const RunTable run = simulate(scene(terms, stop), accuracy);
       CHECK_LE(std::abs(run["material.force"].front() - E0), 10 * accuracy * E0);
       CHECK_LE(std::abs(run["material.force"].back() - modulus(terms, stop)), 10 * accuracy * E0);
     }

@@ -25,11 +25,11 @@ std::optional<std::string> reference_text(const std::string& file) {
   return text.str();
 }
 
-std::optional<Trajectory> reference(const std::string& file) {
+std::optional<RunTable> reference(const std::string& file) {
   const std::optional<std::string> text = reference_text(file);
   if (!text) return std::nullopt;
   std::istringstream lines(*text);
-  Trajectory result;
+  RunTable result;
   std::string line, cell;
   std::getline(lines, line);
   for (std::istringstream names(line); std::getline(names, cell, ',');) result.header.push_back(cell);
@@ -43,7 +43,7 @@ std::optional<Trajectory> reference(const std::string& file) {
   return result;
 }
 
-void check_reference(const Trajectory& ours, const std::string& column, double shift, const Trajectory& theirs,
+void check_reference(const RunTable& ours, const std::string& column, double shift, const RunTable& theirs,
                      const std::string& their_column, double every, double tolerance) {
   const std::vector<double>&computed = ours[column], &expected = theirs[their_column];
   const auto [least, greatest] = std::minmax_element(expected.begin(), expected.end());

@@ -13,11 +13,11 @@ namespace rheonet::test {
 std::optional<std::string> reference_text(const std::string& file);
 
 /// The same, read as a CSV file with a header row.
-std::optional<Trajectory> reference(const std::string& file);
+std::optional<RunTable> reference(const std::string& file);
 
 /// Checks that `shift` + a column of ours is a column of the reference, within `tolerance` times the range of the
 /// latter (1 if that is 0), at every time of the reference. Ours has rows at all of these times, `every` apart from 0.
-void check_reference(const Trajectory& ours, const std::string& column, double shift, const Trajectory& theirs,
+void check_reference(const RunTable& ours, const std::string& column, double shift, const RunTable& theirs,
                      const std::string& their_column, double every, double tolerance);
 
 }  // namespace rheonet::test

@@ -19,7 +19,7 @@ TEST_CASE("breaks that differ from the stop, or from each other, by a rounding")
     b.between("k1", "spring", "a", "mid", {{"stiffness", k}});
     b.between("s1", "slider", "mid", "ground", {{"coulomb", Fc}, {"breakaway", Fc}});
     b.force("push", "mid", Signal(Signal::Step{0.5 * Fc, 1.5 * T * nearby, 0}));
-    const Trajectory run = simulate(b.finish(10 * T, 100, 1e-6));
+    const RunTable run = simulate(b.finish(10 * T, 100, 1e-6));
     CHECK_EQ(run.time().back(), 10 * T);
     // Just before the last jump it slips backwards, under what the push leaves of the friction.
     CHECK(std::abs(run["k1.force"][99] - (-Fc - 0.5 * Fc)) < 1e-5);

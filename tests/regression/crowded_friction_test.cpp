@@ -296,7 +296,7 @@ record = ["e1.force", "e2.force", "e3.force", "e4.force", "e5.force", "e6.force"
 TEST_CASE("where many frictions meet at their bounds runs end, each record within twice the accuracy asked") {
   for (const Crowd& crowd : crowds) {
     CAPTURE(crowd.what);
-    const Trajectory best = simulate(crowd.toml, 1e-9);
+    const RunTable best = simulate(crowd.toml, 1e-9);
     for (const double accuracy : {1e-3, 1e-6}) {
       CAPTURE(accuracy);
       CHECK(largest_error(simulate(crowd.toml, accuracy), best) <= 2 * accuracy);

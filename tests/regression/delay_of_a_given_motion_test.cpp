@@ -12,7 +12,7 @@ TEST_CASE("a delay costs no steps, of what is given and of what moves freely") {
   constexpr double B = 0.7, T1 = 0.1, V = 1.3;
   const auto run = [&](double delay, const char* other) {
     Summary summary;
-    const test::Trajectory rows = test::simulate(
+    const test::RunTable rows = test::simulate(
         test::scene_of(fmt::format(R"([elements]
 drive = {{ type = "motion", at = "shaft", velocity = {{ step = {}, time = 0.1 }} }}
 soon  = {{ type = "vfm", between = ["shaft", "{}"], damping = {}, stiffness = {}, delay = {} }}

@@ -43,7 +43,7 @@ output = {{ points = 62 }}
     const test::Exact between = [&](double t) { return shared(velocity(t), B, B2, n); };
     const test::Exact force = [&](double t) { return B * (between(t) - velocity(t)); };
     for (const double accuracy : {1e-9, 1e-10}) {
-      const test::Trajectory run = test::simulate(toml, accuracy);
+      const test::RunTable run = test::simulate(toml, accuracy);
       test::check_against(run, {"n1.velocity", between}, accuracy);
       test::check_against(run, {"e2.force", force}, accuracy);
     }
@@ -98,7 +98,7 @@ e3 = { type = "slider", between = ["end", "ground"], coulomb = "Fc" }
                                          1.0353, 61);
   // Closer than this, what is left to rounding where the dashpots come to rest shows: 8e-12 m.
   for (const double accuracy : {1e-3, 1e-6, 1e-8}) {
-    const test::Trajectory run = test::simulate(toml, accuracy);
+    const test::RunTable run = test::simulate(toml, accuracy);
     test::check_against(run, {"n1.position", position}, accuracy);
     test::check_against(run, {"n1.velocity", velocity, std::sqrt((F - Fc) / B2)}, accuracy);
   }

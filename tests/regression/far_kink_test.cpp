@@ -8,7 +8,7 @@
 // a step: from there back the search never came to the solution, and friction held at its bound was let go, over and over.
 TEST_CASE("friction held at its bound stays there over a corner of its load") {
   const double Fc = 1.14, B = 16.3;
-  const rheonet::test::Trajectory run = rheonet::test::simulate(R"([elements]
+  const rheonet::test::RunTable run = rheonet::test::simulate(R"([elements]
 e1 = { type = "cfm", between = ["n0", "ground"], stiffness = 22.5, coulomb = 0.752, damping = 5.46, exponent = 1 }
 e2 = { type = "cfm", between = ["n1", "n0"], stiffness = 62.8, coulomb = 1.14, damping = 16.3, exponent = 0.5 }
 e3 = { type = "dashpot", between = ["n0", "ground"], damping = 0.23, flow_index = 0.5 }

@@ -18,7 +18,7 @@ TEST_CASE("a force that comes close to all that friction can take is followed as
       CAPTURE(missing);
       CAPTURE(accuracy);
       const double amplitude = Fc * (1 - missing);
-      const Trajectory rows = simulate(fmt::format(R"([elements]
+      const RunTable rows = simulate(fmt::format(R"([elements]
 push = {{ type = "force", at = "a", force = {{ sine = {}, frequency = {} }} }}
 friction = {{ type = "sfm", between = ["a", "ground"], stiffness = {}, coulomb = {}, exponent = 1 }}
 [simulate]
@@ -58,7 +58,7 @@ record = ["far.force", "lag.force"]
 )",
                     accuracy);
   };
-  const Trajectory rows = scene(1e-10), coarse = scene(1e-6);
+  const RunTable rows = scene(1e-10), coarse = scene(1e-6);
   for (std::size_t k = 0; k < rows.time().size(); ++k) {
     CHECK(std::abs(rows["far.force"][k] - coarse["far.force"][k]) < 1e-6);
     CHECK(std::abs(rows["lag.force"][k] - coarse["lag.force"][k]) < 1e-6);

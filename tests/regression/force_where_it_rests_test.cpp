@@ -22,7 +22,7 @@ TEST_CASE("where friction ends a swing of many times its force that force is as 
       CAPTURE(pull);
       CAPTURE(accuracy);
       const std::string nodes = "[nodes]\nblock = { position = " + std::to_string(x0 * 1e6) + "e-6 }\n";
-      const test::Trajectory run = test::simulate(test::netlist({}, std::string(R"([elements]
+      const test::RunTable run = test::simulate(test::netlist({}, std::string(R"([elements]
 block = { type = "mass", at = "block", mass = 0.14 }
 friction = { type = "slider", between = ["block", "ground"], coulomb = 0.37 }
 )") + pull + nodes,

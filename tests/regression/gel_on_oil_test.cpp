@@ -12,7 +12,7 @@ using namespace rheonet;
 namespace {
 
 /// The independent integrator sees the same, as far as it is sure of it.
-void check_against_reference(const std::string& netlist, const test::Trajectory& run) {
+void check_against_reference(const std::string& netlist, const test::RunTable& run) {
   const Scene scene = test::scene_of(netlist);
   const test::ReferenceSolution reference = test::integrate_reference(scene, declarations());
   REQUIRE(reference.complete);
@@ -54,11 +54,11 @@ TEST_CASE("a pseudoplastic gel with friction beside it, on oil, starts from rest
                                     "oil = { type = \"dashpot\", between = [\"mid\", \"ground\"], damping = 1.4, flow_index = " +
                                     std::to_string(flow_index) + " }\n[simulate]\nstop = 3\noutput = { points = 61 }\n";
         CAPTURE(netlist);
-        const test::Trajectory fine = test::simulate(netlist, 1e-9);
+        const test::RunTable fine = test::simulate(netlist, 1e-9);
         check_against_reference(netlist, fine);
         for (const double accuracy : {1e-3, 1e-6}) {
           CAPTURE(accuracy);
-          const test::Trajectory run = test::simulate(netlist, accuracy);
+          const test::RunTable run = test::simulate(netlist, accuracy);
           for (const char* record : {"oil.force", "mid.velocity", "dry.force"}) {
             CAPTURE(record);
             double worst = 0;

@@ -21,7 +21,7 @@ TEST_CASE("a dashpot that takes along hardly any mass knows its force") {
       b.at("m", "mass", "m", {{"mass", m}});
       b.between("c", "dashpot", "m", "light", {{"damping", c}});
       b.at("light", "mass", "light", {{"mass", light}});
-      const test::Trajectory run = test::simulate(b.finish(length, 50, accuracy));
+      const test::RunTable run = test::simulate(b.finish(length, 50, accuracy));
       const double a = F / (m + light), rate = c * (1 / m + 1 / light);
       const auto force = [&](double t) { return light * a * -std::expm1(-rate * t); };
       test::check_against(run, {"c.force", force}, accuracy);
@@ -44,7 +44,7 @@ TEST_CASE("a mass between a spring and a dashpot that is hardly any begins as no
       b.between("k", "spring", "end", "mid", {{"stiffness", k}});
       b.at("m", "mass", "mid", {{"mass", mass}});
       b.between("c", "dashpot", "mid", "ground", {{"damping", c}});
-      const test::Trajectory run = test::simulate(b.finish(2, 200, accuracy));
+      const test::RunTable run = test::simulate(b.finish(2, 200, accuracy));
       // The mass is behind by m/c times the change of its velocity.
       const double allowed = accuracy + mass * k / (c * c);
       test::check_against(run, {"k.displacement", [&](double t) { return -V * c / k * std::expm1(-k * t / c); }}, allowed / 5);

@@ -26,7 +26,7 @@ TEST_CASE("sliders to different nodes at rest hold a node as sliders to one of t
     for (const double accuracy : test::accuracies) {
       CAPTURE(frame);
       CAPTURE(accuracy);
-      const test::Trajectory run = test::simulate(test::netlist({}, on(frame, R"([elements]
+      const test::RunTable run = test::simulate(test::netlist({}, on(frame, R"([elements]
 push = { type = "force", at = "a", force = -2.7 }
 c = { type = "dashpot", between = ["b", "a"], damping = 0.2157 }
 k = { type = "cfm", between = ["a", "ground"], stiffness = 68.5, coulomb = 0.99, damping = 0.148, exponent = 1 }
@@ -50,7 +50,7 @@ TEST_CASE("sliders between what stands still bear a load that relaxes with the l
   constexpr double stiffness = 86.02, damping = 1.527, step = 0.0131, weak = 0.1042;
   for (const double accuracy : test::accuracies) {
     CAPTURE(accuracy);
-    const test::Trajectory run = test::simulate(test::netlist({}, R"([elements]
+    const test::RunTable run = test::simulate(test::netlist({}, R"([elements]
 e4 = { type = "vfm", between = ["n1", "n0"], stiffness = 86.02, damping = 1.527 }
 e3 = { type = "slider", between = ["n0", "ground"], coulomb = 0.1042 }
 e2 = { type = "slider", between = ["n1", "n0"], coulomb = 1.074 }
@@ -79,7 +79,7 @@ c = { type = "dashpot", between = [")" + std::string(end) + R"(", "a"], damping 
   };
   for (const double accuracy : test::accuracies) {
     CAPTURE(accuracy);
-    const test::Trajectory held = test::simulate(scene("b"), accuracy), grounded = test::simulate(scene("ground"), accuracy);
+    const test::RunTable held = test::simulate(scene("b"), accuracy), grounded = test::simulate(scene("ground"), accuracy);
     for (const char* record : {"c.force", "a.velocity", "a.position"}) {
       for (std::size_t i = 0; i < held.time().size(); ++i) {
         CHECK(std::abs(held[record][i] - grounded[record][i]) < 2 * accuracy * grounded.scale(record));
@@ -117,12 +117,12 @@ e6 = { type = "cfm", between = ["FRAME", "n2"], stiffness = 30.42, coulomb = 0.1
 )");
   };
   const auto run_of = [&](const char* frame, double accuracy) { return test::simulate(test::netlist({}, scene(frame), 0.7877, 21), accuracy); };
-  const test::Trajectory best = run_of("ground", 1e-9);
+  const test::RunTable best = run_of("ground", 1e-9);
   for (const char* frame : {"ground", "n3"}) {
     for (const double accuracy : {1e-3, 1e-6}) {
       CAPTURE(frame);
       CAPTURE(accuracy);
-      const test::Trajectory run = run_of(frame, accuracy);
+      const test::RunTable run = run_of(frame, accuracy);
       for (const char* record : {"e2.force", "e4.force", "e6.force", "e7.force", "n1.velocity"}) {
         CAPTURE(record);
         for (std::size_t i = 0; i < run.time().size(); ++i) CHECK(std::abs(run[record][i] - best[record][i]) < 2 * accuracy * best.scale(record));

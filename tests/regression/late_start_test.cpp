@@ -23,7 +23,7 @@ TEST_CASE("a force that sets in late moves masses on a pseudoplastic dashpot as 
   };
   for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
     CAPTURE(accuracy);
-    const test::Trajectory at_once = test::simulate(netlist(0), accuracy), then = test::simulate(netlist(late), accuracy);
+    const test::RunTable at_once = test::simulate(netlist(0), accuracy), then = test::simulate(netlist(late), accuracy);
     for (const char* record : {"n0.position", "n2.position", "k.force", "c.force", "n0.velocity"}) {
       CAPTURE(record);
       const double difference = std::abs(then[record].back() - at_once[record].back());

@@ -9,7 +9,7 @@ namespace {
 
 /// Two sliders in series, moved at 0.6 m/s; the first is stronger by `more` of its force. The velocity between them.
 double velocity_between(double more, const std::string& force = "1.3") {
-  const Trajectory rows = simulate(fmt::format(R"([parameters]
+  const RunTable rows = simulate(fmt::format(R"([parameters]
 Fc = "{} N"
 more = {:.17g}
 [elements]

@@ -13,7 +13,7 @@ TEST_CASE("a run that begins without any force is the same in other units") {
   const auto check = [](const std::string& toml, const std::string& path, const test::Scaling& scaling) {
     CAPTURE(path);
     const Scene scene = test::scene_of(toml + "[simulate]\nstop = 1.04\naccuracy = 1e-6\noutput = { points = 61 }\n");
-    const test::Trajectory run = test::simulate(scene), seen = test::simulate(test::rescaled(scene, scaling));
+    const test::RunTable run = test::simulate(scene), seen = test::simulate(test::rescaled(scene, scaling));
     for (std::size_t i = 0; i < run.time().size(); ++i) {
       CAPTURE(run.time()[i]);
       const double back = seen[path][i] / scaling.length;

@@ -10,7 +10,7 @@ using namespace rheonet;
 TEST_CASE("with nothing unknown a run takes one step from each reversal to the next") {
   constexpr double sigma = 3, Fc = 1.1, A = 0.25;
   Summary summary;
-  const test::Trajectory rows = test::simulate(test::scene_of(R"([elements]
+  const test::RunTable rows = test::simulate(test::scene_of(R"([elements]
 drive = { type = "motion", at = "shaft", position = { triangle = 0.25, frequency = 1 } }
 i1 = { type = "sfm", between = ["shaft", "ground"], stiffness = 3, coulomb = 1.1 }
 [simulate]

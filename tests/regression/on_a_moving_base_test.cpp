@@ -19,8 +19,8 @@ std::string seen(const std::string& elements, const std::string& nodes, double v
 
 void check_alike(const std::string& elements, const std::string& nodes_of_moving, double v, double accuracy) {
   Summary still_summary, moving_summary;
-  const Trajectory still = simulate(scene_of(seen(elements, "", 0), accuracy), &still_summary);
-  const Trajectory moving = simulate(scene_of(seen(elements, nodes_of_moving, v), accuracy), &moving_summary);
+  const RunTable still = simulate(scene_of(seen(elements, "", 0), accuracy), &still_summary);
+  const RunTable moving = simulate(scene_of(seen(elements, nodes_of_moving, v), accuracy), &moving_summary);
   CHECK(moving_summary.events <= still_summary.events + 20);
   for (const std::string name : {"e1.force", "e2.force", "e3.force"}) {
     CAPTURE(name);

@@ -24,8 +24,8 @@ m2 = { type = "mass", at = "n2", mass = 0.024 }
 stop = 1
 output = { points = 61, events = true }
 record = [)";
-  const Trajectory alone = simulate(scene + "\"e1.displacement\"]\n", 1e-7);
-  const Trajectory all = simulate(scene + "\"e1.displacement\", \"end.position\", \"n1.position\", \"n2.position\", \"n3.position\"]\n", 1e-7);
+  const RunTable alone = simulate(scene + "\"e1.displacement\"]\n", 1e-7);
+  const RunTable all = simulate(scene + "\"e1.displacement\", \"end.position\", \"n1.position\", \"n2.position\", \"n3.position\"]\n", 1e-7);
   const auto &d = alone["e1.displacement"], &end = all["end.position"], &n1 = all["n1.position"];
   REQUIRE_EQ(d.size(), end.size());
   double largest = 0, apart = 0;

@@ -18,7 +18,7 @@ TEST_CASE("a spring relaxes through a dilatant dashpot, and comes to rest in a f
       b.motion("drive", "p", "position", Signal(Signal::Step{dx, 0, 0}));
       b.between("k", "spring", "p", "q", {{"stiffness", k}});
       b.between("c", "dashpot", "q", "ground", {{"damping", B}, {"flow_index", n}});
-      const Trajectory run = simulate(b.finish(5, 100, accuracy));
+      const RunTable run = simulate(b.finish(5, 100, accuracy));
       // df/dt = -k (f/B)^(1/n): with q = 1 - 1/n, f^q falls linearly to 0.
       const double q = 1 - 1 / n;
       const auto force = [&](double t) {
@@ -45,7 +45,7 @@ output = { points = 41 }
   constexpr double at_half_period = 0.010530;
   for (const double accuracy : {1e-5, 1e-6, 1e-7, 1e-9}) {
     CAPTURE(accuracy);
-    const Trajectory run = simulate(scene, accuracy);
+    const RunTable run = simulate(scene, accuracy);
     CHECK(std::abs(run.time()[10] - 0.5) < 1e-12);
     CHECK(std::abs(run["e.force"][10] - at_half_period) < 1e-6 + 10 * accuracy * run.scale("e.force"));
     CHECK(std::abs(run["e.force"][20] + at_half_period) < 1e-6 + 10 * accuracy * run.scale("e.force"));

@@ -21,7 +21,7 @@ TEST_CASE("a dilatant dashpot behind springs that creep, from rest and from a mo
     return test::simulate(b.finish(1.073, 60, accuracy), &summary);
   };
   Summary rest, moving;
-  const test::Trajectory one = run(0, rest), other = run(v, moving);
+  const test::RunTable one = run(0, rest), other = run(v, moving);
   CHECK(rest.steps < 5000);
   CHECK(moving.steps < 2 * rest.steps);
   for (std::size_t i = 0; i < one.time().size(); ++i) {

@@ -21,7 +21,7 @@ accuracy = 1e-6
 output = { points = 61 }
 )");
   Summary summary;
-  const test::Trajectory run = test::simulate(scene, &summary);
+  const test::RunTable run = test::simulate(scene, &summary);
   CHECK(summary.steps < 3000);
   for (std::size_t i = 0; i < run.time().size(); ++i) {
     CAPTURE(run.time()[i]);

@@ -30,7 +30,7 @@ TEST_CASE("power-law dashpots in series, set in motion from rest") {
       }
       return test::simulate(b.finish(1.3, 40, accuracy));
     };
-    const test::Trajectory two = run(true), one = run(false);
+    const test::RunTable two = run(true), one = run(false);
     for (const char* column : {"b.velocity", "c2.force"}) {
       CAPTURE(column);
       for (std::size_t k = 0; k < one.time().size(); ++k) {
@@ -47,7 +47,7 @@ TEST_CASE("velocity and force of a power law are inverse to each other, softened
     const std::vector<double> values{2.3, n, not_given};
     const auto batch = find_component("dashpot")->rate({std::span<const double>(values)});
     for (const double soft : {0.0, 1e-3}) {
-      batch->soften(0, soft);
+      batch->regularise(0, soft);
       for (const double w : {1e-5, 0.99e-3, 1.01e-3, 0.4, 7.0}) {
         CAPTURE(n);
         CAPTURE(soft);

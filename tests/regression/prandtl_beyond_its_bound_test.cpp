@@ -10,7 +10,7 @@ using namespace rheonet::test;
 // So stiff that the last digit of the displacement is a force: where the law yields the event is found so much too late, and
 // the force went beyond the bound.
 TEST_CASE("Prandtl's law of 1e12 N/m does not go beyond its bound") {
-  const Trajectory rows = simulate(R"([elements]
+  const RunTable rows = simulate(R"([elements]
 drive = { type = "motion", at = "shaft", position = { triangle = 0.7, frequency = 1.3, offset = 0.4 } }
 i0 = { type = "sfm", between = ["shaft", "ground"], stiffness = 1e12, coulomb = 1.3, exponent = 0 }
 [nodes]

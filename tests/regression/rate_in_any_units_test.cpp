@@ -19,7 +19,7 @@ accuracy = 1e-6
 output = { points = 11 }
 )");
   const test::Scaling scaling{.length = 1e9, .time = 1e-9, .force = 1};
-  const test::Trajectory run = test::simulate(scene), seen = test::simulate(test::rescaled(scene, scaling));
+  const test::RunTable run = test::simulate(scene), seen = test::simulate(test::rescaled(scene, scaling));
   for (std::size_t i = 0; i < run.time().size(); ++i) {
     CAPTURE(run.time()[i]);
     const double scale = scaling.length * run.scale("n1.position");

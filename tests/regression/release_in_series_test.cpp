@@ -19,7 +19,7 @@ stop = 0.957
 accuracy = 1e-6
 output = { points = 401 }
 )";
-  const test::Trajectory run = test::simulate(scene);
+  const test::RunTable run = test::simulate(scene);
   CHECK(run.scale("e2.force") <= 0.4007 * (1 + 1e-15));
   // At the end of each half period it has yielded: all the motion is its own, to the other side each time.
   const double half = 0.5 / 1.6125;

@@ -60,7 +60,7 @@ TEST_CASE("combined friction that comes to rest at its bound beside a slider giv
         // Turned round, everything is the same but for its sign.
         const char* const from = side > 0 ? "n" : "ground";
         const char* const to = side > 0 ? "ground" : "n";
-        const Trajectory rows = simulate(fmt::format(R"([elements]
+        const RunTable rows = simulate(fmt::format(R"([elements]
 drive = {{ type = "motion", at = "a", velocity = {0} }}
 spring = {{ type = "spring", stiffness = {1}, between = ["a", "n"] }}
 slider = {{ type = "slider", between = ["{2}", "{3}"], coulomb = {4} }}

@@ -33,7 +33,7 @@ TEST_CASE("friction behind a slider that sticks is at rest where what moves them
     for (const double accuracy : test::accuracies) {
       CAPTURE(frame);
       CAPTURE(accuracy);
-      const test::Trajectory run = test::simulate(scene(frame, ""), accuracy);
+      const test::RunTable run = test::simulate(scene(frame, ""), accuracy);
       REQUIRE(std::abs(run.time()[31] - stop) < 1e-12);
       const double f = run["friction.force"][31];
       CHECK(f > 1);
@@ -54,7 +54,7 @@ TEST_CASE("a slider at rest between two motions has no force, whatever is beside
       CAPTURE(frame);
       Scene whole = test::scene_of(scene(frame, "beside = { type = \"slider\", between = [\"end\", \"base\"], coulomb = 1.34 }\n"));
       if (*keep) whole.keep.push_back(keep);
-      const test::Trajectory run = test::simulate(whole);
+      const test::RunTable run = test::simulate(whole);
       CHECK(run["beside.force"][30] == 1.34);
       for (std::size_t k = 31; k < run.time().size(); ++k) CHECK(run["beside.force"][k] == 0);
     }

@@ -23,7 +23,7 @@ stop = 1
 output = { points = 41 }
 record = ["post.force", "dry.force", "water.force", "soft.force", "stiff.force", "seal.force", "base.velocity", "slide.velocity"]
 )";
-  const Trajectory best = simulate(scene, 1e-10);
+  const RunTable best = simulate(scene, 1e-10);
   for (const double accuracy : {1e-6, 3e-9, 2.5e-9, 2e-9, 1.6e-9, 1.3e-9, 1e-9, 7e-10, 5e-10, 4e-10}) {
     CAPTURE(accuracy);
     CHECK(largest_error(simulate(scene, accuracy), best) <= 2 * accuracy);

@@ -21,7 +21,7 @@ m = { type = "mass", at = "n1", mass = 1.449 }
 f = { type = "cfm", between = ["n1", "ground"], stiffness = 58.92, coulomb = 0.1197, damping = 2.288, exponent = 1 }
 air = { type = "dashpot", between = ["n1", "ground"], damping = "drag", flow_index = 2 }
 )", 2, 41);
-    const test::Trajectory run = test::simulate(scene, 1e-9), closer = test::simulate(scene, 1e-11);
+    const test::RunTable run = test::simulate(scene, 1e-9), closer = test::simulate(scene, 1e-11);
     for (const char* record : {"f.force", "n1.velocity", "k.force"}) {
       CAPTURE(record);
       double worst = 0;

@@ -23,7 +23,7 @@ stop = 3
 output = { points = 61 }
 record = ["fixing.force", "joint.force", "gel.force", "rubber.force", "oil.force", "block.velocity", "plate.velocity"]
 )";
-  const Trajectory best = simulate(scene, 1e-10);
+  const RunTable best = simulate(scene, 1e-10);
   for (const double accuracy : {3e-3, 2e-3, 1.5e-3, 1e-3, 5e-4, 1e-6}) {
     CAPTURE(accuracy);
     CHECK(largest_error(simulate(scene, accuracy), best) <= 2 * accuracy);

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/dae/drive.hpp"
+#include "core/dae/inputs.hpp"
 #include "tests/support/scene_builder.hpp"
 
 // The search for a reversal that met the zero of the velocity exactly, as it does on a straight line, went on from

@@ -19,9 +19,9 @@ drive = { type = "motion", at = "a", velocity = { sine = 0.7, frequency = 1.3 } 
 b     = { type = "mass", at = "b", mass = 0.71 }
 c     = { type = "mass", at = "c", mass = 0.43 }
 )", stop = "[simulate]\nstop = 2.3\naccuracy = 1e-8\noutput = { points = 116 }\n";
-    const Trajectory linked = simulate(moved + fmt::format("link = {{ type = \"slider\", between = [{}], coulomb = \"inf\" }}\n", ends) +
+    const RunTable linked = simulate(moved + fmt::format("link = {{ type = \"slider\", between = [{}], coulomb = \"inf\" }}\n", ends) +
                                        "rub = { type = \"slider\", between = [\"c\", \"b\"], coulomb = 0.53 }\n" + stop);
-    const Trajectory without = simulate(moved + "rub = { type = \"slider\", between = [\"c\", \"a\"], coulomb = 0.53 }\n" + stop);
+    const RunTable without = simulate(moved + "rub = { type = \"slider\", between = [\"c\", \"a\"], coulomb = 0.53 }\n" + stop);
     int turned = 0;
     for (std::size_t row = 1; row < linked.time().size(); ++row) {
       CHECK_EQ(linked["b.velocity"][row], linked["a.velocity"][row]);

@@ -13,7 +13,7 @@ TEST_CASE("a run far shorter than anything in the network takes: a ramp through 
   constexpr double k1 = 131, k2 = 57, V = 0.37;
   for (const double stop : {1e-6, 1e-9, 1e-12, 1e-15, 1e-18}) {
     CAPTURE(stop);
-    const test::Trajectory run = test::simulate(test::scene_of(fmt::format(R"([elements]
+    const test::RunTable run = test::simulate(test::scene_of(fmt::format(R"([elements]
 pull = {{ type = "motion", at = "end", velocity = {} }}
 k1   = {{ type = "spring", between = ["end", "a"], stiffness = {} }}
 c    = {{ type = "dashpot", between = ["a", "b"], damping = 3.7 }}

@@ -6,7 +6,7 @@ using namespace rheonet::test;
 
 // At each event velocities below 1e-14 of the fastest were taken for rounding, and a mass that was so slow stopped.
 TEST_CASE("what is slow is not stopped by an event where others are fast") {
-  const Trajectory rows = simulate(R"([elements]
+  const RunTable rows = simulate(R"([elements]
 fast = { type = "mass", at = "fast", mass = 0.3 }
 slow = { type = "mass", at = "slow", mass = 0.7 }
 drag = { type = "slider", between = ["slow", "ground"], coulomb = 1.1e-9 }

@@ -9,7 +9,7 @@ using namespace rheonet::test;
 // The displacement of an assembly, or of a dashpot, was the difference of two positions also where a spring beside it knew it
 // better: 2.7e-12 m behind a node that has moved by metres kept four digits.
 TEST_CASE("a small displacement beside large ones has all its digits") {
-  const Trajectory rows = simulate(R"([elements]
+  const RunTable rows = simulate(R"([elements]
 pull = { type = "force", at = "end", force = 2.7 }
 hand = { type = "motion", at = "far", position = { ramp = 3.1 } }
 soft = { type = "spring", between = ["far", "near"], stiffness = 1 }

@@ -14,7 +14,7 @@ TEST_CASE("stiff dashpots in series with a soft one carry the same force") {
   for (const double stiff : {1.0, 900.0, 1100.0, 1e6, 1e9, 1e12}) {
     CAPTURE(stiff);
     constexpr double V = 0.7, c = 1.1, accuracy = 1e-9;
-    const Trajectory rows = simulate(fmt::format(R"([elements]
+    const RunTable rows = simulate(fmt::format(R"([elements]
 drive = {{ type = "motion", at = "hand", velocity = {{ sine = {}, frequency = 0.6 }} }}
 first = {{ type = "dashpot", between = ["hand", "a"], damping = {} }}
 soft = {{ type = "dashpot", between = ["a", "b"], damping = {} }}

@@ -34,7 +34,7 @@ output = {{ points = 2, events = true }}
   }
   const double stick = low, slip = (3.14159265358979323846 - std::acos((Fc + F0) / (m * speed * omega))) / omega;
   REQUIRE(stick < slip);
-  const Trajectory rows = simulate(scene, 1e-9);
+  const RunTable rows = simulate(scene, 1e-9);
   std::vector<double> found;
   for (std::size_t row = 1; row < rows.time().size(); ++row) {
     if (rows.time()[row] == rows.time()[row - 1]) found.push_back(rows.time()[row]);

@@ -50,7 +50,7 @@ output = { points = 581 }
 )",
                                        1e-6);
     Summary summary;
-    const test::Trajectory run = test::simulate(scene, &summary);
+    const test::RunTable run = test::simulate(scene, &summary);
     CHECK(summary.events < 20);
     const auto& v = run["end.velocity"];
     CHECK(std::count(v.begin(), v.end(), 0.0) >= 5);

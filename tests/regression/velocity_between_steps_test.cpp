@@ -14,7 +14,7 @@ TEST_CASE("A velocity that a drive gives through a dashpot is right between step
   // hand - dashpot - n - slider - ground: while it slips, B (V(t) - v) = Fc sgn v.
   const double B = 0.54, Fc = 0.42, X = 0.0837, f = 3.04, omega = 2 * std::numbers::pi * f;
   for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
-    const Trajectory rows = simulate(scene_of(fmt::format(R"(
+    const RunTable rows = simulate(scene_of(fmt::format(R"(
 [elements]
 hand = {{ type = "motion", at = "hand", position = {{ sine = {}, frequency = {} }} }}
 c = {{ type = "dashpot", between = ["hand", "n"], damping = {} }}
@@ -36,7 +36,7 @@ record = ["s.velocity"]
 TEST_CASE("A velocity that a force gives at a node without mass is right between steps") {
   const double B = 1.7, F = 2.3, f = 1.9, omega = 2 * std::numbers::pi * f;
   const double accuracy = 1e-6;
-  const Trajectory rows = simulate(scene_of(fmt::format(R"(
+  const RunTable rows = simulate(scene_of(fmt::format(R"(
 [elements]
 push = {{ type = "force", at = "n", force = {{ sine = {}, frequency = {} }} }}
 c = {{ type = "dashpot", between = ["n", "ground"], damping = {} }}
@@ -57,7 +57,7 @@ TEST_CASE("A small slip on a base that goes far is as accurate as it is on one t
   // While F acts, (F - Fc)/m; then Fc/m against it.
   const double v = (F - Fc) / m * T, slip = v * T / 2 + v * v * m / (2 * Fc);
   for (const double V : {0.0, 0.4, 3.0}) {
-    const Trajectory rows = simulate(scene_of(fmt::format(R"(
+    const RunTable rows = simulate(scene_of(fmt::format(R"(
 [elements]
 base = {{ type = "motion", at = "base", velocity = {} }}
 m = {{ type = "mass", at = "n", mass = {} }}

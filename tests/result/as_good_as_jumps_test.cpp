@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/result/yardstick.hpp"
+#include "core/result/reference_solution.hpp"
 #include "tests/support/simulate.hpp"
 
 namespace rheonet::test {
@@ -25,10 +25,10 @@ record = ["cut.out", "ramp.out"]
 }
 
 /// The error of a record that is `off` from the true one at 0.5 s.
-double error(const Scene& scene, const Yardstick& truth, std::size_t record, double off, double shift) {
-  Course course = truth.course;
-  course.rows[5][record] += off;
-  return record_errors(scene, course, truth, {.shift = shift})[record].largest;
+double error(const Scene& scene, const ReferenceSolution& truth, std::size_t record, double off, double shift) {
+  Trajectory trajectory = truth.trajectory;
+  trajectory.rows[5][record] += off;
+  return record_errors(scene, trajectory, truth, {.shift = shift})[record].largest;
 }
 
 }  // namespace
@@ -38,9 +38,9 @@ TEST_CASE("what is over within a hundredth of the time to the events around it i
   for (const double lasts : {4e-3, 6e-3}) {
     CAPTURE(lasts);
     const Scene scene = crossing(lasts);
-    const Yardstick truth = run_as_yardstick(scene, 0.01);
-    REQUIRE(std::abs(truth.course.times[5] - 0.5) < 1e-12);
-    REQUIRE(std::abs(truth.course.rows[5][0]) < 1e-6);
+    const ReferenceSolution truth = run_as_reference(scene, 0.01);
+    REQUIRE(std::abs(truth.trajectory.times[5] - 0.5) < 1e-12);
+    REQUIRE(std::abs(truth.trajectory.rows[5][0]) < 1e-6);
     const bool jumps = lasts < 5e-3;
     for (const double off : {0.7, -0.7, 1.0}) {
       CAPTURE(off);

@@ -105,7 +105,7 @@ TEST_CASE("rows and events are those of one run, the one that was measured, to t
     const Scene scene = scene_of_file(netlist + ".toml");
     const Certified certified(scene);
     REQUIRE(certified.certificate.holds);
-    const Course plain = run_to_memory(scene, {.tolerance = certified.certificate.result().tolerance});
+    const Trajectory plain = run_to_memory(scene, {.tolerance = certified.certificate.result().tolerance});
     CHECK(certified.times == plain.times);
     CHECK(certified.rows == plain.rows);
     CHECK(certified.certificate.summary.steps == plain.summary.steps);
@@ -126,7 +126,7 @@ TEST_CASE("where the first run is not accurate enough a tighter one takes its pl
     CHECK(certificate.rounds[i].tolerance == doctest::Approx(certificate.rounds[i - 1].tolerance / Certificate::factor));
   }
   // Against a run that is as tight as it can be, and knows nothing of this.
-  const Course truth = run_to_memory(scene, {.tolerance = 1e-12});
+  const Trajectory truth = run_to_memory(scene, {.tolerance = 1e-12});
   for (std::size_t k = 0; k < 3; ++k) {
     double off = 0, scale = 0;
     for (std::size_t i = 0; i < truth.rows.size(); ++i) {
@@ -148,7 +148,7 @@ TEST_CASE("chaos is not certified: what is kept is good for as long as it says")
   REQUIRE(certificate.until > 10);
   REQUIRE(certificate.until < 90);
   // By another method, of lower order: before that time both agree, and not long after it they do not.
-  const Course other = run_to_memory(scene, {.tolerance = 1e-12, .order = 4});
+  const Trajectory other = run_to_memory(scene, {.tolerance = 1e-12, .order = 4});
   double before = 0, after = 0;
   for (std::size_t i = 0; i < other.times.size(); ++i) {
     const double off = std::abs(certified.rows[i][0] - other.rows[i][0]) / certificate.errors[0].scale;
@@ -179,7 +179,7 @@ TEST_CASE("what misses an accuracy that leaves no room for a hundredth of the me
   CHECK(certificate.result().tolerance == doctest::Approx(1e-10));
   CHECK(certificate.runs == 6);
   // By runs that know nothing of this, of another order.
-  const Course other = run_to_memory(scene, {.tolerance = 1e-12, .order = 4});
+  const Trajectory other = run_to_memory(scene, {.tolerance = 1e-12, .order = 4});
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
     for (std::size_t i = 0; i < other.times.size(); ++i) {
       CHECK(std::abs(certified.rows[i][k] - other.rows[i][k]) <= 2e-9 * certificate.errors[k].scale);
@@ -192,7 +192,7 @@ TEST_CASE("a scene that cannot be simulated leaves the rows up to there, as `run
   const auto written = [&](auto&& simulate_to) {
     std::FILE* file = std::tmpfile();
     CHECK_THROWS_AS(simulate_to(RunSettings{.csv = file}), SimulationError);
-    const Trajectory rows = read_rows(file);
+    const RunTable rows = read_rows(file);
     std::fclose(file);
     return rows.columns;
   };
@@ -207,16 +207,16 @@ TEST_CASE("simulations side by side do not know of each other") {
                                     "thesis/solid-friction", "thesis/laws/vfm-delay"}) {
     scenes.push_back(scene_of_file(netlist + ".toml"));
   }
-  std::vector<std::future<Course>> beside;
+  std::vector<std::future<Trajectory>> beside;
   for (int copy = 0; copy < 2; ++copy) {
     for (const Scene& scene : scenes) {
       beside.push_back(std::async(std::launch::async, [&scene] { return run_to_memory(scene); }));
     }
   }
   for (std::size_t k = 0; k < beside.size(); ++k) {
-    const Course course = beside[k].get();
+    const Trajectory trajectory = beside[k].get();
     CAPTURE(scenes[k % scenes.size()].title);
-    CHECK(course.rows == run_to_memory(scenes[k % scenes.size()]).rows);
+    CHECK(trajectory.rows == run_to_memory(scenes[k % scenes.size()]).rows);
   }
 }
 

@@ -87,7 +87,7 @@ TEST_CASE("supplied power agrees with the recorded forces and velocities") {
   b.start("b", -0.04, 0.3);
   Summary s;
   constexpr int intervals = 1000;
-  const Trajectory run = simulate(b.finish(1, intervals, 1e-8), &s);
+  const RunTable run = simulate(b.finish(1, intervals, 1e-8), &s);
   double supplied = 0, dissipated = 0;  // by Simpson's rule over the rows
   for (std::size_t row = 0; row <= intervals; ++row) {
     const double weight = (row == 0 || row == intervals ? 1 : row % 2 ? 4 : 2) / (3.0 * intervals);

@@ -155,7 +155,7 @@ TEST_CASE("the times are the doubles of the rows at events; two drives that jump
   b.between("f", "sfm", "b", "a", {{"stiffness", 193.0}, {"coulomb", Fc}});
   Scene scene = b.finish(0.3, 7, accuracy);
   scene.output_events = true;
-  const Trajectory rows = simulate(scene);
+  const RunTable rows = simulate(scene);
   const std::vector<Line> found = events_of(scene);
   check_events(found, {{0.0713, "drive", "jump", 1}, {0.0713, "back", "jump", -1}, {0.0713, "f", "reversal", -1}}, 0.3);
   for (const Line& line : found) {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/network/error.hpp"
-#include "core/result/division.hpp"
+#include "core/result/partition.hpp"
 #include "tests/support/simulate.hpp"
 
 using namespace rheonet;
@@ -38,7 +38,7 @@ Scene whole(Scene scene) {
 
 /// The same records to within the accuracy asked of both runs.
 void check_same(const Scene& scene, const Scene& other) {
-  const Trajectory a = simulate(scene), b = simulate(other);
+  const RunTable a = simulate(scene), b = simulate(other);
   REQUIRE(a.header == b.header);
   for (const std::string& column : a.header) {
     CAPTURE(column);
@@ -51,7 +51,7 @@ void check_same(const Scene& scene, const Scene& other) {
 
 TEST_CASE("parts by themselves give what they give together; a force is the sum over them") {
   const Scene scene = scene_of(shaft + all);
-  CHECK_EQ(divide(scene, {}).excerpts.size(), 3);
+  CHECK_EQ(divide(scene, {}).subscenes.size(), 3);
   Summary apart, together;
   simulate(scene, &apart);
   simulate(whole(scene), &together);
@@ -81,11 +81,11 @@ TEST_CASE("threads change no digit") {
 TEST_CASE("claims hold of parts as of the whole, and one on a sum keeps its parts together") {
   const std::string expect = "[expect]\n\"oil.force\" = { max = [0, 10] }\n\"tip.velocity\" = { rms = [0, 10] }\n\"drive.force\" = { final = [-100, 100] }\n";
   const Scene scene = scene_of(shaft + "record = [\"oil.force\"]\n" + expect);
-  CHECK(divide(scene, {}).excerpts.empty());  // the force of the drive is that of all
+  CHECK(divide(scene, {}).subscenes.empty());  // the force of the drive is that of all
   const std::string apart = "[expect]\n\"oil.force\" = { max = [0, 10] }\n\"tip.velocity\" = { rms = [0, 10] }\n\"rub.force\" = { max = \"1.3 N\" }\n"
                             "\"block.position\" = { final = [-1, 1], per = \"shaft.position\" }\n";
   const Scene parts = scene_of(shaft + "record = [\"oil.force\"]\n" + apart);
-  REQUIRE_EQ(divide(parts, {}).excerpts.size(), 3);
+  REQUIRE_EQ(divide(parts, {}).subscenes.size(), 3);
   Summary one, other;
   simulate(parts, &one);
   simulate(whole(parts), &other);
@@ -98,9 +98,9 @@ TEST_CASE("claims hold of parts as of the whole, and one on a sum keeps its part
 
 TEST_CASE("a part that nothing asks for is not integrated, unless something in it can go wrong") {
   const Scene scene = scene_of(shaft + "record = [\"oil.force\"]\n");
-  const Division division = divide(scene, {});
-  CHECK(division.left_out == std::vector<std::string>{"fork", "tip", "air"});
-  CHECK_EQ(division.excerpts.size(), 2);  // the slider may be asked for more than it can take
+  const Partition partition = divide(scene, {});
+  CHECK(partition.left_out == std::vector<std::string>{"fork", "tip", "air"});
+  CHECK_EQ(partition.subscenes.size(), 2);  // the slider may be asked for more than it can take
   check_same(scene, whole(scene));
   Summary summary;
   simulate(scene, &summary);
@@ -194,9 +194,9 @@ stop = 0.25
 output = { points = 51 }
 record = ["bundle.force"]
 )");
-  CHECK(divide(scene, {}).excerpts.empty());
+  CHECK(divide(scene, {}).subscenes.empty());
   Summary summary;
-  const Trajectory rows = simulate(scene, &summary);
+  const RunTable rows = simulate(scene, &summary);
   CHECK_LE(summary.steps, 10);  // as many as for one pair: nothing but the drive moves
   for (std::size_t k = 0; k < rows.time().size(); ++k) {
     const double x = std::sin(2 * std::numbers::pi * rows.time()[k]);
@@ -222,14 +222,14 @@ stop = 0.4
 output = { points = 9 }
 record = ["block.force", "block.3.force", "block.17.displacement", "block.39.tip.velocity"]
 )");
-  const Division division = divide(scene, {});
-  REQUIRE_EQ(division.excerpts.size(), count);
+  const Partition partition = divide(scene, {});
+  REQUIRE_EQ(partition.subscenes.size(), count);
   std::size_t elements = 0, nodes = 0, assemblies = 0, terms = 0;
-  for (const Excerpt& excerpt : division.excerpts) {
-    elements += excerpt.scene.elements.size();
-    nodes += excerpt.scene.nodes.size();
-    assemblies += excerpt.scene.assemblies.size();
-    for (const SceneAssembly& assembly : excerpt.scene.assemblies) terms += assembly.force.capacity();
+  for (const Subscene& subscene : partition.subscenes) {
+    elements += subscene.scene.elements.size();
+    nodes += subscene.scene.nodes.size();
+    assemblies += subscene.scene.assemblies.size();
+    for (const SceneAssembly& assembly : subscene.scene.assemblies) terms += assembly.force.capacity();
   }
   CHECK_EQ(elements, 4 * count);  // the drive in each
   CHECK_EQ(nodes, 3 * count);

@@ -54,7 +54,7 @@ TEST_CASE("masses that a rigid link joins go on with their common momentum; what
                                  "at {:.6g} m/s, and lose {:.6g} J at once, before the energy account begins",
                                  common, lost));
   Summary summary;
-  const Trajectory run = simulate(linked(v1, v2).finish(1, 10, 1e-6), &summary);
+  const RunTable run = simulate(linked(v1, v2).finish(1, 10, 1e-6), &summary);
   CHECK_EQ(run["a.velocity"].back(), doctest::Approx(common).epsilon(1e-12));
   CHECK_EQ(summary.dissipated, 0);
   CHECK(notes_of(linked(v1, v1)).empty());
@@ -93,7 +93,7 @@ TEST_CASE("a rigid link takes a mass along with a step in position, and dashpots
   b.at("m2", "mass", "far", {{"mass", m2}});
   b.between("k", "spring", "q", "ground", {{"stiffness", 31}});
   Summary summary;
-  const Trajectory run = simulate(b.finish(1, 10, 1e-9), &summary);
+  const RunTable run = simulate(b.finish(1, 10, 1e-9), &summary);
   CHECK_EQ(run["q.position"].back(), doctest::Approx(dx).epsilon(1e-12));
   CHECK_EQ(run.scale("link.displacement"), 0);
   CHECK_EQ(run["k.force"].back(), doctest::Approx(31 * dx).epsilon(1e-12));

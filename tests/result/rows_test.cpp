@@ -35,7 +35,7 @@ TEST_CASE("rows stand at the output times, the last one at the stop itself") {
   for (const int intervals : {1, 7, 30, 4999}) {
     SceneBuilder b = stepping(0.0713);
     Scene scene = b.finish(0.3, intervals, accuracy);
-    const Trajectory run = simulate(scene);
+    const RunTable run = simulate(scene);
     REQUIRE_EQ(run.time().size(), static_cast<std::size_t>(intervals) + 1);
     CHECK_EQ(run.time().front(), 0);
     CHECK_EQ(run.time().back(), 0.3);
@@ -52,7 +52,7 @@ TEST_CASE("a run that starts later counts from there") {
   Scene scene = b.finish(0.3, 30, accuracy);
   scene.start = 2;
   scene.stop = 2.3;
-  const Trajectory run = simulate(scene);
+  const RunTable run = simulate(scene);
   CHECK_EQ(run.time().front(), 2);
   CHECK_EQ(run.time().back(), 2.3);
   CHECK_EQ(run["k.force"].back(), doctest::Approx(k * v * (2.3 - 2.0713)).epsilon(1e-8));
@@ -80,8 +80,8 @@ TEST_CASE("a late start gives the same results: only the column of time is later
   for (const bool begun : {false, true}) {
     CAPTURE(begun);
     Summary at_once, later;
-    const Trajectory first = simulate(scene(0, begun), &at_once);
-    const Trajectory then = simulate(scene(late, begun), &later);
+    const RunTable first = simulate(scene(0, begun), &at_once);
+    const RunTable then = simulate(scene(late, begun), &later);
     CHECK_EQ(later.events, at_once.events);
     CHECK(at_once.events > 10);
     REQUIRE_EQ(then.time().size(), first.time().size());
@@ -115,7 +115,7 @@ TEST_CASE("output times that do not reach the stop") {
   Scene scene = b.finish(0.3, 30, accuracy);
   scene.output_every = 0.07;
   scene.output_intervals = 4;
-  const Trajectory run = simulate(scene);
+  const RunTable run = simulate(scene);
   REQUIRE_EQ(run.time().size(), 5);
   CHECK_EQ(run.time().back(), doctest::Approx(0.28).epsilon(1e-14));
 }
@@ -124,7 +124,7 @@ TEST_CASE("where a quantity jumps at an output time, the row holds the value jus
   // 0.1 and 3 * 0.1/3 differ by rounding: an instant is one all the same.
   for (const double time : {0.1, std::nextafter(0.1, 0.0), std::nextafter(0.1, 1.0)}) {
     SceneBuilder b = stepping(time);
-    const Trajectory run = simulate(b.finish(0.3, 9, accuracy));
+    const RunTable run = simulate(b.finish(0.3, 9, accuracy));
     REQUIRE_EQ(run.time().size(), 10);
     for (std::size_t row = 0; row < 10; ++row) {
       CHECK_EQ(run["c.force"][row], doctest::Approx(row < 3 ? 0 : B * v).epsilon(1e-12));
@@ -138,7 +138,7 @@ TEST_CASE("where a quantity jumps at an output time, the row holds the value jus
 TEST_CASE("a jump at the start is in the first row, one at the stop in the last") {
   for (const double time : {0.0, 0.3}) {
     SceneBuilder b = stepping(time);
-    const Trajectory run = simulate(b.finish(0.3, 9, accuracy));
+    const RunTable run = simulate(b.finish(0.3, 9, accuracy));
     const std::size_t row = time == 0 ? 0 : 9;
     REQUIRE_EQ(run.time().size(), 10);
     CHECK_EQ(run["k2.force"][row], doctest::Approx(k * dx).epsilon(1e-12));
@@ -152,10 +152,10 @@ TEST_CASE("rows at events: the state before and the state after") {
     CAPTURE(time);
     SceneBuilder b = stepping(time);
     Scene scene = b.finish(0.3, 9, accuracy);
-    const Trajectory plain = simulate(scene);
+    const RunTable plain = simulate(scene);
     scene.output_events = true;
     Summary summary;
-    const Trajectory run = simulate(scene, &summary);
+    const RunTable run = simulate(scene, &summary);
     CHECK_EQ(summary.events, 2);
     // At an output time its row is the one after the event.
     const std::size_t added = time == 0.1 ? 1 : 2;
@@ -185,7 +185,7 @@ TEST_CASE("rows at events that all but fall on an output time are in order, and 
     const bool at_row = std::abs(off) < 1e-9 * stop / 9;
     Scene scene = stepping(row + off).finish(stop, 9, accuracy);
     scene.output_events = true;
-    const Trajectory run = simulate(scene);
+    const RunTable run = simulate(scene);
     CHECK_EQ(run.time().size(), at_row ? 11 : 12);
     int doubles = 0;
     for (std::size_t k = 1; k < run.time().size(); ++k) {
@@ -208,7 +208,7 @@ TEST_CASE("reversals of friction are events too, and its force goes on through t
   Scene scene = b.finish(1.1, 10, accuracy);
   scene.output_events = true;
   Summary summary;
-  const Trajectory run = simulate(scene, &summary);
+  const RunTable run = simulate(scene, &summary);
   int pairs = 0;
   for (std::size_t row = 1; row < run.time().size(); ++row) {
     if (run.time()[row] != run.time()[row - 1]) continue;
@@ -228,7 +228,7 @@ TEST_CASE("an interrupted run keeps its rows up to there") {
   b.between("k", "spring", "a", "ground", {{"stiffness", k}});
   b.start("a", 0.017, 0);
   const Scene scene = b.finish(5, 500, 1e-6);
-  const Trajectory whole = simulate(scene);
+  const RunTable whole = simulate(scene);
   REQUIRE_EQ(whole.time().size(), 501);
 
   std::atomic<bool> interrupt{false};
@@ -249,7 +249,7 @@ TEST_CASE("an interrupted run keeps its rows up to there") {
   CHECK(message.ends_with(" s"));
   CHECK(reached > 0.4);
   CHECK(reached < 0.6);
-  const Trajectory part = read_rows(file);
+  const RunTable part = read_rows(file);
   std::fclose(file);
   CHECK(part.header == whole.header);
   // All that had been reached, and nothing else.
@@ -270,7 +270,7 @@ TEST_CASE("a run that fails keeps its rows up to there") {
   std::FILE* file = std::tmpfile();
   REQUIRE(file);
   CHECK_THROWS_AS(run(scene, {.csv = file, .interrupt = nullptr, .progress = {}}), SimulationError);
-  const Trajectory part = read_rows(file);
+  const RunTable part = read_rows(file);
   std::fclose(file);
   const std::size_t rows = part.time().size();
   CHECK(rows >= 25);  // until 1.25 s
@@ -286,7 +286,7 @@ TEST_CASE("a network in which nothing is unknown still has its rows") {
   b.at("m", "mass", "a", {{"mass", 0.31}});
   b.between("k", "spring", "a", "ground", {{"stiffness", k}});
   Summary summary;
-  const Trajectory run = simulate(b.finish(0.9, 90, 1e-6), &summary);
+  const RunTable run = simulate(b.finish(0.9, 90, 1e-6), &summary);
   CHECK_EQ(summary.unknowns, 0);
   REQUIRE_EQ(run.time().size(), 91);
   const double omega = 2 * 3.14159265358979323846 * 2.3;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/network/alternatives.hpp"
 #include "core/network/component.hpp"
-#include "core/result/course.hpp"
+#include "core/network/surrogate_laws.hpp"
+#include "core/result/trajectory.hpp"
 #include "core/result/variants.hpp"
 #include "tests/support/simulate.hpp"
 
@@ -26,8 +26,8 @@ std::string sliding(double coulomb) {
          "record = [\"block.velocity\", \"s1.force\"]\n";
 }
 
-const Manner& named(const std::vector<Manner>& all, const std::string& part) {
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Manner& manner) { return manner.name.find(part) != std::string::npos; });
+const SimulationMethod& named(const std::vector<SimulationMethod>& all, const std::string& part) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const SimulationMethod& method) { return method.name.find(part) != std::string::npos; });
   REQUIRE(found != all.end());
   return *found;
 }
@@ -36,7 +36,7 @@ const Manner& named(const std::vector<Manner>& all, const std::string& part) {
 
 TEST_CASE("alternatives that components declare are laws that there are, with all their parameters") {
   REQUIRE_FALSE(alternatives().empty());
-  for (const Alternative& alternative : alternatives()) {
+  for (const SurrogateLaw& alternative : alternatives()) {
     CAPTURE(alternative.type);
     CHECK_FALSE(alternative.name.empty());
     const Component *component = find_component(alternative.type), *other = find_component(alternative.becomes);
@@ -52,12 +52,12 @@ TEST_CASE("alternatives that components declare are laws that there are, with al
 }
 
 TEST_CASE("a smoothed slider is a dashpot below its share of the fastest motion, and slides at its force above") {
-  const std::vector<Manner> all = manners(scene_of(sliding(Fc)));
+  const std::vector<SimulationMethod> all = methods(scene_of(sliding(Fc)));
   CHECK(all.front().scene.empty());
-  const Course course = run_to_memory_in(named(all, "smoothed below 0.01"), scene_of(sliding(Fc)), {});
+  const Trajectory trajectory = run_to_memory_by(named(all, "smoothed below 0.01"), scene_of(sliding(Fc)), {});
   const double w = 0.01 * v0, at_rest = m * v0 / Fc;  // below w the velocity falls e-fold in m w/Fc
-  for (std::size_t i = 0; i < course.times.size(); ++i) {
-    const double t = course.times[i], velocity = course.rows[i][0], force = course.rows[i][1];
+  for (std::size_t i = 0; i < trajectory.times.size(); ++i) {
+    const double t = trajectory.times[i], velocity = trajectory.rows[i][0], force = trajectory.rows[i][1];
     if (t > 0.05 && t < 0.9 * at_rest) {
       CHECK(force == doctest::Approx(Fc).epsilon(1e-3));
       CHECK(velocity == doctest::Approx(v0 - Fc * t / m).epsilon(0.02));
@@ -72,24 +72,24 @@ TEST_CASE("a smoothed slider is a dashpot below its share of the fastest motion,
 
 TEST_CASE("events that are not located are late, by no more than a step") {
   const Scene scene = scene_of(sliding(Fc));
-  const Manner& late = named(manners(scene), "events at the ends of steps");
+  const SimulationMethod& late = named(methods(scene), "events at the ends of steps");
   CHECK_FALSE(late.locate_events);
-  const Course course = run_to_memory_in(late, scene, {});
+  const Trajectory trajectory = run_to_memory_by(late, scene, {});
   // It slides on beyond its rest, against the force of friction, until the step ends.
   double least = 0;
-  for (const std::vector<double>& row : course.rows) least = std::min(least, row[0]);
-  const Course exact = run_to_memory(scene);
+  for (const std::vector<double>& row : trajectory.rows) least = std::min(least, row[0]);
+  const Trajectory exact = run_to_memory(scene);
   for (const std::vector<double>& row : exact.rows) CHECK(row[0] >= 0);
   CHECK(least <= 0);
-  CHECK(course.rows.back()[0] == 0);
+  CHECK(trajectory.rows.back()[0] == 0);
 }
 
 TEST_CASE("nothing is varied that the scene does not have") {
-  const std::vector<Manner> all = manners(scene_of("[elements]\nm1 = { type = \"mass\", at = \"a\", mass = 1 }\n"
+  const std::vector<SimulationMethod> all = methods(scene_of("[elements]\nm1 = { type = \"mass\", at = \"a\", mass = 1 }\n"
                                                    "k1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = 3 }\n"
                                                    "[nodes]\na = { position = 0.1 }\n[simulate]\nstop = 1\n"));
   CHECK(all.size() == 4);
-  for (const Manner& manner : all) CHECK(manner.name.starts_with("order up to "));
+  for (const SimulationMethod& method : all) CHECK(method.name.starts_with("order up to "));
 }
 
 }  // namespace rheonet::test

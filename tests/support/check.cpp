@@ -14,7 +14,7 @@ namespace {
 constexpr double margin = 10;
 }  // namespace
 
-void check_against(const Trajectory& trajectory, const Expectation& expected, double accuracy) {
+void check_against(const RunTable& trajectory, const Expectation& expected, double accuracy) {
   const std::vector<double>& time = trajectory.time();
   const std::vector<double>& computed = trajectory[expected.column];
   REQUIRE_GT(time.size(), 1);
@@ -46,7 +46,7 @@ void check_at_all_accuracies(const std::string& toml, const Expectations& expect
   INFO(toml);
   for (const double accuracy : accuracies) {
     try {
-      const Trajectory trajectory = simulate(toml, accuracy);
+      const RunTable trajectory = simulate(toml, accuracy);
       for (const Expectation& one : expected) check_against(trajectory, one, accuracy);
     } catch (const std::runtime_error& refused) {
       FAIL_CHECK(fmt::format("at accuracy {:g}: {}", accuracy, refused.what()));
@@ -57,7 +57,7 @@ void check_at_all_accuracies(const std::string& toml, const Expectations& expect
 void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns) {
   constexpr double closest = 1e-10;
   INFO(toml);
-  const Trajectory run = simulate(toml, accuracy), closer = simulate(toml, closest);
+  const RunTable run = simulate(toml, accuracy), closer = simulate(toml, closest);
   for (const std::string& column : columns) {
     std::size_t row = 0;
     REQUIRE_EQ(run.time(), closer.time());

@@ -27,7 +27,7 @@ using Expectations = std::vector<Expectation>;
 
 /// Checks that at every row abs(computed - exact) <= 10 accuracy max(abs(exact)): ten times what the accuracy promises.
 /// Says which row is the worst, and by how much.
-void check_against(const Trajectory& trajectory, const Expectation& expected, double accuracy);
+void check_against(const RunTable& trajectory, const Expectation& expected, double accuracy);
 
 /// Runs the netlist at each of `accuracies` and checks every expectation at each.
 void check_at_all_accuracies(const std::string& toml, const Expectations& expected);

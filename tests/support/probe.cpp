@@ -1,6 +1,6 @@
 #include "tests/support/probe.hpp"
 
-#include "core/result/channels.hpp"
+#include "core/result/output_sampler.hpp"
 #include "core/solve/simulation.hpp"
 
 namespace rheonet::test {
@@ -51,13 +51,13 @@ Probe::Probe(const Scene& scene)
       network_(build_network(scene_)),
       classified_(classify(network_)),
       start_(rheonet::start(network_, classified_)) {
-  Instant instant(network_, classified_, start_.drive);
+  EventTransition instant(network_, classified_, start_.inputs);
   std::vector<double> force(network_.sliders.size(), 0);
   modes_.slider.assign(network_.sliders.size(), Modes::stuck);
-  start_.drive.enter(0);
+  start_.inputs.enter(0);
   change_ = instant.cross(0, scene_.stop - scene_.start, true, {}, start_.state, modes_, force);
   structure_ = analyse(network_, modes_);
-  dae_ = std::make_unique<Dae>(network_, structure_, start_.drive, needed_positions(network_));
+  dae_ = std::make_unique<Dae>(network_, structure_, start_.inputs, needed_positions(network_));
   current_ = dae_.get();
   dae_->enter(0, start_.state, modes_, y_);
   Consistency consistency(*dae_);

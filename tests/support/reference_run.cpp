@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 
 namespace rheonet::test {
 

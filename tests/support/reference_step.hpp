@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/network/index.hpp"
+#include "core/base/index.hpp"
 #include "tests/support/reference_bundle.hpp"
 
 namespace rheonet::test {

@@ -14,8 +14,8 @@ constexpr std::pair<const char*, Record::Channel> element_channels[] = {{"force"
                                                                         {"displacement", Record::Channel::displacement},
                                                                         {"velocity", Record::Channel::velocity}};
 
-template <class Channels>
-Record::Channel channel_of(const Channels& channels, const std::string& name) {
+template <class OutputSampler>
+Record::Channel channel_of(const OutputSampler& channels, const std::string& name) {
   for (const auto& [text, channel] : channels) {
     if (name == text) return channel;
   }

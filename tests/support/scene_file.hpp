@@ -12,7 +12,7 @@ namespace rheonet::test {
 /// holds for others too.
 struct SceneFile {
   Scene scene;
-  Trajectory rows;
+  RunTable rows;
   Summary summary;
 
   /// A parameter of an element as the scene has it; fails the test if there is none.

@@ -31,8 +31,8 @@ std::string contents(std::FILE* file) {
   return text;
 }
 
-Trajectory parse(const std::string& csv) {
-  Trajectory result;
+RunTable parse(const std::string& csv) {
+  RunTable result;
   std::istringstream lines(csv);
   std::string line, cell;
   std::getline(lines, line);
@@ -54,19 +54,19 @@ Trajectory parse(const std::string& csv) {
 
 }  // namespace
 
-const std::vector<double>& Trajectory::operator[](const std::string& name) const {
+const std::vector<double>& RunTable::operator[](const std::string& name) const {
   const auto found = columns.find(name);
   REQUIRE_MESSAGE(found != columns.end(), "no column `" << name << "`");
   return found->second;
 }
 
-double Trajectory::scale(const std::string& name) const {
+double RunTable::scale(const std::string& name) const {
   double largest = 0;
   for (double x : (*this)[name]) largest = std::max(largest, std::abs(x));
   return largest;
 }
 
-double largest_error(const Trajectory& rows, const Trajectory& exact) {
+double largest_error(const RunTable& rows, const RunTable& exact) {
   REQUIRE(rows.time() == exact.time());
   double largest = 0;
   for (const std::string& name : exact.header) {
@@ -92,9 +92,9 @@ Scene scene_of(const std::string& toml, double accuracy) {
   return *read.scene;
 }
 
-Trajectory simulate(const std::string& toml, double accuracy) { return simulate(scene_of(toml, accuracy)); }
+RunTable simulate(const std::string& toml, double accuracy) { return simulate(scene_of(toml, accuracy)); }
 
-Trajectory simulate(const Scene& scene, Summary* summary) {
+RunTable simulate(const Scene& scene, Summary* summary) {
   Attempt result = attempt(scene);
   if (!result.refusal.empty()) throw SimulationError(result.refusal);
   if (summary) *summary = result.summary;
@@ -120,7 +120,7 @@ Attempt attempt(const Scene& scene) {
   return result;
 }
 
-Trajectory read_rows(std::FILE* csv) { return parse(contents(csv)); }
+RunTable read_rows(std::FILE* csv) { return parse(contents(csv)); }
 
 std::string refusal(const std::string& toml) {
   try {

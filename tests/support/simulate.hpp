@@ -11,7 +11,7 @@
 namespace rheonet::test {
 
 /// The rows of a run, by column name; `time` is a column like the others.
-struct Trajectory {
+struct RunTable {
   std::map<std::string, std::vector<double>> columns;
   std::vector<std::string> header;
 
@@ -27,25 +27,25 @@ struct Trajectory {
 Scene scene_of(const std::string& toml, double accuracy = 0);
 
 /// Reads and runs a netlist given as text. A run that fails throws std::runtime_error with its message too.
-Trajectory simulate(const std::string& toml, double accuracy = 0);
+RunTable simulate(const std::string& toml, double accuracy = 0);
 
 /// Runs a scene. Throws SimulationError, also where the run would go on for ever.
-Trajectory simulate(const Scene& scene, Summary* summary = nullptr);
+RunTable simulate(const Scene& scene, Summary* summary = nullptr);
 
 /// What came of a run: if it ended with a SimulationError, its text and the rows up to there.
 struct Attempt {
-  Trajectory rows;
+  RunTable rows;
   Summary summary;
   std::string refusal;
 };
 Attempt attempt(const Scene& scene);
 
 /// The rows that a run has written to a file.
-Trajectory read_rows(std::FILE* csv);
+RunTable read_rows(std::FILE* csv);
 
 /// By how much the record that is farthest from the same one of another run is off at its worst row, as a share of its scale
 /// there. Fails the test if the rows are not at the same times.
-double largest_error(const Trajectory& rows, const Trajectory& exact);
+double largest_error(const RunTable& rows, const RunTable& exact);
 
 /// The message that `simulate` would throw; "" if it does not.
 std::string refusal(const std::string& toml);

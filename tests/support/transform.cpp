@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "core/base/index.hpp"
 #include "core/network/component.hpp"
-#include "core/network/index.hpp"
 
 namespace rheonet::test {
 

@@ -61,7 +61,7 @@ void check_printed(const std::string& shown, const std::string& printed) {
   std::istringstream lines(shown), out(printed);
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line == "...") continue;
-    // Which setting is the cheapest depends on CPU times, and so does the rest of that sentence (precision_test.cpp).
+    // Which setting is the cheapest depends on CPU times, and so does the rest of that sentence (work_precision_test.cpp).
     const bool by_time = line.starts_with("the cheapest that meets");
     if (by_time) line = line.substr(0, line.find(':'));
     CAPTURE(line);

@@ -40,7 +40,7 @@ std::size_t kind_of(const Record& record) {
 
 }  // namespace
 
-Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference) {
+Agreement agreement(const Scene& scene, const RunTable& rows, const ReferenceSolution& reference) {
   Agreement result;
   if (rows.header.empty()) return result;  // refused before the first row
   std::array<double, 3> largest{least, least, least};

@@ -20,6 +20,6 @@ struct Agreement {
   double from_fine = 0, from_coarse = 0;
 };
 
-Agreement agreement(const Scene& scene, const Trajectory& rows, const ReferenceSolution& reference);
+Agreement agreement(const Scene& scene, const RunTable& rows, const ReferenceSolution& reference);
 
 }  // namespace rheonet::test

@@ -54,7 +54,7 @@ std::string wrong_energy(const Scene& scene, const Summary& whole) {
 }
 
 /// "" or where friction is beyond its bounds.
-std::string wrong_friction(const Scene& scene, const Trajectory& rows) {
+std::string wrong_friction(const Scene& scene, const RunTable& rows) {
   for (const SceneElement& e : scene.elements) {
     const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
     if (type != "slider" && type != "sfm" && type != "cfm") continue;
@@ -89,7 +89,7 @@ std::string channel_of(const std::string& path) {
   return channel == "displacement" ? "position" : channel;
 }
 
-Difference difference(const View& view, const Trajectory& original, const Trajectory& seen, double allowed) {
+Difference difference(const View& view, const RunTable& original, const RunTable& seen, double allowed) {
   Difference result;
   std::map<std::string, double> largest;
   for (const View::Column& column : view.columns) {

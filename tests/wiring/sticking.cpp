@@ -34,7 +34,7 @@ double value_of(const SceneElement& e, const std::string& name) {
   return NAN;
 }
 
-std::vector<Force> forces_of(const Scene& scene, const Trajectory& rows) {
+std::vector<Force> forces_of(const Scene& scene, const RunTable& rows) {
   std::vector<Force> forces;
   for (const SceneElement& e : scene.elements) {
     const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
@@ -52,7 +52,7 @@ std::vector<Force> forces_of(const Scene& scene, const Trajectory& rows) {
 
 }  // namespace
 
-std::string wrong_sticking(const Scene& scene, const Trajectory& rows) {
+std::string wrong_sticking(const Scene& scene, const RunTable& rows) {
   if (rows.header.empty()) return "";
   const std::vector<Force> forces = forces_of(scene, rows);
   double largest = 0;

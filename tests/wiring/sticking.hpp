@@ -8,6 +8,6 @@ namespace rheonet::test {
 
 /// Judges the printed forces of sliders that stick: the nodes at their ends balance to the accuracy of the run, and the forces are
 /// those of least norm within the bounds. The rows hold every force and velocity. Returns "" or what is wrong.
-std::string wrong_sticking(const Scene& scene, const Trajectory& rows);
+std::string wrong_sticking(const Scene& scene, const RunTable& rows);
 
 }  // namespace rheonet::test

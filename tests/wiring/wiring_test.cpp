@@ -13,16 +13,16 @@ namespace {
 
 constexpr unsigned seed = 20260417;
 
-std::string listed(const std::vector<std::string>& lines) {
+std::string format_list(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += "\n" + line;
   return text;
 }
 
 void check(const Tally& tally, std::size_t count) {
-  CHECK_MESSAGE(tally.of(Verdict::wrong) == 0, listed(tally.wrong));
+  CHECK_MESSAGE(tally.of(Verdict::wrong) == 0, format_list(tally.wrong));
   // The reference decides nearly all.
-  CHECK_MESSAGE(100 * tally.undecided.size() <= count, listed(tally.undecided));
+  CHECK_MESSAGE(100 * tally.undecided.size() <= count, format_list(tally.undecided));
   CHECK_LE(tally.of(Verdict::open), count / 10);
   CHECK_GE(tally.of(Verdict::agrees), 4 * count / 5);
 }
@@ -50,7 +50,7 @@ TEST_CASE("reductions change no record of wirings beyond the accuracy asked") {
 TEST_CASE("wirings that did not always agree with an independent integrator") {
   const std::vector<int> numbers = {927, 1699, 3231, 3410, 4826, 5310, 8559};
   const Tally tally = judge_all(numbers, 1, [](const Wiring& wiring) { return judge(wiring); });
-  CHECK_MESSAGE(tally.of(Verdict::agrees) == numbers.size(), listed(tally.wrong));
+  CHECK_MESSAGE(tally.of(Verdict::agrees) == numbers.size(), format_list(tally.wrong));
 }
 
 TEST_CASE("wirings that did not always satisfy the identities of mechanics") {
@@ -58,5 +58,5 @@ TEST_CASE("wirings that did not always satisfy the identities of mechanics") {
                                     3980, 4088, 4139, 5179, 5287, 5395, 5990, 6282, 6883, 6910, 7307, 7355, 7432, 8002,
                                     9095, 9411, 9715, 10116, 10185, 10517, 10635};
   const Tally tally = judge_all(numbers, 1, check_identities);
-  CHECK_MESSAGE(tally.of(Verdict::agrees) == numbers.size(), listed(tally.wrong));
+  CHECK_MESSAGE(tally.of(Verdict::agrees) == numbers.size(), format_list(tally.wrong));
 }

@@ -5,8 +5,8 @@
 
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
-#include "core/result/course.hpp"
 #include "core/result/run.hpp"
+#include "core/result/trajectory.hpp"
 
 namespace rheonet::bench {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/netlist/scene.hpp"
-#include "tools/draw/typed.hpp"
+#include "tools/draw/literals.hpp"
 
 namespace rheonet::draw {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "tools/draw/literals.hpp"
 #include "tools/draw/network_tree.hpp"
 #include "tools/draw/picture.hpp"
-#include "tools/draw/typed.hpp"
 
 namespace rheonet::draw {
 

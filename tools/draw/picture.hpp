@@ -36,7 +36,7 @@ struct Mark {
 };
 
 /// What joins symbols to each other: a rigid rod, all of which is one node.
-struct Wire {
+struct SignalConnection {
   NodeId node;
   std::vector<Point> points;  ///< horizontal and vertical pieces
   std::vector<double> hops;   ///< of a horizontal wire: the x at which it passes over others
@@ -72,7 +72,7 @@ struct Picture {
   std::size_t omitted = 0;  ///< elements that repeat what is beside them, and are left out
   double stroke = 1.4;      ///< width of the lines [px]
   std::vector<Mark> marks;
-  std::vector<Wire> wires;
+  std::vector<SignalConnection> wires;
   std::vector<Wall> walls;
   std::vector<SignalLine> signals;
   std::vector<Label> labels;

@@ -23,7 +23,7 @@ std::string path_of(const std::vector<Point>& points) {
 }
 
 /// A horizontal wire that leaps over what it crosses.
-std::string path_of(const Wire& wire) {
+std::string path_of(const SignalConnection& wire) {
   if (wire.hops.empty()) return path_of(wire.points);
   constexpr double radius = 4;
   const double y = wire.points.front().y;
@@ -105,7 +105,7 @@ void Picture::add(const Picture& other, Point by) {
     for (Mark::End& end : mark.ends) end.at = moved(end.at);
     marks.push_back(std::move(mark));
   }
-  for (Wire wire : other.wires) {
+  for (SignalConnection wire : other.wires) {
     for (Point& p : wire.points) p = moved(p);
     for (double& x : wire.hops) x += by.x;
     wires.push_back(std::move(wire));
@@ -126,7 +126,7 @@ void Picture::add(const Picture& other, Point by) {
 std::string svg(const Picture& picture, const Scene& scene) {
   std::string body;
   for (const Wall& wall : picture.walls) body += hatching(wall);
-  for (const Wire& wire : picture.wires)
+  for (const SignalConnection& wire : picture.wires)
     body += fmt::format("<path class=\"node\" data-node=\"{}\" d=\"{}\"/>\n",
                         escaped(scene.nodes[static_cast<std::size_t>(wire.node)].name), path_of(wire));
   for (const SignalLine& line : picture.signals) body += arrow(line, picture.stroke);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tools/plot/curve_decimation.hpp"
 #include "tools/plot/figure.hpp"
 #include "tools/plot/style.hpp"
 #include "tools/plot/text.hpp"
-#include "tools/plot/thin.hpp"
 #include "tools/plot/ticks.hpp"
 
 // SVG is written here and not by a plotting program: it is a page of code, text stays text (it can be searched, read

@@ -9,7 +9,7 @@
 #include "core/network/error.hpp"
 #include "core/result/run.hpp"
 #include "tools/report/messages.hpp"
-#include "tools/report/thinner.hpp"
+#include "tools/report/row_decimation.hpp"
 #include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/claims.hpp"
 #include "tools/rheonet/summary.hpp"
@@ -157,7 +157,7 @@ bool tell_run(const ReadResult& read, const RunWanted& wanted, const Tell& tell)
   const std::size_t columns = std::max<std::size_t>(scene.records.size(), 1);
   RowTeller rows(scene.records.size(), wanted.as_they_come, tell);
   const std::size_t most_rows = std::clamp<std::size_t>(wanted.most_values / columns, 200, 5000);
-  Thinner thinner(static_cast<std::size_t>(scene.output_intervals) + 1, most_rows,
+  RowDecimation thinner(static_cast<std::size_t>(scene.output_intervals) + 1, most_rows,
                   [&](double time, const std::vector<double>& values) { rows.add(time, values); });
   tool::BothSides sides([&](double t, const std::vector<double>& v) { thinner.add(t, v); }, wanted.most_events);
   EnergyCourse energy(scene.start, scene.stop);

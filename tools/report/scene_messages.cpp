@@ -10,7 +10,7 @@
 #include "tools/draw/schematic.hpp"
 #include "tools/plot/mistake.hpp"
 #include "tools/plot/units.hpp"
-#include "tools/report/knobs.hpp"
+#include "tools/report/adjustable_numbers.hpp"
 #include "tools/report/messages.hpp"
 #include "tools/rheonet/explanation.hpp"
 #include "tools/rheonet/network_text.hpp"
@@ -111,8 +111,8 @@ json equations(const Scene& scene) {
 
 json sliders(const ReadResult& read) {
   json list = json::array();
-  for (const Knob& knob : knobs_of(read)) {
-    const char* scale = knob.scale == Knob::Scale::logarithmic ? "log" : knob.scale == Knob::Scale::whole ? "whole" : "linear";
+  for (const AdjustableNumber& knob : adjustable_numbers(read)) {
+    const char* scale = knob.scale == AdjustableNumber::Scale::logarithmic ? "log" : knob.scale == AdjustableNumber::Scale::whole ? "whole" : "linear";
     list.push_back({{"group", knob.group},
                     {"name", knob.name},
                     {"description", knob.description},

@@ -80,7 +80,7 @@ bool take_records(const Scene& scene, const std::vector<std::string>& paths, con
 
 }  // namespace
 
-std::optional<std::vector<Manner>> asked_variants(const Arguments& arguments, Scene& scene) {
+std::optional<std::vector<SimulationMethod>> asked_variants(const Arguments& arguments, Scene& scene) {
   const auto pairs = pairs_of(arguments, scene);
   if (!pairs) return {};
   std::vector<std::string> own, paired;  // paths, in this scene and in others
@@ -89,7 +89,7 @@ std::optional<std::vector<Manner>> asked_variants(const Arguments& arguments, Sc
     own.push_back(record.path);
     paired.push_back(other == pairs->end() ? record.path : other->second);
   }
-  std::vector<Manner> manners;
+  std::vector<SimulationMethod> methods;
   std::vector<Scene> scenes{scene};
   for (const std::string& text : arguments.variant_texts) {
     const auto asked = parsed(text, arguments.scene);
@@ -104,17 +104,17 @@ std::optional<std::vector<Manner>> asked_variants(const Arguments& arguments, Sc
       say("  in the variant `{}`; it has to have all that the scene records, or what `--pair` names in place of it\n", printable(text));
       return {};
     }
-    manners.push_back({.name = asked->text});
+    methods.push_back({.name = asked->text});
     scenes.push_back(std::move(*read.scene));
   }
   if (const std::string why = obstacle(scenes); !why.empty()) {
     say("error: {}\n", why);
     return {};
   }
-  if (!manners.empty()) to_one_time_base(scenes);
+  if (!methods.empty()) to_one_time_base(scenes);
   scene = scenes.front();
-  for (std::size_t k = 0; k < manners.size(); ++k) manners[k].scene = {std::move(scenes[k + 1])};
-  return manners;
+  for (std::size_t k = 0; k < methods.size(); ++k) methods[k].scene = {std::move(scenes[k + 1])};
+  return methods;
 }
 
 }  // namespace rheonet::tool

@@ -94,7 +94,7 @@ Compared read_all(const Arguments& arguments, const std::string& override) {
 void run_all(Compared& compared, const std::string& override, const std::atomic<bool>& interrupted) {
   for (std::size_t i = 0; i < compared.scenes.size(); ++i) {
     try {
-      compared.courses.push_back(run_to_memory(compared.scenes[i], {.interrupt = &interrupted}));
+      compared.trajectories.push_back(run_to_memory(compared.scenes[i], {.interrupt = &interrupted}));
     } catch (const SimulationError& error) {
       report(error, compared.sources[i]);
       say("  {}{}{}{} simulated\n", printable(compared.files[i]), override.empty() ? "" : " with ", printable(override),
@@ -105,8 +105,8 @@ void run_all(Compared& compared, const std::string& override, const std::atomic<
   for (std::size_t i = 1; i < compared.scenes.size(); ++i) {
     compared.differences.emplace_back();
     for (const Pairing& pairing : compared.pairings)
-      compared.differences.back().push_back(difference(compared.courses[0], compared.columns[0].at(pairing[0]),
-                                                       compared.courses[i], compared.columns[i].at(pairing[i])));
+      compared.differences.back().push_back(difference(compared.trajectories[0], compared.columns[0].at(pairing[0]),
+                                                       compared.trajectories[i], compared.columns[i].at(pairing[i])));
   }
 }
 
@@ -153,7 +153,7 @@ Findings compare_over(const Variation& variation, Compared compared, const Argum
     }
     look(compared, value, found.furthest);
     rows.push_back({value, compared.differences, {}});
-    for (const Course& course : compared.courses) rows.back().dissipated.push_back(course.summary.dissipated);
+    for (const Trajectory& trajectory : compared.trajectories) rows.back().dissipated.push_back(trajectory.summary.dissipated);
   }
   found.text = describe(variation.path, rows, compared);
   found.data = table(variation.path, rows, compared);
@@ -173,7 +173,7 @@ ExitStatus compare(const Arguments& arguments) {
   }
   Compared compared = read_all(arguments, variation ? variation->path + '=' + variation->values.front() : "");
   std::unique_ptr<Output> output;
-  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Manner::complete))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::SimulationMethod::complete))) return wrong_input;
 
   const std::atomic<bool>& interrupted = end_on_signals();
   const char* const row = variation ? "value" : "row";

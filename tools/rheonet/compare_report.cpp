@@ -35,7 +35,7 @@ std::string list_of_scenes(const Compared& compared) {
 }
 
 std::string energy_line(const Compared& compared, std::size_t other) {
-  const double a = compared.courses.front().summary.dissipated, b = compared.courses[other].summary.dissipated;
+  const double a = compared.trajectories.front().summary.dissipated, b = compared.trajectories[other].summary.dissipated;
   const double larger = std::max(std::abs(a), std::abs(b));
   std::string text = fmt::format("  energy dissipated: A {}, {} {}", readable(a, "J"), letter(other), readable(b, "J"));
   if (b == a) return text + ", the same\n";
@@ -55,7 +55,7 @@ std::string describe(const Compared& compared) {
   const Scene& first = compared.scenes.front();
   std::string text = list_of_scenes(compared);
   text += fmt::format("  {:g} s to {:g} s, {} rows, {:g} s apart\n", first.start, first.stop,
-                      compared.courses.front().times.size(), first.output_every);
+                      compared.trajectories.front().times.size(), first.output_every);
   for (std::size_t other = 1; other < compared.scenes.size(); ++other) {
     text += fmt::format("\n{} against A\n", letter(other));
     Rows rows{{"record", "largest difference", "relative", "at", "A is", letter(other) + " is", "rms difference",
@@ -90,12 +90,12 @@ std::string overlay(const Compared& compared) {
     }
   }
   text += '\n';
-  const Course& first = compared.courses.front();
+  const Trajectory& first = compared.trajectories.front();
   for (std::size_t row = 0; row < first.rows.size(); ++row) {
     text += fmt::format("{}", first.times[row]);
     for (const auto& of_pairing : columns)
       for (std::size_t i = 0; i < of_pairing.size(); ++i)
-        fmt::format_to(std::back_inserter(text), ",{}", compared.courses[i].rows[row][of_pairing[i]] + 0.0);
+        fmt::format_to(std::back_inserter(text), ",{}", compared.trajectories[i].rows[row][of_pairing[i]] + 0.0);
     text += '\n';
   }
   return text;

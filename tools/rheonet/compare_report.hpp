@@ -15,7 +15,7 @@ struct Compared {
   std::vector<Columns> columns;  ///< of each scene
   std::vector<Sources> sources;
   std::vector<Pairing> pairings;
-  std::vector<Course> courses;
+  std::vector<Trajectory> trajectories;
   std::vector<std::vector<Difference>> differences;  ///< of each scene but the first, for each pairing
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/netlist/scene.hpp"
-#include "core/result/course.hpp"
+#include "core/result/trajectory.hpp"
 
 namespace rheonet::tool {
 

@@ -28,7 +28,7 @@ std::string percent(double relative, double accuracy) {
 
 std::string milliseconds(double seconds) { return fmt::format("{:.3g} ms", 1e3 * seconds); }
 
-std::vector<std::string> row_of(const Scene& scene, const Ladder& ladder, const Rung& rung, const std::string& name) {
+std::vector<std::string> row_of(const Scene& scene, const ModelHierarchy& ladder, const Rung& rung, const std::string& name) {
   if (!rung.failure.empty()) return {name, "cannot be simulated"};
   const double ratio = ladder.full.median_cpu() > 0 ? rung.median_cpu() / ladder.full.median_cpu() : 1;
   std::vector<std::string> row{name, milliseconds(rung.median_cpu()), fmt::format("{:.2f}", ratio), fmt::format("{}", rung.steps)};
@@ -40,7 +40,7 @@ std::vector<std::string> row_of(const Scene& scene, const Ladder& ladder, const 
   return row;
 }
 
-std::string models(const Scene& scene, const Ladder& ladder, const std::vector<Rung>& rungs, bool all_names) {
+std::string models(const Scene& scene, const ModelHierarchy& ladder, const std::vector<Rung>& rungs, bool all_names) {
   std::vector<std::vector<std::string>> rows{{"without", "CPU time", "ratio", "steps", "largest difference", "rms", "of its size", "record"}};
   rows.push_back(row_of(scene, ladder, ladder.full, "(the full model)"));
   for (const Rung& rung : rungs) {
@@ -55,7 +55,7 @@ std::string models(const Scene& scene, const Ladder& ladder, const std::vector<R
 }
 
 /// Of each record, what each effect changes by itself; the records first that change most.
-std::string by_record(const Scene& scene, const Ladder& ladder) {
+std::string by_record(const Scene& scene, const ModelHierarchy& ladder) {
   std::vector<std::size_t> order(scene.records.size());
   std::vector<double> most(order.size(), 0);
   for (std::size_t k = 0; k < order.size(); ++k) {
@@ -87,7 +87,7 @@ std::string by_record(const Scene& scene, const Ladder& ladder) {
   return text;
 }
 
-std::string recommendation(const Scene& scene, const std::string& file, const Ladder& ladder, double within) {
+std::string recommendation(const Scene& scene, const std::string& file, const ModelHierarchy& ladder, double within) {
   std::vector<Effect> needed = ladder.effects, spare;
   const Rung* const barest = ladder.barest_within(within);
   if (barest) spare = barest->without;
@@ -105,7 +105,7 @@ std::string recommendation(const Scene& scene, const std::string& file, const La
 
 }  // namespace
 
-std::string describe(const Scene& scene, const std::string& file, const Ladder& ladder, double within) {
+std::string describe(const Scene& scene, const std::string& file, const ModelHierarchy& ladder, double within) {
   if (ladder.effects.empty()) return fmt::format("{}: nothing in it brings an effect that could be left out\n", printable(file));
   std::string text = fmt::format("{}: {:g} s to {:g} s, with {}\n", printable(file), scene.start, scene.stop, in_words(ladder.effects));
   text += "\neach effect left out by itself\n" + models(scene, ladder, ladder.each, false);
@@ -114,7 +114,7 @@ std::string describe(const Scene& scene, const std::string& file, const Ladder& 
   return text + by_record(scene, ladder) + recommendation(scene, file, ladder, within);
 }
 
-std::string table(const Scene& scene, const Ladder& ladder) {
+std::string table(const Scene& scene, const ModelHierarchy& ladder) {
   std::string text = "without,record,unit,largest_difference,time,rms_difference,largest_magnitude,cpu_median,steps,failure\n";
   const auto add = [&](const Rung& rung) {
     std::vector<std::string> names;

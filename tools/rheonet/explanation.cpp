@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/base/format_list.hpp"
 #include "core/netlist/characters.hpp"
-#include "core/network/listed.hpp"
 #include "core/network/reductions.hpp"
 #include "tools/rheonet/words.hpp"
 
@@ -38,8 +38,8 @@ Passage effects_of(const Explanation& e) {
   for (const Explanation::EffectFound& effect : e.effects) {
     const std::string name = in_words(effect.effect);
     if (effect.by.empty() && effect.left_out.empty()) absent += (absent.empty() ? "" : ", ") + name;
-    if (!effect.by.empty()) passage.lines.push_back({.label = name, .text = listed(effect.by, names_shown)});
-    if (!effect.left_out.empty()) passage.lines.push_back({.label = name, .text = "left out of " + listed(effect.left_out, names_shown)});
+    if (!effect.by.empty()) passage.lines.push_back({.label = name, .text = format_list(effect.by, names_shown)});
+    if (!effect.left_out.empty()) passage.lines.push_back({.label = name, .text = "left out of " + format_list(effect.left_out, names_shown)});
   }
   if (!absent.empty()) passage.lines.push_back(plain("nothing here brings " + absent));
   return passage;
@@ -50,7 +50,7 @@ Passage unknowns_of(const Explanation& e) {
   Passage passage{.heading = fmt::format("unknowns: {} at the start, {} integrated and {} that follow at every instant", e.cost.unknowns,
                                          s.differential, s.algebraic)};
   for (const Explanation::Unknowns& u : e.unknowns) {
-    passage.lines.push_back(plain(fmt::format("{} of {}{}: {}", u.quantity, listed(u.names, names_shown),
+    passage.lines.push_back(plain(fmt::format("{} of {}{}: {}", u.quantity, format_list(u.names, names_shown),
                                               u.unit.empty() ? "" : " [" + u.unit + "]", u.equation)));
   }
   if (e.cost.unknowns == 0) passage.lines.push_back(plain("none: every motion is given, and each force follows from it"));
@@ -61,7 +61,7 @@ Passage omissions_of(const Explanation& e) {
   Passage passage{.heading = "left out"};
   for (const Explanation::Omission& o : e.left_out) {
     const std::string keep = o.reduction.empty() ? "" : fmt::format(" (--keep {})", o.reduction);
-    passage.lines.push_back(plain(fmt::format("{} {}: {}{}", o.what, listed(o.names, names_shown), o.reason, keep)));
+    passage.lines.push_back(plain(fmt::format("{} {}: {}{}", o.what, format_list(o.names, names_shown), o.reason, keep)));
   }
   if (e.left_out.empty()) passage.lines.push_back(plain("nothing"));
   return passage;
@@ -88,7 +88,7 @@ Passage events_of(const Explanation& e) {
   if (e.events.empty()) return {.heading = "events: none can occur, and none is looked for"};
   Passage passage{.heading = "events that can occur"};
   for (const Explanation::Events& event : e.events)
-    passage.lines.push_back(plain(fmt::format("{}: {}", listed(event.names, names_shown), event.kinds)));
+    passage.lines.push_back(plain(fmt::format("{}: {}", format_list(event.names, names_shown), event.kinds)));
   return passage;
 }
 

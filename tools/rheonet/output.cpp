@@ -59,8 +59,8 @@ std::unique_ptr<Output> opened(const std::string& path, Args... args) {
 
 }  // namespace
 
-Output::Output(const std::string& path, Manner manner)
-    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`"), manner_(manner) {
+Output::Output(const std::string& path, SimulationMethod method)
+    : path_(path), name_(path == "-" ? "standard output" : "`" + printable(path) + "`"), manner_(method) {
   if (path == "-") {
     descriptor_ = STDOUT_FILENO;
   } else {
@@ -105,7 +105,7 @@ std::string Output::kept(const char* row) const {
 
 int Output::begin() {
   if (path_ == "-" || !is_regular(descriptor_)) return 0;
-  if (manner_ == Manner::complete) {
+  if (manner_ == SimulationMethod::complete) {
     try {
       write_beside();
       return 0;
@@ -168,7 +168,7 @@ bool Output::finish() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   finishing_ = true;
-  if (manner_ == Manner::complete && path_ != "-") {
+  if (manner_ == SimulationMethod::complete && path_ != "-") {
     replacement_.reset();  // removes the temporary file: what it holds is not complete
     if (created_) ::unlink(path_.c_str());
     return false;
@@ -210,7 +210,7 @@ int Output::close() {
     left_alone_ = error_ != 0 || abandoned_;
     replacement_.reset();
   } else {
-    left_alone_ = manner_ == Manner::complete && !touched_;
+    left_alone_ = manner_ == SimulationMethod::complete && !touched_;
     // Some file systems report only here that the disk is full.
     if (::close(descriptor_) != 0 && error_ == 0) error_ = errno;
   }
@@ -231,7 +231,7 @@ bool write_all(Output& output, const std::string& text, const char* row) {
   return error == 0;
 }
 
-std::unique_ptr<Output> open_output(const std::string& path, Output::Manner manner) { return opened(path, manner); }
+std::unique_ptr<Output> open_output(const std::string& path, Output::SimulationMethod method) { return opened(path, method); }
 
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines) {
   return opened(path, bytes, lines);

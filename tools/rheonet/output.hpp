@@ -12,13 +12,13 @@ namespace rheonet::tool {
 /// Where the results of a command go. It counts the rows, and remembers why a write failed (disk full, reader gone).
 class Output {
  public:
-  enum class Manner {
+  enum class SimulationMethod {
     as_it_comes,  ///< an existing file is emptied when the first row comes, not before; a full disk leaves whole rows
     complete,     ///< `close` replaces an existing file if every write succeeded; else the file stays as it is
   };
 
   /// `path` "-" is standard output. Throws std::system_error if the file cannot be opened for writing.
-  explicit Output(const std::string& path, Manner manner = Manner::as_it_comes);
+  explicit Output(const std::string& path, SimulationMethod method = SimulationMethod::as_it_comes);
   /// A file whose first bytes are kept, so many with so many lines: what is written comes after them, and nothing of what
   /// stood there is lost before.
   Output(const std::string& path, std::size_t bytes, long lines);
@@ -65,7 +65,7 @@ class Output {
   bool touched_ = false;
   bool finishing_ = false;  ///< no write may wait for a reader any more
   std::size_t kept_ = 0;  ///< bytes of an earlier writing
-  Manner manner_;
+  SimulationMethod manner_;
   bool abandoned_ = false;
   bool left_alone_ = false;  ///< closed without a change of the file
   int folder_ = -1;       ///< of the file, while it is replaced
@@ -73,7 +73,7 @@ class Output {
 };
 
 /// Opens it; nullptr, and an error message, if that is not possible.
-std::unique_ptr<Output> open_output(const std::string& path, Output::Manner manner);
+std::unique_ptr<Output> open_output(const std::string& path, Output::SimulationMethod method);
 
 /// The same for rows as they come after so many bytes, with so many lines, of an earlier writing.
 std::unique_ptr<Output> open_output_after(const std::string& path, std::size_t bytes, long lines);

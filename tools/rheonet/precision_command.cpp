@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/result/precision.hpp"
+#include "core/result/work_precision.hpp"
 #include "tools/rheonet/asked_variants.hpp"
 #include "tools/rheonet/commands.hpp"
 #include "tools/rheonet/figure_file.hpp"
@@ -48,21 +48,21 @@ ExitStatus price_scene(const Arguments& arguments) {
   const ReadResult read = read_and_report(arguments.scene, options);
   if (!read.scene) return wrong_input;
   Scene scene = *read.scene;
-  std::optional<std::vector<Manner>> asked = asked_variants(arguments, scene);
+  std::optional<std::vector<SimulationMethod>> asked = asked_variants(arguments, scene);
   if (!asked) return wrong_input;
   if (!arguments.figure.empty() && !can_be_figure(arguments.figure, "--plot")) return wrong_input;
   if (is_source(arguments.overlay, "--output", read.sources) || is_source(arguments.figure, "--plot", read.sources)) return wrong_input;
   if (!can_be_table(arguments.overlay, "--output")) return wrong_input;
   std::unique_ptr<Output> output;
-  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::Manner::complete))) return wrong_input;
+  if (!arguments.overlay.empty() && !(output = open_output(arguments.overlay, Output::SimulationMethod::complete))) return wrong_input;
 
   PriceList list;
   const bool simulated = do_watched(read.sources, [&](const auto& progress) {
-    std::vector<Manner> all = arguments.variants ? manners(scene) : std::vector<Manner>{{.name = "order up to 5"}};
+    std::vector<SimulationMethod> all = arguments.variants ? methods(scene) : std::vector<SimulationMethod>{{.name = "order up to 5"}};
     if (arguments.certified) all.push_back({.name = "certified", .certified = true});
     std::move(asked->begin(), asked->end(), std::back_inserter(all));
     list = price_list(scene, {.tolerances = tolerances_of(arguments, scene),
-                              .manners = std::move(all),
+                              .methods = std::move(all),
                               .runs = arguments.runs,
                               .interrupt = &end_on_signals(),
                               .progress = progress});

@@ -46,15 +46,15 @@ std::string spread(const Price& price) {
 /// What ten times the accuracy costs from here on, in parts of what this costs.
 std::string next_digit(const Price& price, const Price* next, double (*cost)(const Price&)) {
   if (!next || !next->failure.empty() || !(cost(price) > 0)) return "-";
-  const double digits = std::log10(price.method.tolerance / next->method.tolerance);
+  const double digits = std::log10(price.setting.tolerance / next->setting.tolerance);
   return fmt::format("x {:.2f}", std::pow(cost(*next) / cost(price), 1 / digits));
 }
 
-/// The prices of each manner, in the order of the list.
-std::vector<std::vector<const Price*>> by_manner(const PriceList& list) {
+/// The prices of each method, in the order of the list.
+std::vector<std::vector<const Price*>> by_method(const PriceList& list) {
   std::vector<std::vector<const Price*>> result;
   for (const Price& p : list.prices) {
-    if (result.empty() || result.back().front()->method.manner != p.method.manner) result.emplace_back();
+    if (result.empty() || result.back().front()->setting.method != p.setting.method) result.emplace_back();
     result.back().push_back(&p);
   }
   return result;
@@ -66,7 +66,7 @@ std::string table_of(const Scene& scene, const PriceList& list, const std::vecto
   std::string failures;
   for (std::size_t i = 0; i < prices.size(); ++i) {
     const Price& p = *prices[i];
-    const std::string accuracy = fmt::format("{:g}", p.method.tolerance);
+    const std::string accuracy = fmt::format("{:g}", p.setting.tolerance);
     if (!p.failure.empty()) {
       rows.push_back({accuracy, "fails"});
       failures += fmt::format("  {} fails: {}\n", accuracy, wrapped(p.failure, 4));
@@ -105,14 +105,14 @@ std::string yardstick_words(const Scene& scene, const PriceList& list) {
   return text;
 }
 
-const std::string& name_of_manner(const PriceList& list, const Price& price) {
-  return list.manners[static_cast<std::size_t>(price.method.manner)];
+const std::string& name_of_method(const PriceList& list, const Price& price) {
+  return list.methods[static_cast<std::size_t>(price.setting.method)];
 }
 
 /// "accuracy = 1e-05, order up to 3".
 std::string name_of_price(const PriceList& list, const Price& price) {
-  return fmt::format("accuracy = {:g}", price.method.tolerance) +
-         (price.method.manner == 0 ? "" : ", " + printable(name_of_manner(list, price)));
+  return fmt::format("accuracy = {:g}", price.setting.tolerance) +
+         (price.setting.method == 0 ? "" : ", " + printable(name_of_method(list, price)));
 }
 
 std::string recommendation(const Scene& scene, const PriceList& list) {
@@ -139,8 +139,8 @@ std::string describe(const Scene& scene, const std::string& file, const PriceLis
   std::string text = fmt::format("{}: {:g} s to {:g} s, asks for an accuracy of {:g}\n", printable(file), scene.start,
                                  scene.stop, scene.accuracy);
   text += yardstick_words(scene, list);
-  for (const auto& prices : by_manner(list)) {
-    if (prices.front()->method.manner != 0) text += fmt::format("\n{}\n", printable(name_of_manner(list, *prices.front())));
+  for (const auto& prices : by_method(list)) {
+    if (prices.front()->setting.method != 0) text += fmt::format("\n{}\n", printable(name_of_method(list, *prices.front())));
     text += table_of(scene, list, prices);
   }
   return text + '\n' + recommendation(scene, list);
@@ -156,10 +156,10 @@ std::string table(const Scene& scene, const PriceList& list) {
   for (const Price& p : list.prices) {
     if (!p.failure.empty()) continue;
     const Summary& s = p.summary;
-    text += fmt::format("{}", p.method.order);
-    put(p.method.tolerance, p.error(), p.errors.empty() ? "" : scene.records[p.worst].path,
+    text += fmt::format("{}", p.setting.order);
+    put(p.setting.tolerance, p.error(), p.errors.empty() ? "" : scene.records[p.worst].path,
         p.errors.empty() ? 0 : p.errors[p.worst].time, median(p), p.cpu_quantile(0.25), p.cpu_quantile(0.75), s.steps,
-        s.rejected_steps, s.residual_evaluations, s.jacobian_evaluations, s.restarts, cell(name_of_manner(list, p)));
+        s.rejected_steps, s.residual_evaluations, s.jacobian_evaluations, s.restarts, cell(name_of_method(list, p)));
     for (const RecordError& error : p.errors) put(error.relative());
     text += '\n';
   }
@@ -174,8 +174,8 @@ std::vector<plot::Measured> curves(const PriceList& list) {
                                                                      {{"steps", plot::measure("steps", "1")}, steps}};
   std::vector<plot::Measured> result;
   for (const auto& [column, cost] : costs) {
-    for (const auto& prices : by_manner(list)) {
-      plot::Measured curve{name_of_manner(list, *prices.front()), error, column, {}};
+    for (const auto& prices : by_method(list)) {
+      plot::Measured curve{name_of_method(list, *prices.front()), error, column, {}};
       for (const Price* p : prices) {
         if (p->failure.empty()) curve.trace.add({std::max({p->error(), least_known(list, *p), rounding}), cost(*p)});
       }

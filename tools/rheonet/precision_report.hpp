@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/netlist/scene.hpp"
-#include "core/result/precision.hpp"
+#include "core/result/work_precision.hpp"
 #include "tools/plot/compose.hpp"
 
 namespace rheonet::tool {

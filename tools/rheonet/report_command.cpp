@@ -7,7 +7,7 @@
 
 #include "core/netlist/characters.hpp"
 #include "core/result/certify.hpp"
-#include "core/result/precision.hpp"
+#include "core/result/work_precision.hpp"
 #include "tools/report/document.hpp"
 #include "tools/report/messages.hpp"
 #include "tools/rheonet/certificate.hpp"
@@ -49,8 +49,8 @@ std::string price_message(const Scene& scene, const std::string& file, const Pri
   json prices = json::array();
   for (const Price& price : list.prices) {
     if (!price.failure.empty()) continue;
-    prices.push_back({{"tolerance", price.method.tolerance},
-                      {"order", price.method.order},
+    prices.push_back({{"tolerance", price.setting.tolerance},
+                      {"order", price.setting.order},
                       {"error", price.error()},
                       {"meets", price.meets},
                       {"cpu", price.cpu_quantile(0.5)},
@@ -160,7 +160,7 @@ ExitStatus write_report(const Arguments& arguments) {
   progress.erase();
   const std::string& own = reads.front().scene->title;
   const std::string title = !arguments.title.empty() ? arguments.title : own.empty() ? arguments.scenes.front() : own;
-  const std::unique_ptr<Output> output = open_output(arguments.output, Output::Manner::complete);
+  const std::unique_ptr<Output> output = open_output(arguments.output, Output::SimulationMethod::complete);
   if (!output) return wrong_input;
   if (!write_all(*output, report::document(title, scenes), "line")) return not_simulated;
   return all_well ? done : not_as_claimed;

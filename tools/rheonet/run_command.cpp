@@ -12,7 +12,7 @@
 #include "core/netlist/characters.hpp"
 #include "core/result/certify.hpp"
 #include "core/result/csv.hpp"
-#include "core/result/division.hpp"
+#include "core/result/partition.hpp"
 #include "core/result/run.hpp"
 #include "tools/rheonet/both_sides.hpp"
 #include "tools/rheonet/certificate.hpp"
@@ -77,7 +77,7 @@ struct Outputs {
 
 /// A figure must not change the rows of a run: one is integrated in parts, or certified, only if nobody looks between its rows.
 bool is_looked_into(const Scene& scene, const Arguments& arguments) {
-  return !arguments.certify && divide(scene, {}).excerpts.empty();
+  return !arguments.certify && divide(scene, {}).subscenes.empty();
 }
 
 /// The figure of a run between whose rows nobody has looked, with its jumps upright: it is gone through once more for that.
@@ -104,11 +104,11 @@ ExitStatus run_scene(const Arguments& arguments) {
   const std::atomic<bool>& interrupted = end_on_signals();
   Outputs outputs;
   // The rows that are certified come when they are known to be good: an earlier result stays until then.
-  const auto manner = arguments.certify ? Output::Manner::complete : Output::Manner::as_it_comes;
-  outputs.rows = open_output(arguments.output, manner);
+  const auto method = arguments.certify ? Output::SimulationMethod::complete : Output::SimulationMethod::as_it_comes;
+  outputs.rows = open_output(arguments.output, method);
   if (!outputs.rows) return wrong_input;
   if (!arguments.events.empty()) {
-    outputs.events = open_output(arguments.events, manner);
+    outputs.events = open_output(arguments.events, method);
     if (!outputs.events) return wrong_input;
   }
   if (write_to_one_file(arguments)) return wrong_input;

@@ -42,7 +42,7 @@ std::string shortened(std::string text) {
 std::optional<Glance> glance(const std::string& text) {
   Sources sources;
   sources.files.push_back({"", text});
-  Mistakes mistakes(sources);
+  DiagnosticList mistakes(sources);
   const std::optional<TomlValue> document = parse_toml(0, sources, mistakes);
   if (!document) {
     const Diagnostic& first = mistakes.all().front();

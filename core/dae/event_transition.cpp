@@ -1,0 +1,353 @@
+#include "core/dae/event_transition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/base/index.hpp"
+#include "core/base/roundoff.hpp"
+#include "core/dae/dae.hpp"
+#include "core/network/overload_report.hpp"
+#include "core/network/rigid_links.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Step h of the mode-selection problem, as a share of the time to the next known discontinuity, and of the network's own times.
+constexpr double share_of_horizon = 1e-7;
+constexpr double least_of_network = 1e-12;
+constexpr double share_of_network = 1e-3;
+// Relative difference of equal energies.
+constexpr double link_rounding = 1e-9;
+// Jumps in a row, each of which refines the one before.
+constexpr int most_jumps = 3;
+
+}  // namespace
+
+EventTransition::EventTransition(const Network& network, const Structure& classified, Inputs& inputs)
+    : network_(network),
+      structure_(classified),
+      inputs_(inputs),
+      broken_(network.sliders.size(), 0),
+      impulse_told_(network.scene->elements.size(), 0),
+      slipping_(network.sliders.size(), 0),
+      came_to_rest_(network.sliders.size(), Modes::stuck),
+      slack_(classified.kind.size(), 0) {}
+
+// A slider that slips must come to rest, and break away, before it slips the other way.
+double EventTransition::bound(std::size_t k, int side) const {
+  const Slip& law = network_.sliders[k].law;
+  return broken_[k] || slipping_[k] == side ? law.coulomb : law.breakaway;
+}
+
+EventTransition::Change EventTransition::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
+                               Modes& modes, std::vector<double>& force) {
+  Change change;
+  inputs_.sense(t, state);
+  stepped_ = stepped;
+  std::vector<double> dx(structure_.kind.size(), 0);
+  if (stepped) position_steps(t, dx, state, change.notes);
+  const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
+  // A step that arrives through a delay is no step of the inputs: these do no work then.
+  const bool delayed = take_delayed_steps(t, state, change);
+  if (delayed && !driven) stepped = false;
+  change.heat += halt(t, fired.sliders, modes, state, change.notes);
+  for (std::size_t k = 0; k < broken_.size(); ++k) {
+    const bool event = contains(fired.sliders, static_cast<int>(k));
+    broken_[k] = 0;
+    came_to_rest_[k] = Modes::stuck;
+    if (event && !stepped_) came_to_rest_[k] = modes.slider[k];
+    slipping_[k] = event ? 0 : modes.slider[k];
+  }
+  // Between steps of the inputs, any imbalance before something breaks away is an error of the integrator's steps.
+  bool smooth = !stepped_ && !delayed;
+  std::fill(slack_.begin(), slack_.end(), 0.0);
+  if (smooth) take_back_excess(modes, force);
+  // A slider that breaks away above its sliding force releases the difference: others may follow.
+  for (bool again = true; again;) {
+    // A large displacement leaves its own round-off: a second jump removes it.
+    inputs_.sense(t, state);
+    for (int k = 0; smooth && k < most_jumps && settle_errors(t, state, force); ++k) inputs_.sense(t, state);
+    for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
+      std::fill(dx.begin(), dx.end(), 0.0);
+      inputs_.sense(t, state);
+    }
+    if (smooth) keep_slipping(force);
+    smooth = false;
+    change.sliding_modes.clear();  // these were held before the last break-away
+    const std::vector<int> broken =
+        select_modes(t, time_ahead(t, horizon, state), stepped ? Fired{} : fired, state, modes, force, change);
+    for (int k : broken) broken_[at(k)] = 1;
+    again = !broken.empty();
+    stepped = false;
+  }
+  count_from_turns(state);
+  return change;
+}
+
+/// Friction that reverses counts its deflection from there.
+void EventTransition::count_from_turns(State& state) const {
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      const double by = laws.batch->recentre(i, state.p[j]);
+      state.p[j] -= by;
+      state.offset[j] += by;
+    }
+  }
+}
+
+/// Between steps of the inputs, a slider's force beyond its bound is an error of the integrator's steps. The force is set to
+/// the bound, and the imbalance at its nodes is accepted: nothing need jump for it.
+void EventTransition::take_back_excess(const Modes& modes, std::vector<double>& force) {
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const int side = force[k] > 0 ? 1 : -1;
+    const double most = bound(k, side), excess = std::abs(force[k]) - most;
+    if (modes.slider[k] != Modes::stuck || !(excess > 0)) continue;
+    force[k] = side * most;
+    for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += excess;
+  }
+}
+
+/// Integration error alone does not stop a slipping slider: keep its force and accept the residual at its nodes.
+void EventTransition::keep_slipping(std::vector<double>& force) {
+  for (std::size_t k = 0; k < force.size(); ++k) {
+    const double full = slipping_[k] * network_.sliders[k].law.coulomb, lack = slipping_[k] * (full - force[k]);
+    if (!(lack > 0) || lack > largest_error * std::abs(full)) continue;
+    force[k] = full;
+    for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += lack;
+  }
+}
+
+/// Steps that arrive through delays change the deflections of delayed branches at once. Nothing moves at their ends then: the
+/// energy that they store thereby is deducted from the heat that was counted at the step itself (see jump).
+bool EventTransition::take_delayed_steps(double t, State& state, Change& change) {
+  DelayHistory& history = inputs_.history();
+  bool any = false;
+  for (std::size_t k = 0; k < history.delayed().size(); ++k) {
+    const int branch = history.delayed()[k].branch;
+    const double step = history.take_steps(k, t);
+    if (step == 0) continue;
+    std::size_t i = 0;
+    DeflectionBatch& batch = network_.batch_of(branch, i);
+    double& p = state.p[at(branch)];
+    change.heat += batch.stored_energy(i, p);
+    batch.jump(i, p, step);
+    p += step;
+    change.heat -= batch.stored_energy(i, p);
+    any = true;
+  }
+  return any;
+}
+
+void EventTransition::check_load(double t, double then, const State& state, const std::vector<double>& slider_force) const {
+  inputs_.sense(t, state);
+  inputs_.evaluate(then);
+  const std::optional<Jump> jump = find_jump(std::vector<double>(structure_.kind.size(), 0), state, slider_force);
+  if (jump && jump->outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, jump->problem.runaways(), state);
+}
+
+/// A time in which neither the inputs nor the network change course, but not below the resolution of time [s].
+double EventTransition::time_ahead(double t, double horizon, const State& state) const {
+  const std::size_t nodes = structure_.kind.size();
+  std::vector<double> stiffness(nodes, 0), damping(nodes, 0);
+  double fastest = 0;
+  const auto add = [](std::vector<double>& sum, const Branch& b, double x) {
+    sum[at(b.a)] += x;
+    sum[at(b.b)] += x;
+  };
+  std::vector<double> f(state.p.size()), df(f), c(f), dc(f);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&state.p[k], &f[k], &df[k], &c[k], &dc[k]);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const double slope = std::max(laws.batch->slope(i, state.p[k + i], 1), laws.batch->slope(i, state.p[k + i], -1));
+      add(stiffness, network_.deflections[k + i], slope);
+      if (laws.batch->creeps(i) && df[k + i] != 0) fastest = std::max(fastest, slope * std::abs(dc[k + i] / df[k + i]));
+    }
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      const double impulse = laws.batch->impulse(i);
+      if (impulse > 0 && std::isfinite(impulse)) {
+        add(damping, b, impulse);
+      } else if (w != 0) {
+        add(damping, b, laws.batch->force_at(i, w) / w);
+      }
+    }
+  }
+  for (std::size_t n = 1; n < nodes; ++n) {
+    const double m = structure_.mass[n];
+    if (structure_.kind[n] == Kind::known) continue;
+    if (m > 0) fastest = std::max({fastest, damping[n] / m, std::sqrt(stiffness[n] / m)});
+    if (m == 0 && damping[n] > 0) fastest = std::max(fastest, stiffness[n] / damping[n]);
+  }
+  double ahead = share_of_horizon * horizon;
+  // In a shorter time the round-off of the dashpots' forces would hide the changes of the springs' forces.
+  if (fastest > 0) ahead = std::clamp(ahead, least_of_network / fastest, share_of_network / fastest);
+  return std::max(std::min(ahead, inputs_.history().shortest() / 2), time_roundoff(t));
+}
+
+double EventTransition::given_velocity(NodeId node) const {
+  return structure_.motion[at(node)] < 0 ? 0 : inputs_.velocity[at(structure_.motion[at(node)])];
+}
+
+/// Masses that sliders bring to rest against each other go on with their common momentum: what remains of their relative
+/// velocity is the round-off of the event. Rigid links do so at once, and the energy that this takes is heat.
+double EventTransition::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
+                     std::vector<std::string>& notes) const {
+  refuse_torn_links(t);
+  std::vector<int> fired = events;
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    if (is_rigid_link(network_.sliders[k])) fired.push_back(static_cast<int>(k));
+  }
+  double heat = 0;
+  Modes held = modes;
+  for (int k : fired) held.slider[at(k)] = Modes::stuck;
+  std::vector<std::vector<NodeId>> around(structure_.kind.size());
+  for (std::size_t k = 0; k < held.slider.size(); ++k) {
+    if (held.slider[k] != Modes::stuck) continue;
+    const Branch& b = network_.sliders[k].branch;
+    around[at(b.a)].push_back(b.b);
+    around[at(b.b)].push_back(b.a);
+  }
+  std::vector<char> seen(structure_.kind.size(), 0);
+  for (int k : fired) {
+    std::vector<NodeId> cluster{network_.sliders[at(k)].branch.a};
+    if (seen[at(cluster[0])]) continue;
+    seen[at(cluster[0])] = 1;
+    double momentum = 0, mass = 0, known = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t c = 0; c < cluster.size(); ++c) {
+      const NodeId node = cluster[c];
+      if (structure_.kind[at(node)] == Kind::known) {
+        known = given_velocity(node);
+      }
+      momentum += structure_.mass[at(node)] * state.velocity[at(node)];
+      mass += structure_.mass[at(node)];
+      for (NodeId other : around[at(node)]) {
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        cluster.push_back(other);
+      }
+    }
+    if (std::isnan(known) && mass == 0) continue;
+    const double after = std::isnan(known) ? momentum / mass : known;
+    double lost = 0, had = 0;
+    for (NodeId node : cluster) {
+      const double before = state.velocity[at(node)], m = structure_.mass[at(node)];
+      if (std::isnan(known)) lost += m * (before - after) * (before + after) / 2;
+      had += m * before * before / 2;
+      state.velocity[at(node)] = after;
+    }
+    heat += lost;
+    if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > link_rounding * had) {
+      notes.push_back(fmt::format(
+          "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
+          "at once, before the energy account begins",
+          network_.name_of(link.branch), with_unit(*network_.scene, after, Quantity::velocity), lost));
+    }
+  }
+  return std::max(0.0, heat);
+}
+
+double EventTransition::force_of_deflection(const DeflectionBatch& batch, std::size_t i, double p) {
+  return p == 0 ? 0 : batch.slope(i, p, batch.direction(i)) * std::abs(p);
+}
+
+EventTransition::Nodal EventTransition::nodal(const State& state, const std::vector<double>& slider_force, bool rates) const {
+  const std::vector<double> none(structure_.kind.size(), 0);
+  Nodal result{none, none, none};
+  const auto add = [&](NodeId node, double f) {
+    if (node < 0) return;
+    result.sum[at(node)] += f;
+    result.magnitude[at(node)] += std::abs(f);
+  };
+  const auto add_branch = [&](const Branch& b, double f) {
+    add(b.a, f);
+    add(b.b, -f);
+  };
+  std::vector<double> f(state.p.size()), c(f);
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    laws.batch->evaluate(&state.p[at(laws.first)], &f[at(laws.first)], &c[at(laws.first)]);
+  }
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      const Branch& b = network_.deflections[j];
+      add_branch(b, f[j]);
+      const double more = deflection_share * force_of_deflection(*laws.batch, i, state.p[j]) - std::abs(f[j]);
+      for (const NodeId node : {b.a, b.b}) result.magnitude[at(node)] += std::max(0.0, more);
+    }
+  }
+  for (std::size_t k = 0; k < slider_force.size(); ++k) add_branch(network_.sliders[k].branch, slider_force[k]);
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; rates && i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double va = state.velocity[at(b.a)], vb = state.velocity[at(b.b)], w = std::abs(va - vb);
+      const double force = laws.batch->force_at(i, w);
+      add_branch(b, va < vb ? -force : force);
+      if (!(laws.batch->growth(i).exponent < 1)) continue;
+      // This law is solved for its force, to the round-off of velocities: near rest that round-off changes the force.
+      const double left = Dae::rounding_share * (std::abs(va) + std::abs(vb));
+      const double rounding = std::max(laws.batch->force_at(i, w + left) - force, force - laws.batch->force_at(i, w - left));
+      for (const NodeId node : {b.a, b.b}) result.rounding[at(node)] += rounding;
+    }
+  }
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    add(network_.forces[k].a, -inputs_.force[k]);
+    add(network_.forces[k].b, inputs_.force[k]);
+  }
+  return result;
+}
+
+/// A branch that has stopped has no velocity: the dead band of its guard leaves one, which may outweigh all changes within the
+/// look-ahead time. Nodes that stick to its massless end, or are held there, stop with it.
+void EventTransition::stop_at_turns(const Fired& fired, const Modes& modes, State& state) {
+  if (std::none_of(fired.turns.begin(), fired.turns.end(), [&](int j) { return may_stand(j); })) return;
+  DisjointSets together(structure_.kind.size());
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (modes.slider[k] == Modes::stuck) together.join(b.a, b.b);
+  }
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.deflections[at(laws.first) + i];
+      if (laws.batch->holds(i)) together.join(b.a, b.b);
+    }
+  }
+  std::vector<char> heavy(structure_.kind.size(), 0);
+  for (std::size_t n = 0; n < heavy.size(); ++n) {
+    if (!massless(static_cast<NodeId>(n))) heavy[at(together.find(static_cast<NodeId>(n)))] = 1;
+  }
+  const std::vector<double> before = state.velocity;
+  for (const int j : fired.turns) {
+    if (!may_stand(j)) continue;
+    const Branch& b = network_.deflections[at(j)];
+    NodeId stops = together.find(b.a), beside = b.b;
+    if (heavy[at(stops)]) std::tie(stops, beside) = std::pair(together.find(b.b), b.a);
+    if (heavy[at(stops)] || together.find(beside) == stops) continue;
+    const double velocity = state.velocity[at(beside)];
+    for (std::size_t n = 0; n < heavy.size(); ++n) {
+      if (together.find(static_cast<NodeId>(n)) == stops) state.velocity[n] = velocity;
+    }
+  }
+  // The balances lack the forces of that velocity (large for a pseudoplastic dashpot): accept the imbalance.
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double w = before[at(b.a)] - before[at(b.b)], now = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      if (now == w) continue;
+      const double left = std::abs(laws.batch->force_at(i, w) - laws.batch->force_at(i, now));
+      for (const NodeId node : {b.a, b.b}) slack_[at(node)] += left;
+    }
+  }
+}
+
+}  // namespace rheonet

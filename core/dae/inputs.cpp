@@ -1,0 +1,294 @@
+#include "core/dae/inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace rheonet {
+
+namespace {
+
+std::vector<char> firm(const Structure& classified) {
+  std::vector<char> result;
+  for (const Kind kind : classified.kind) result.push_back(kind == Kind::known || kind == Kind::massive);
+  return result;
+}
+
+}  // namespace
+
+Inputs::Inputs(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
+    : network_(&network),
+      stop_(network.scene->stop - network.scene->start),
+      moves_by_blocks_(false),
+      blocks_(network, classified),
+      history_(network, blocks_.delays(), blocks_.reach(), blocks_.channels(), blocks_.longest_step(), firm(classified)) {
+  base_.assign(blocks_.atoms(), {});
+
+  for (const Network::Motion& m : network.motions) {
+    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}, .anchor_time = start};
+    moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
+    motion.anchor = positions[static_cast<std::size_t>(m.node)];
+    // Until the first `enter` the node rests at its position before the run.
+    motion.piece.level = m.position ? motion.anchor : 0;
+    motions_.push_back(std::move(motion));
+  }
+  for (const Network::Force& f : network.forces) forces_.push_back({f.element, f.signal, {}});
+  position.resize(motions_.size());
+  velocity = acceleration = steps_ = position;
+  force.resize(forces_.size());
+  force_rate = force;
+  felt.resize(history_.delayed().size());
+  felt_now = felt;
+  time_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+double Inputs::position_of(const Motion& m, TimePoint t) const {
+  return m.by_position ? value(m.piece, t) : m.anchor + integral(m.piece, m.anchor_time, t);
+}
+
+double Inputs::way(int number, double t) const {
+  const Motion& m = motions_[static_cast<std::size_t>(number)];
+  return m.by_position ? change(m.piece, since_, exact(t)) : integral(m.piece, since_, exact(t));
+}
+
+bool Inputs::refine(TimePoint t) {
+  if (t == exact_) return false;
+  exact_ = t;
+  time_ = std::numeric_limits<double>::quiet_NaN();
+  return true;
+}
+
+void Inputs::enter(double t) {
+  // An event within the present pieces changes none of them.
+  const bool fresh = t >= next_break_.t;
+  const TimePoint now = exact(t);
+  if (fresh) searches_.clear();
+  next_break_ = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    Motion& m = motions_[i];
+    if (m.block >= 0) continue;
+    const double before = position_of(m, now), rounding = m.piece.rounding(t);
+    m.anchor = before;
+    m.anchor_time = now;
+    m.piece = m.signal.piece(t);
+    const double step = position_of(m, now) - before;
+    // A corner of a position signal leaves a difference of round-off, which is no step.
+    steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
+    next_break_ = std::min(next_break_, exact_end(m.signal, t));
+    history_.follow(i, t, m.piece, m.by_position);
+    blocks_.follow(static_cast<int>(i), t, m.piece, m.by_position, m.anchor);
+  }
+  next_break_ = std::min(next_break_, blocks_.enter(now));
+  for (Force& f : forces_) {
+    f.piece = f.signal.piece(t);
+    next_break_ = std::min(next_break_, exact_end(f.signal, t));
+  }
+  mark(t, fresh);
+}
+
+void Inputs::mark(double t, bool fresh) {
+  since_ = exact(t);
+  history_.mark(t, fresh || (!blocks_.delays().empty() && t > 0 && blocks_.breaks(t, history_)));
+  time_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<Inputs::Break> Inputs::breaks(double t) const {
+  constexpr double slope_rounding = 1e-12;
+  std::vector<Break> result;
+  const auto look = [&](int element, const Signal& signal, const Piece& before) {
+    if (before.end > t) return;
+    const Piece after = signal.piece(t);
+    const double step = after.value(t) - before.value(t), bend = after.rate(t) - before.rate(t);
+    const bool jumps = std::abs(step) > before.rounding(t) + after.rounding(t);
+    const bool bends = std::abs(bend) > slope_rounding * (std::abs(after.rate(t)) + std::abs(before.rate(t)));
+    const double change = jumps ? step : bends ? bend : 0;
+    result.push_back({element, jumps, change < 0 ? -1 : change > 0 ? 1 : 0});
+  };
+  for (const Motion& m : motions_) look(m.element, m.signal, m.piece);
+  for (const Force& f : forces_) look(f.element, f.signal, f.piece);
+  for (const BlockSignals::Generator& g : blocks_.generators()) look(g.element, *g.signal, *g.piece);
+  return result;
+}
+
+void Inputs::evaluate(double t) {
+  if (t == time_) return;
+  time_ = t;
+  const TimePoint now = exact(t);
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const Motion& m = motions_[i];
+    if (m.block >= 0) continue;
+    position[i] = position_of(m, now);
+    acceleration[i] = m.by_position ? m.piece.curvature(t) : m.piece.rate(t);
+    velocity[i] = (m.by_position ? m.piece.rate(t) : m.piece.value(t)) + acceleration[i] * now.rest;
+  }
+  for (std::size_t i = 0; i < forces_.size(); ++i) {
+    force_rate[i] = forces_[i].piece.rate(t);
+    force[i] = forces_[i].piece.value(t) + force_rate[i] * now.rest;
+  }
+  for (std::size_t k = 0; k < felt.size(); ++k) {
+    const DelayHistory::Felt f = history_.felt(k, t);
+    felt[k] = f.known.value;
+    felt_now[k] = f.present.value;
+  }
+  if (blocks_.any()) look_ahead(t);
+}
+
+void Inputs::look_ahead(double t) {
+  const std::size_t states = blocks_.states();
+  for (std::size_t k = 0; k < base_.size(); ++k) {
+    const Dual there(base_[k].value + base_[k].derivative * exact(t).since(sensed_at_), base_[k].derivative);
+    (k < states ? blocks_.state[k] : blocks_.sensed[k - states]) = there;
+  }
+  blocks_.evaluate_time(exact(t), history_);
+  for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
+    if (sensor.what != Blocks::Sensor::What::force) continue;
+    const Network::Place& place = network_->places[static_cast<std::size_t>(sensor.index)];
+    const auto index = static_cast<std::size_t>(place.index);
+    if (place.role == Role::force) blocks_.sensed[k] = Dual(force[index], force_rate[index]);
+  }
+  blocks_.run(false);
+  if (moves_by_blocks_) {
+    // A state that begins to change may still have the rate 0 from the last `sense`: compute the rates anew.
+    for (std::size_t k = 0; k < states; ++k) blocks_.state[k].derivative = blocks_.rate(k);
+    blocks_.run(false);
+  }
+  apply_blocks();
+}
+
+void Inputs::apply_blocks() {
+  for (std::size_t k = 0; k < network_->motions.size(); ++k) {
+    const Network::Motion& m = network_->motions[k];
+    if (m.block < 0) continue;
+    const Dual out = blocks_.out(m.block);
+    velocity[k] = m.sign * out.value;
+    acceleration[k] = m.sign * out.derivative;
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    if (f.block < 0) continue;
+    const Dual out = blocks_.out(f.block);
+    force[k] = f.sign * out.value;
+    force_rate[k] = f.sign * out.derivative;
+  }
+}
+
+/// Sensor values of a state, with the rates of positions.
+void Inputs::sense_network(const State& state) {
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k] = state.blocks[k];
+  for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
+    Dual& told = base_[blocks_.states() + k];
+    if (sensor.what == Blocks::Sensor::What::velocity) told = state.velocity[at(sensor.index)];
+    if (sensor.what == Blocks::Sensor::What::position) told = Dual(state.position[at(sensor.index)], state.velocity[at(sensor.index)]);
+    if (sensor.what != Blocks::Sensor::What::force) continue;
+    const Network::Place& place = network_->places[at(sensor.index)];
+    if (place.role == Role::deflection) {
+      std::size_t i = 0;
+      double slope = 0;
+      told = network_->batch_of(place.index, i).force_along(i, state.p[at(place.index)], 0, slope);
+    }
+    if (place.role == Role::rate) {
+      std::size_t i = 0;
+      const Branch& b = network_->rates[at(place.index)];
+      told = network_->rate_of(place.index, i).force_at(i, state.velocity[at(b.a)] - state.velocity[at(b.b)]);
+    }
+  }
+}
+
+void Inputs::sense(double t, const State& state) {
+  if (!blocks_.any()) return evaluate(t);
+  const auto anew = [&] {
+    time_ = std::numeric_limits<double>::quiet_NaN();
+    evaluate(t);
+  };
+  sensed_at_ = exact(t);
+  sense_network(state);
+  anew();
+  for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k].derivative = blocks_.rate(k);
+  blocks_.choose();
+  anew();
+}
+
+void Inputs::settle_blocks(double t, State& state) {
+  if (!blocks_.any()) return;
+  blocks_.evaluate_time(t, history_);
+  blocks_.settle();
+  for (std::size_t k = 0; k < blocks_.states(); ++k) state.blocks[k] = blocks_.state[k].value;
+  sense(t, state);
+}
+
+Inputs::Flow Inputs::flow(int a, int b, double t, double limit) const {
+  Flow result{0, 0, 0};
+  const auto add = [&](int i, double sign) {
+    if (i < 0) return;
+    const Motion& m = motions_[static_cast<std::size_t>(i)];
+    const Piece& p = m.piece;
+    result.w += sign * (m.by_position ? p.rate(t) : p.value(t));
+    result.dw += sign * (m.by_position ? p.curvature(t) : p.rate(t));
+    result.bound += m.by_position ? p.largest_third(t, limit) : p.largest_curvature(t, limit);
+  };
+  add(a, 1);
+  add(b, -1);
+  return result;
+}
+
+double Inputs::next_reversal(int a, int b, double t, double limit) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(limit) || limit <= t) return never;
+  const double grain = 1e-14 * (std::abs(t) + std::abs(limit)) + 1e-13 * (limit - t);
+  const auto [search, is_new] = searches_.try_emplace({a, b});
+  Search& last = search->second;
+  const bool still_ahead = !is_new && last.limit == limit && t >= last.from && last.found - t > 2 * grain;
+  if (!still_ahead) last = {t, limit, search_reversal(a, b, t, limit, grain)};
+  return last.found;
+}
+
+double Inputs::search_reversal(int a, int b, double t, double limit, double grain) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  double side = 0, zero = never;  // the last sign of w, and the time from which w has been exactly 0
+  for (double now = t; now < limit;) {
+    const Flow f = flow(a, b, now, limit);
+    const double sign = f.w > 0 ? 1 : f.w < 0 ? -1 : 0;
+    const double where = std::min(zero, now);
+    if (side * sign < 0 && where - t > 2 * grain) return where;
+    if (sign == 0) {
+      // On the crossing itself, or at rest for good, like two equal motions.
+      zero = where;
+      now += std::max(now - zero, grain);
+      continue;
+    }
+    side = sign;
+    zero = never;
+    // w| falls at most as fast as |w| - fall tau - bound tau^2/2: a stride to the zero of this bound misses no crossing.
+    const double fall = std::max(0.0, -side * f.dw);
+    const double root = std::hypot(fall, std::sqrt(2 * f.bound) * std::sqrt(std::abs(f.w)));
+    // Beyond the range of double precision no stride is safe: the search would advance by the round-off of time.
+    if (!std::isfinite(root)) return never;
+    const double stride = fall + root > 0 ? 2 * std::abs(f.w) / (fall + root) : never;
+    now += std::max(stride, grain);
+  }
+  return never;
+}
+
+Inputs::Reach Inputs::reach() const {
+  Reach result;
+  for (const Motion& m : motions_) {
+    const double end = std::min(m.piece.end, stop_);
+    const double fastest = m.by_position ? m.piece.largest_rate(m.piece.origin, end) : m.piece.largest(m.piece.origin, end);
+    result.velocity = std::max(result.velocity, fastest);
+  }
+  for (const Force& f : forces_) result.force = std::max(result.force, f.piece.largest(f.piece.origin, std::min(f.piece.end, stop_)));
+  return result;
+}
+
+double Inputs::fastest() const {
+  double omega = 0;
+  for (const Motion& m : motions_) omega = std::max(omega, m.piece.fastest());
+  for (const Force& f : forces_) omega = std::max(omega, f.piece.fastest());
+  for (const BlockSignals::Generator& g : blocks_.generators()) omega = std::max(omega, g.piece->fastest());
+  return omega;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/dae/block_signals.hpp"
+#include "core/dae/delay_history.hpp"
+#include "core/dae/state.hpp"
+#include "core/netlist/time_point.hpp"
+#include "core/network/network.hpp"
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// All given functions of time: prescribed motions and applied forces, each on the smooth piece of its signal that holds now. A
+/// force or velocity given by a block depends on more than time: see `sense`.
+class Inputs {
+ public:
+  /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
+  Inputs(const Network& network, const Structure& classified, double start, const std::vector<double>& positions);
+
+  /// Selects the pieces of the signals that begin at t. The positions of velocity-driven nodes continue without a jump.
+  void enter(double t);
+  /// Time of the next discontinuity of a signal or of one of its derivatives, or of its arrival through a delay [s]; infinite
+  /// if there is none.
+  double next_break() const { return std::min(next_break_.t, history_.next_break()); }
+  /// The same without arrivals through delays.
+  double next_signal_break() const { return next_break_.t; }
+  /// `t` to all known digits, if it is the next discontinuity.
+  TimePoint exact_break(double t) const { return t == next_break_.t ? next_break_ : TimePoint(t); }
+  /// From now on the double nearest to t stands for the exact time t. Returns whether that changes anything.
+  bool refine(TimePoint t);
+  /// The exact time that a double stands for.
+  TimePoint exact(double t) const { return t == exact_.t ? exact_ : TimePoint(t); }
+  /// The signals that are discontinuous at t = next_break(); call before `enter`. `jumps`: the signal itself jumps, not only a
+  /// derivative. `direction`: sign of the jump of the signal or of its slope (0: neither jumps).
+  struct Break { int element; bool jumps; int direction; };
+  std::vector<Break> breaks(double t) const;
+  /// Steps of position at the last `enter` (at the start: from before the run), for each motion.
+  const std::vector<double>& steps() const { return steps_; }
+
+  /// Evaluates everything at time t; a second call at the same t costs nothing.
+  void evaluate(double t);
+
+  /// Displacement of motion number `m` of the network from the last `enter` or `mark` until t, without steps [m]. Its round-off
+  /// is relative to this displacement, not to the position.
+  double way(int m, double t) const;
+
+  /// Gives blocks the state of the network at t; limiters take the sides that fit it. Afterwards `evaluate` extrapolates states
+  /// and sensor values at their present rates (velocities stay). Without blocks just `evaluate`.
+  void sense(double t, const State& state);
+  BlockSignals& blocks() { return blocks_; }
+  const BlockSignals& blocks() const { return blocks_; }
+  /// Takes the forces, the velocities and their rates from the present outputs of the blocks.
+  void apply_blocks();
+  /// Sets the blocks' states to their equilibrium, for a start at t from rest or in steady motion.
+  void settle_blocks(double t, State& state);
+  /// Stores the present in the delay history: call after a discontinuity and after each step, with blocks evaluated at t.
+  void remember(double t, const std::vector<double>& velocity, const std::vector<double>& acceleration) {
+    history_.remember(t, velocity, blocks_.remembered(velocity, acceleration));
+    time_ = std::numeric_limits<double>::quiet_NaN();
+  }
+  /// Outputs of delays that depend on the past and the present: see BlockSignals::look_back.
+  void look_back() { blocks_.look_back(history_); }
+
+  /// The delay history. `mark`: an event at t is a discontinuity of it too.
+  DelayHistory& history() { return history_; }
+  const DelayHistory& history() const { return history_; }
+  void mark(double t) { mark(t, true); }
+
+  // For each motion:
+  std::vector<double> position;  ///< undefined for a motion by a block
+  std::vector<double> velocity, acceleration;  ///< the acceleration by a block may be partial, as for forces
+  // For each force:
+  std::vector<double> force, force_rate;  ///< the rate of a force by a block is partial, at constant unknowns
+  // For each delayed branch of `past`: it feels `felt` plus `felt_now` times the present velocity of its free ends [m/s].
+  std::vector<double> felt, felt_now;
+
+  /// First time after t [s], but not after `limit`, at which the velocity of motion a less that of motion b changes its sign
+  /// (-1 is ground); infinite if there is none. No crossing is missed, however close the next one is. The result is cached: a
+  /// call before that time, with the same `limit`, costs nothing.
+  double next_reversal(int a, int b, double t, double limit);
+
+  /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.
+  struct Reach { double force = 0, velocity = 0; };
+  Reach reach() const;
+
+  /// Largest angular frequency of the present pieces [rad/s]: 0 if nothing oscillates.
+  double fastest() const;
+
+ private:
+  struct Motion {
+    int element;
+    int block;
+    Signal signal;
+    bool by_position;
+    Piece piece;
+    TimePoint anchor_time;
+    double anchor = 0;  ///< position at a time, from which a velocity is integrated
+  };
+  struct Force { int element; Signal signal; Piece piece; };
+  double position_of(const Motion& m, TimePoint t) const;
+  void mark(double t, bool fresh);
+  void look_ahead(double t);
+  void sense_network(const State& state);
+  const Network* network_;
+  TimePoint sensed_at_;                  ///< s
+  std::vector<Dual> base_;               ///< states and sensor values at that time, with their rates
+  struct Flow { double w, dw, bound; };  ///< velocity, its rate, and a bound on the magnitude of its second derivative
+  Flow flow(int a, int b, double t, double limit) const;
+  double search_reversal(int a, int b, double t, double limit, double grain) const;
+  struct Search { double from, limit, found; };
+
+  std::vector<Motion> motions_;
+  std::vector<Force> forces_;
+  std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present pieces
+  std::vector<double> steps_;
+  TimePoint next_break_;  ///< of the signals
+  TimePoint exact_;       ///< see refine
+  TimePoint since_;       ///< the last `enter` or `mark`
+  double stop_;            ///< of the run [s]
+  bool moves_by_blocks_;
+  BlockSignals blocks_;
+  DelayHistory history_;  ///< after blocks_, which gives its channels
+  double time_;
+};
+
+}  // namespace rheonet

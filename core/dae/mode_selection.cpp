@@ -1,0 +1,367 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/index.hpp"
+#include "core/base/roundoff.hpp"
+#include "core/dae/event_transition.hpp"
+#include "core/dae/rate_law.hpp"
+#include "core/network/overload_report.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Relative tolerance of a balance of forces.
+constexpr double onset_rounding = 1e-12;
+// A slope below this share of the law's other slope counts as 0.
+constexpr double flat = 1e-6;
+// A change below this share of a value is lost in the difference of two values: rate times time replaces the difference.
+constexpr double difference_limit = 1e-6;
+// Slopes above `rigid_ratio` times those around are treated as rigid, as long as the force is no more than `rigid_share` of the
+// other forces.
+constexpr double rigid_ratio = 1e12;
+constexpr double rigid_share = 1e-6;
+// A slider may slip within the look-ahead time although it still sticks at the event itself: its force reaches the bound only
+// later. A second solution, at the share `at_once` of the time, distinguishes both cases. If the slider sticks there, the
+// look-ahead time shrinks by `nearer` until it sticks within all of it.
+constexpr double at_once = 1e-15, nearer = 1e-3;
+
+}  // namespace
+
+// Over a short time h, with velocities v at its end, all forces counted from those at its beginning, and E, c the slope and
+// creep of a law in the direction of w, the network satisfies
+//
+//     (m/h) (v - v0) + sum of +-[ B (w - w0),  h E (w - c),  a slider's within its bounds ] = dF - present imbalance
+//
+// Masses outweigh dashpots, and dashpots springs, each by 1/h: so one problem decides at the level (acceleration, velocity or
+// rate of force) that determines the velocity of each slider.
+struct EventTransition::ModeSelection {
+  double t, h;
+  const Fired* fired;
+  const Modes* modes;
+  const std::vector<double>* force;  // of the sliders
+  const Nodal* now;                  // forces and their round-off
+  ConvexNetwork problem;
+  std::vector<double> slope_around;  // of each node that can move: largest slope there, without sliders and power laws
+  std::vector<int> law;              // of each deflection branch: its branch of the problem; -1: delayed, hence a load
+  std::vector<double> creep, at_rest;  // of each deflection branch
+  std::vector<int> slider, bound_side;
+
+  void meet(const Structure& structure, const Branch& b, double slope) {
+    for (const NodeId n : {b.a, b.b}) {
+      if (structure.kind[at(n)] != Kind::known) slope_around[at(n)] = std::max(slope_around[at(n)], slope);
+    }
+  }
+};
+
+std::vector<int> EventTransition::select_modes(double t, double h, const Fired& fired, State& state, Modes& modes,
+                                std::vector<double>& force, Change& change) {
+  const std::size_t nodes = structure_.kind.size();
+  inputs_.sense(t, state);
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = inputs_.velocity[m];
+  const Nodal now = nodal(state, force, true);
+  stop_at_turns(fired, modes, state);
+  ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now);
+  const double least = std::max(time_roundoff(t), at_once * h);
+  if (breaks_loose(selection) && h > least && !breaks_loose(look_ahead(t, least, fired, state, modes, force, now))) {
+    while (breaks_loose(selection)) selection = look_ahead(t, h = std::max(least, nearer * h), fired, state, modes, force, now);
+  }
+  const ConvexNetwork& problem = selection.problem;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
+  }
+  take_directions(selection, state, change);
+  std::vector<int> broken;
+  DisjointSets held(nodes);
+  join_given(problem, held);
+  for (std::size_t k = 0; k < selection.slider.size(); ++k) {
+    if (problem.direction(selection.slider[k]) == 0) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
+  }
+  for (std::size_t k = 0; k < selection.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    // A slider at its bound, while others hold its ends, sticks: the forces of all of them are those of least norm.
+    const bool sticks = held.find(b.a) == held.find(b.b) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
+    const int direction = sticks ? 0 : problem.direction(selection.slider[k]);
+    modes.slider[k] = static_cast<signed char>(direction);
+    if (direction != 0 && bound(k, direction) > network_.sliders[k].law.coulomb) broken.push_back(static_cast<int>(k));
+  }
+  for (int k : let_slip(problem, selection.law, selection.slider, selection.bound_side, selection.at_rest, fired, modes, change)) {
+    if (bound(at(k), modes.slider[at(k)]) > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
+  }
+  rest_beside_sliders(fired, state, modes);
+  return broken;
+}
+
+EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
+                                   const std::vector<double>& force, const Nodal& now) {
+  const std::size_t nodes = structure_.kind.size();
+  ModeSelection selection{.t = t, .h = h, .fired = &fired, .modes = &modes, .force = &force, .now = &now,
+              .problem = ConvexNetwork(static_cast<int>(nodes)), .slope_around = std::vector<double>(nodes, 0),
+              .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
+              .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
+              .bound_side = std::vector<int>(network_.sliders.size())};
+  add_nodes(selection, state);
+  add_inputs(selection);
+  add_deflection_laws(selection, state);
+  add_rate_laws(selection, state);
+  add_sliders(selection);
+  if (const ConvexNetwork::Outcome outcome = selection.problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
+    if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, selection.problem.runaways(), state);
+    report_undecided(network_, at_time(*network_.scene, t));
+  }
+  return selection;
+}
+
+/// Whether some slider begins to slip although its force was within its bounds.
+bool EventTransition::breaks_loose(const ModeSelection& selection) const {
+  for (std::size_t k = 0; k < selection.slider.size(); ++k) {
+    const ConvexNetwork::Bounds bounds = selection.problem.bounds(selection.slider[k]);
+    if (selection.modes->slider[k] == Modes::stuck && bounds.low < 0 && bounds.high > 0 && selection.problem.direction(selection.slider[k]) != 0)
+      return true;
+  }
+  return false;
+}
+
+void EventTransition::add_nodes(ModeSelection& selection, const State& state) const {
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    const int node = slot(static_cast<NodeId>(n));
+    selection.problem.start(node, state.velocity[n]);
+    if (structure_.kind[n] == Kind::massive) {
+      selection.problem.set_inertia(node, structure_.mass[n] / selection.h);
+      selection.slope_around[n] = structure_.mass[n] / selection.h;
+    }
+    const double out = std::abs(selection.now->sum[n]) - slack_[n];
+    if (out > onset_rounding * selection.now->magnitude[n] + selection.now->rounding[n]) selection.problem.load(node, -std::copysign(out, selection.now->sum[n]));
+  }
+  selection.problem.fix(slot(ground), 0);
+}
+
+/// Adds the changes of the motions and the loads.
+void EventTransition::add_inputs(ModeSelection& selection) {
+  const double h = selection.h;
+  const std::vector<double> load = inputs_.force, load_rate = inputs_.force_rate;
+  inputs_.evaluate(selection.t + h);
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
+    // Not a difference of two close velocities, which is round-off. The acceleration is the one at the end of h, like all else
+    // here: its change may be all that changes the force of a sticking slider.
+    selection.problem.fix(slot(network_.motions[m].node), h * inputs_.acceleration[m]);
+  }
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
+                                      ? load_rate[k] * h
+                                      : inputs_.force[k] - load[k];
+    selection.problem.load(slot(network_.forces[k].a), change_of_load);
+    if (network_.forces[k].b >= 0) selection.problem.load(slot(network_.forces[k].b), -change_of_load);
+  }
+  inputs_.evaluate(selection.t);
+}
+
+void EventTransition::add_deflection_laws(ModeSelection& selection, const State& state) const {
+  const double h = selection.h;
+  std::vector<double> f(state.p.size());
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&state.p[k], &f[k], &selection.creep[k]);
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      if (laws.batch->delay(i) > 0) continue;  // a load: see below
+      const Branch& b = network_.deflections[k + i];
+      const int branch = static_cast<int>(k + i);
+      const double p = state.p[k + i], creep = selection.creep[k + i];
+      double forward = h * laws.batch->slope(i, p, 1);
+      double backward = h * laws.batch->slope(i, p, -1);
+      // The event decides the direction of a branch that starts from rest or has passed through rest, not this first-order
+      // problem: both sides get the slope of that direction.
+      if (contains(selection.fired->starts, branch) || reversed(*selection.fired, branch)) {
+        (laws.batch->direction(i) > 0 ? backward : forward) = laws.batch->direction(i) > 0 ? forward : backward;
+      }
+      selection.at_rest[k + i] = -h * laws.batch->slope(i, p, 0) * creep;
+      selection.meet(structure_, b, std::max(forward, backward));
+      double high = -forward * creep, low = std::min(high, -backward * creep);
+      // A branch that has stopped does not go on in its old direction: again the event decides.
+      if (contains(selection.fired->turns, branch) && may_stand(branch)) {
+        (laws.batch->direction(i) > 0 ? low : high) = -laws.batch->direction(i) * std::numeric_limits<double>::infinity();
+      }
+      ConvexNetwork::Law law{.low = low, .high = high, .backward = backward, .forward = forward};
+      if (const double slope = h * laws.batch->release_slope(i, p); slope > 0) law = released(law, slope, creep);
+      selection.law[k + i] = selection.problem.add(slot(b.a), slot(b.b), law);
+    }
+  }
+  // A delayed branch is a load: its change follows from the past, whatever moves now.
+  for (std::size_t d = 0; d < inputs_.felt.size(); ++d) {
+    const DelayHistory::Delayed& delayed = inputs_.history().delayed()[d];
+    const double df = h * delayed_slope(delayed.branch, state) * (inputs_.felt[d] - selection.creep[at(delayed.branch)]);
+    selection.problem.load(slot(delayed.a), -df);
+    selection.problem.load(slot(delayed.b), df);
+  }
+}
+
+void EventTransition::add_rate_laws(ModeSelection& selection, const State& state) const {
+  const double largest = *std::max_element(selection.now->magnitude.begin(), selection.now->magnitude.end());
+  const Inputs::Reach reach = coming_reach(inputs_, state.velocity);
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const double impulse = laws.batch->impulse(i);
+      if (impulse > 0 && std::isfinite(impulse)) selection.meet(structure_, network_.rates[at(laws.first) + i], impulse);
+    }
+  }
+  for (const Laws<RateBatch>& laws : network_.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network_.rates[at(laws.first) + i];
+      const double around = std::max(selection.slope_around[at(b.a)], selection.slope_around[at(b.b)]);
+      const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
+      const double scale = largest > 0 ? largest : coming_force(*laws.batch, i, reach), least_force = rigid_share * scale;
+      const double steepest = around > 0 ? std::max(rigid_ratio * around, least_force / laws.batch->velocity_at(i, least_force))
+                                         : std::numeric_limits<double>::infinity();
+      selection.problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, w, scale, steepest));
+    }
+  }
+}
+
+void EventTransition::add_sliders(ModeSelection& selection) const {
+  for (std::size_t k = 0; k < selection.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const double force = (*selection.force)[k];
+    ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
+    // At its bound the rate alone decides, not the round-off of the event.
+    const double limit = bound(k, force > 0 ? 1 : -1);
+    const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
+    const bool fired = contains(selection.fired->sliders, static_cast<int>(k));
+    if (selection.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
+      (force > 0 ? law.high : law.low) = 0;
+    } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
+      // How the velocity of a massless node continues, this first-order problem does not see: the event decides.
+      (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
+    }
+    selection.slider[k] = selection.problem.add(slot(b.a), slot(b.b), law);
+    if (!fired) selection.problem.was_apart(selection.slider[k], selection.modes->slider[k]);
+    selection.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
+  }
+}
+
+/// Friction at its bound: it leaves the bound with this slope at velocities below its creep, and keeps its force above.
+ConvexNetwork::Law EventTransition::released(ConvexNetwork::Law law, double slope, double creep) {
+  const double side = creep > 0 ? 1 : -1;
+  (side > 0 ? law.high : law.low) = -slope * creep;
+  (side > 0 ? law.forward : law.backward) = slope;
+  const ConvexNetwork::Law other = law;
+  law.beyond = [=](double w, double& tangent) {
+    if (w * side < 0) {
+      tangent = side > 0 ? other.backward : other.forward;
+      return (side > 0 ? other.low : other.high) + tangent * w;
+    }
+    tangent = std::abs(w) < std::abs(creep) ? slope : 0;
+    return side * slope * std::min(0.0, std::abs(w) - std::abs(creep));
+  };
+  return law;
+}
+
+/// Change of the force of a rate law when the velocity changes from w0. A law without a finite slope there gets one that leads
+/// away, towards forces of about `scale` [N]. Slopes above `steepest` [N s/m] are treated as rigid, and replaced by it.
+ConvexNetwork::Law EventTransition::law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest) {
+  const double impulse = batch.impulse(i);
+  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
+  const Growth growth = batch.growth(i);
+  const double rigid = growth.exponent < 1 ? std::pow(growth.coefficient / steepest, 1 / (1 - growth.exponent)) : 0;
+  const auto force = [&batch, i, rigid, steepest](double w) {
+    return std::abs(w) < rigid ? steepest * w : batch.force_at(i, w);
+  };
+  // The tangent of B |w|^n is n f/w, its secant f/w: the larger one never overshoots.
+  const auto steeper = [force](double w, double f) { return f == 0 ? 0 : f / w * std::max(1.0, std::log2(force(2 * w) / f)); };
+  const double f0 = force(w0), slope = w0 != 0 ? steeper(w0, f0) : std::min(steepest, scale / batch.velocity_at(i, scale));
+  return {.backward = slope, .forward = slope, .rounding = std::abs(f0), .of_change = true,
+          .beyond = [force, w0, f0, slope, steeper](double change, double& tangent) {
+            const double w = w0 + change, f = force(w);
+            tangent = w != 0 ? steeper(w, f) : slope;
+            return f - f0;
+          }};
+}
+
+void EventTransition::take_directions(const ModeSelection& selection, const State& state, Change& change) {
+  const ConvexNetwork& problem = selection.problem;
+  const std::vector<int>& index = selection.law;
+  const Fired& fired = *selection.fired;
+  DisjointSets stuck(structure_.kind.size());
+  for (std::size_t k = 0; k < selection.slider.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    if (problem.direction(selection.slider[k]) == 0) stuck.join(b.a, b.b);
+  }
+  const std::vector<NodeId> given = given_in(stuck);
+  // By sticking sliders, or by known nodes of equal velocity.
+  const auto kept_together = [&](const Branch& b) {
+    const NodeId a = stuck.find(b.a), c = stuck.find(b.b), of_a = given[at(a)], of_b = given[at(c)];
+    return a == c || (of_a >= 0 && of_b >= 0 && same_velocity(problem, of_a, of_b));
+  };
+  for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const int j = laws.first + static_cast<int>(i);
+      if (index[at(j)] < 0 || laws.batch->events(i) == 0 || contains(fired.starts, j) || reversed(fired, j)) continue;
+      const Branch& b = network_.deflections[at(j)];
+      const double w = problem.difference(slot(b.a), slot(b.b));
+      // Where a law can be held at rest the balance has decided, and the smallest velocity counts: a pseudoplastic dashpot in
+      // parallel has a force at it.
+      const auto [low, high] = problem.bounds(index[at(j)]);
+      const bool at_rest = low < high && may_stand(j)
+                               ? problem.joined(slot(b.a), slot(b.b)) || kept_together(b)
+                               : same_velocity(problem, b.a, b.b);
+      const int direction = at_rest ? 0 : problem.direction(index[at(j)]);
+      if (direction == 0) {
+        if (may_stand(j) && !kept_together(b) &&
+            relaxes_from_bound(problem, index[at(j)], *laws.batch, i, state.p[at(j)])) {
+          laws.batch->set_direction(i, state.p[at(j)], 0, laws.batch->direction(i));
+        } else if (may_stand(j) && low < high) {
+          change.sliding_modes.push_back({j, 0});
+        } else if (!laws.batch->fits(i, 0)) {
+          laws.batch->set_direction(i, state.p[at(j)], 0, 0);
+        }
+      } else if (!laws.batch->fits(i, w)) {
+        laws.batch->set_direction(i, state.p[at(j)], w, direction);
+      }
+    }
+  }
+}
+
+bool EventTransition::same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const {
+  const double speeds = std::abs(problem.value(slot(a))) + std::abs(problem.value(slot(b)));
+  return std::abs(problem.difference(slot(a), slot(b))) <= velocity_roundoff * speeds;
+}
+
+/// For each set, at the index of the node that represents it: a known node of the set, or -1.
+std::vector<NodeId> EventTransition::given_in(DisjointSets& sets) const {
+  std::vector<NodeId> result(structure_.kind.size(), -1);
+  for (std::size_t n = 0; n < result.size(); ++n) {
+    if (structure_.kind[n] == Kind::known) result[at(sets.find(static_cast<NodeId>(n)))] = static_cast<NodeId>(n);
+  }
+  return result;
+}
+
+/// Whether friction at its bound, where its slope is 0, is about to leave the bound in its present direction. It could stay,
+/// but the least disturbance would end that. In parallel with a sticking slider it rests instead.
+bool EventTransition::relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i, double p) {
+  const int direction = batch.direction(i);
+  if (direction == 0 || !(batch.slope(i, p, direction) <= flat * batch.slope(i, p, -direction))) return false;
+  const auto [low, high] = problem.bounds(branch);
+  return std::abs(problem.force(branch) - (direction > 0 ? high : low)) <= flat * (high - low);
+}
+
+bool EventTransition::reversed(const Fired& fired, int branch) const {
+  const Branch& b = network_.deflections[at(branch)];
+  return contains(fired.turns, branch) && (massless(b.a) || massless(b.b)) && !may_stand(branch);
+}
+
+double EventTransition::delayed_slope(int branch, const State& state) const {
+  std::size_t i = 0;
+  return network_.batch_of(branch, i).slope(i, state.p[at(branch)], 0);
+}
+
+bool EventTransition::may_stand(int branch) const {
+  const Branch& b = network_.deflections[at(branch)];
+  if (!massless(b.a) && !massless(b.b)) return false;
+  std::size_t i = 0;
+  return network_.batch_of(branch, i).can_hold(i);
+}
+
+}  // namespace rheonet

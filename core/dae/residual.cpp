@@ -1,0 +1,261 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/dae/dae.hpp"
+#include "core/dae/rate_law.hpp"
+
+namespace rheonet {
+
+/// Relative displacement of the ends of a branch due to prescribed motions since the last event. It is computed without
+/// positions, which may be large beside a deflection: their difference would round it.
+double Dae::known_way(const Branch& ends, double t) const {
+  const auto way = [&](NodeId node) {
+    const int motion = structure_->motion[at(node)];
+    return motion < 0 ? 0 : inputs_->way(motion, t);
+  };
+  return way(ends.a) - way(ends.b);
+}
+
+/// Gathers velocities, deflections, and the arguments of the rate laws.
+void Dae::gather(double t, const double* y) {
+  viewed_ = {};
+  inputs_->evaluate(t);
+  for (std::size_t n = 0; n < v_.size(); ++n) {
+    if (iv_[n] >= 0) v_[n] = y[iv_[n]];
+  }
+  move_by_blocks(y);
+  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
+    const std::size_t node = at(network_->motions[m].node);
+    v_[node] = inputs_->velocity[m];
+    a_[node] = inputs_->acceleration[m];
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = structure_->deflections[j];
+    view_.p[j] = ip_[j] >= 0 ? y[ip_[j]] : driven_from_[j] + known_way(b, t);
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) {
+    const Branch& b = structure_->rates[r];
+    rate_in_[r] = if_[r] >= 0 ? y[if_[r]] : v_[at(b.a)] - v_[at(b.b)];
+  }
+  if (inputs_->blocks().any()) feel_blocks(y);
+}
+
+/// Sums the forces of the branches and the applied forces, at the nodes that represent joined ones.
+void Dae::sum_forces() {
+  std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
+  std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
+  const auto add = [&](const Branch& b, double f) {
+    if (b.a == b.b) return;
+    view_.nodal[at(b.a)] += f;
+    view_.nodal[at(b.b)] -= f;
+  };
+  for (std::size_t j = 0; j < ip_.size(); ++j) add(structure_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < if_.size(); ++r) add(structure_->rates[r], if_[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    if (slip_force_[k] != 0) add(structure_->sliders[k], slip_force_[k]);
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    view_.applied[at(structure_->rigid[at(f.a)])] += inputs_->force[k];
+    if (f.b >= 0) view_.applied[at(structure_->rigid[at(f.b)])] -= inputs_->force[k];
+  }
+}
+
+void Dae::evaluate_forces(double t, const double* y) {
+  gather(t, y);
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&view_.p[k], &view_.f[k], &view_.creep[k]);
+  }
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->evaluate(&rate_in_[k], &rate_out_[k]);
+  }
+  sum_forces();
+}
+
+double Dae::sum_of(const Terms& terms, const double* yp) const {
+  double sum = 0;
+  for (int k = terms.flow_begin; k < terms.flow_end; ++k) {
+    const auto [j, sign] = flows_[at(k)];
+    sum += sign * moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]);
+  }
+  for (int k = terms.velocity_begin; k < terms.velocity_end; ++k) {
+    sum += velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)];
+  }
+  return sum;
+}
+
+void Dae::residual(double t, const double* y, const double* yp, double* r) {
+  evaluate_forces(t, y);
+
+  if (idle_) r[0] = yp[0];
+  for (std::size_t n = 0; n < iv_.size(); ++n) {
+    if (iv_[n] >= 0) r[iv_[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[iv_[n]];
+  }
+  for (std::size_t g = 0; g < group_row_.size(); ++g) {
+    double sum = 0;
+    for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
+    if (group_row_[g] >= 0) r[group_row_[g]] = sum;
+  }
+  for (std::size_t k = 0; k < if_.size(); ++k) {
+    const Branch& b = structure_->rates[k];
+    if (if_[k] >= 0) r[if_[k]] = v_[at(b.a)] - v_[at(b.b)] - rate_out_[k];
+  }
+  for (const Row& row : rows_) {
+    r[row.row] = sum_of(row.terms, yp);
+    if (row.position) r[row.row] += yp[row.row];
+    if (row.delayed < 0) continue;
+    const double now = inputs_->felt_now[at(row.delayed)];
+    r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - inputs_->felt[at(row.delayed)];
+  }
+  for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - inputs_->blocks().rate(k);
+  for (const Follower& f : followers_) {
+    if (f.active) r[f.row] = share(f, yp[ip_[at(f.branch)]], yp[ip_[at(f.leader)]]).difference;
+  }
+}
+
+void Dae::magnitudes(double* r) const {
+  std::fill(r, r + size_, 0.0);
+  const auto add = [&](NodeId node, double x) {
+    for (int row : {iv_[at(node)], balance_of_group(node)}) {
+      if (row >= 0) r[row] += std::abs(x);
+    }
+  };
+  const auto add_branch = [&](const Branch& b, double f) {
+    add(b.a, f);
+    add(b.b, f);
+  };
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    // Friction that has slid far and reversed has a small force at a large deflection.
+    add_branch(structure_->deflections[j], std::max(std::abs(view_.f[j]), deflection_share * std::abs(df_[j] * view_.p[j])));
+  }
+  for (std::size_t k = 0; k < if_.size(); ++k) {
+    const Branch& b = structure_->rates[k];
+    // The difference of two velocities has the round-off of each.
+    const double speed = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]);
+    add_branch(b, if_[k] >= 0 ? rate_in_[k] : std::abs(rate_out_[k]) + rate_d_[k] * speed);
+    if (if_[k] >= 0) r[if_[k]] = std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]) + std::abs(rate_out_[k]);
+  }
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) add_branch(structure_->sliders[k], slip_force_[k]);
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    add(structure_->rigid[at(f.a)], inputs_->force[k]);
+    if (f.b >= 0) add(structure_->rigid[at(f.b)], inputs_->force[k]);
+  }
+  // The round-off of a force changes a velocity. Near f = 0 the velocity of a dilatant law changes without bound, the velocity
+  // of a pseudoplastic law by a large share of itself.
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t k = at(laws.first) + i;
+      if (if_[k] < 0) continue;
+      const Branch& b = structure_->rates[k];
+      double forces = 0;
+      for (const NodeId n : {b.a, b.b}) {
+        for (int row : {iv_[at(n)], balance_of_group(n)}) {
+          if (row >= 0) forces = std::max(forces, r[row]);
+        }
+      }
+      const double f = std::abs(rate_in_[k]), lost = rounding_share * forces;
+      r[if_[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / rounding_share;
+    }
+  }
+  for (const Row& row : rows_) {
+    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
+      r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);
+    }
+  }
+}
+
+void Dae::jacobian(double t, double cj, const double* y, const double* yp, double* values) {
+  gather(t, y);
+  slopes();
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&rate_in_[k], &rate_out_[k], &rate_d_[k]);
+  }
+  stiffen_resting_laws();
+  std::fill_n(values, pattern_.entries(), 0.0);
+  for (const Constant& c : constants_) values[c.entry] += c.value;
+  for_each_mass([&](int entry, double mass) { values[entry] += cj * mass; });
+  for (const Scatter& s : scatter_) values[s.entry] += s.sign * (s.source == Source::force ? df_ : rate_d_)[at(s.index)];
+  for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving_[at(f.branch)] * dc_[at(f.branch)];
+  for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * inputs_->felt_now[at(f.delayed)];
+  block_jacobian(values);
+  share_jacobian(cj, yp, values, false);
+}
+
+/// A power law other than Newton's has slope 0 at rest, where its equation has no solution to first order. A secant up to the
+/// forces now acting takes its place: with it Newton's iteration leaves rest.
+void Dae::stiffen_resting_laws() {
+  double scale = -1;
+  Inputs::Reach reach;
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t r = at(laws.first) + i;
+      if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
+      if (rate_d_[r] != 0) continue;
+      if (scale < 0) {
+        sum_forces();
+        for (std::size_t n = 1; n < v_.size(); ++n) {
+          scale = std::max({scale, std::abs(view_.nodal[n]), std::abs(view_.applied[n])});
+        }
+        reach = coming_reach(*inputs_, v_);
+      }
+      const double f = scale > 0 ? scale : coming_force(*laws.batch, i, reach), w = laws.batch->velocity_at(i, f);
+      rate_d_[r] = if_[r] >= 0 ? w / f : f / w;
+    }
+  }
+}
+
+void Dae::guess_forces(double t, double* y) {
+  gather(t, y);
+  for (const Laws<RateBatch>& laws : network_->rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t r = at(laws.first) + i;
+      const Branch& b = structure_->rates[r];
+      if (if_[r] >= 0) y[if_[r]] = laws.batch->force_at(i, v_[at(b.a)] - v_[at(b.b)]);
+    }
+  }
+}
+
+void Dae::consistency_matrix(double t, const double* y, double* values) {
+  jacobian(t, 0, y, nullptr, values);
+  for (std::size_t e = 0; e < pattern_.row.size(); ++e) {
+    if (differential_[at(pattern_.row[e])]) values[e] = 0;
+  }
+  for_each_mass([&](int entry, double mass) { values[entry] += mass; });
+  share_jacobian(0, nullptr, values, true);
+}
+
+void Dae::time_derivative(double* r) const {
+  std::fill(r, r + size_, 0.0);
+  const auto add = [&](NodeId node, double x) {
+    if (node < 0) return;
+    node = structure_->rigid[at(node)];
+    if (iv_[at(node)] >= 0 && !differential_[at(iv_[at(node)])]) r[iv_[at(node)]] += x;
+    if (const int row = balance_of_group(node); row >= 0) r[row] += x;
+  };
+  for (std::size_t k = 0; k < if_.size(); ++k) {
+    const Branch& b = structure_->rates[k];
+    const double dw = a_[at(b.a)] - a_[at(b.b)];
+    if (if_[k] >= 0) {
+      r[if_[k]] += dw;
+    } else if (dw != 0) {
+      add(b.a, rate_d_[k] * dw);
+      add(b.b, -rate_d_[k] * dw);
+    }
+  }
+  for (const Row& row : rows_) {  // loops in which all branches are held at rest
+    if (differential_[at(row.row)]) continue;
+    for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
+      r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];
+    }
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    add(network_->forces[k].a, -inputs_->force_rate[k]);
+    add(network_->forces[k].b, inputs_->force_rate[k]);
+  }
+}
+
+}  // namespace rheonet

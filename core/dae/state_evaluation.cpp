@@ -1,0 +1,205 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/dae/dae.hpp"
+
+namespace rheonet {
+
+/// Sums the forces at each node by itself: sticking sliders carry the remainder.
+void Dae::share_among_joined(double t) {
+  std::fill(view_.nodal.begin(), view_.nodal.end(), 0.0);
+  std::fill(view_.applied.begin(), view_.applied.end(), 0.0);
+  const auto add = [&](const Branch& b, double f) {
+    view_.nodal[at(b.a)] += f;
+    view_.nodal[at(b.b)] -= f;
+  };
+  for (std::size_t j = 0; j < ip_.size(); ++j) add(network_->deflections[j], view_.f[j]);
+  for (std::size_t r = 0; r < if_.size(); ++r) add(network_->rates[r], if_[r] >= 0 ? rate_in_[r] : rate_out_[r]);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    if (slip_force_[k] != 0) add(network_->sliders[k].branch, slip_force_[k]);
+  }
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    view_.applied[at(f.a)] += inputs_->force[k];
+    if (f.b >= 0) view_.applied[at(f.b)] -= inputs_->force[k];
+  }
+  std::vector<double>& left = work_;
+  for (std::size_t n = 0; n < left.size(); ++n) {
+    left[n] = view_.nodal[n] - view_.applied[n] + structure_->own_mass[n] * view_.acceleration[n];
+  }
+  stick_forces_.solve(t, left, view_.slider_force);
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
+  }
+}
+
+const Dae::View& Dae::view(double t, const double* y, const double* yp) {
+  evaluate_forces(t, y);
+  if (!loose_.empty()) balance_loose_dashpots();
+  view_velocities(yp);
+  for (std::size_t n = 0; n < v_.size(); ++n) {
+    view_.acceleration[n] = a_[n];
+    if (structure_->kind[n] == Kind::massive) {
+      view_.acceleration[n] = (view_.applied[n] - view_.nodal[n]) / structure_->mass[n];
+    }
+  }
+  for (const Network::Motion& m : network_->motions) {
+    if (m.block >= 0) view_.acceleration[at(m.node)] += acceleration_by(m);
+  }
+  if (!stick_forces_.empty()) {
+    for (std::size_t n = 0; n < v_.size(); ++n) {
+      const std::size_t leader = at(structure_->rigid[n]);
+      view_.acceleration[n] = view_.acceleration[leader];
+      view_.velocity[n] = view_.velocity[leader];
+    }
+    share_among_joined(t);
+  }
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) {
+    const Branch& b = structure_->sliders[k];
+    view_.slider_velocity[k] = structure_->stuck[k] ? 0 : view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
+    if (!structure_->stuck[k]) view_.slider_force[k] = slip_force_[k];
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) {
+    view_.rate_velocity[r] = if_[r] >= 0 ? rate_out_[r] : rate_in_[r];
+    view_.rate_force[r] = if_[r] >= 0 ? rate_in_[r] : rate_out_[r];
+  }
+  for (std::size_t m = 0; m < network_->motions.size(); ++m) {
+    if (network_->motions[m].block < 0) view_.position[at(network_->motions[m].node)] = inputs_->position[m];
+  }
+  for (NodeId node : positions_.order) {
+    const Position& x = positions_.of[at(node)];
+    double& position = view_.position[at(node)];
+    const double parent = view_.position[at(x.parent)];
+    if (x.integrated) {
+      position = parent + y[ix_[at(node)]];
+    } else if (x.branch >= 0) {
+      position = parent + x.sign * (view_.p[at(x.branch)] + offset_[at(x.branch)]);
+    } else if (x.slider >= 0) {
+      position = parent + x.sign * slider_shift_[at(x.slider)];
+    }
+  }
+  viewed_ = {t, y, yp};
+  return view_;
+}
+
+void Dae::view_velocities(const double* yp) {
+  view_.velocity = v_;
+  const auto flow = [&](int j) { return moving_[at(j)] * (yp[ip_[at(j)]] + view_.creep[at(j)]); };
+  for (const Structure::Group& group : structure_->groups) {
+    double base = 0;
+    if (group.tie >= 0) {
+      const Structure::Loop& sum = structure_->ties[at(group.tie)].velocity;
+      for (const Structure::Term& x : sum.flows) base -= x.sign * flow(x.index);
+      for (const Structure::Term& x : sum.velocities) base -= x.sign * v_[at(x.index)];
+    } else {
+      base = view_.velocity[at(group.parent)] - v_[at(group.node)] + group.sign * flow(group.tree_branch);
+    }
+    for (NodeId node : group.nodes) view_.velocity[at(node)] = base + v_[at(node)];
+  }
+  for (std::size_t j = 0; j < ip_.size(); ++j) {
+    const Branch& b = structure_->deflections[j];
+    const bool floating = structure_->group[at(b.a)] >= 0 || structure_->group[at(b.b)] >= 0;
+    // The difference of two velocities loses digits where both move fast; the deflection's own rate does not.
+    view_.flow[j] = b.a == b.b ? 0 : floating ? flow(static_cast<int>(j)) : v_[at(b.a)] - v_[at(b.b)];
+    view_.dp[j] = ip_[j] >= 0 ? yp[ip_[j]] : view_.flow[j];
+  }
+  for (const DelayHistory::Delayed& d : inputs_->history().delayed()) {
+    const Branch& b = structure_->deflections[at(d.branch)];
+    view_.flow[at(d.branch)] = view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
+  }
+}
+
+double Dae::driven_deflection(int branch, double t) const {
+  return driven_from_[at(branch)] + known_way(structure_->deflections[at(branch)], t);
+}
+
+Dae::Balance Dae::balance(const Structure::Tie& tie) const {
+  Balance result{0, 0};
+  for (NodeId node : tie.nodes) {
+    result.sum += view_.nodal[at(node)] - view_.applied[at(node)];
+    result.magnitude += std::abs(view_.applied[at(node)]);
+  }
+  const auto add = [&](const Branch& b, double f) {
+    if (std::find(tie.elements.begin(), tie.elements.end(), b.element) != tie.elements.end()) result.magnitude += std::abs(f);
+  };
+  for (std::size_t k = 0; k < network_->sliders.size(); ++k) add(network_->sliders[k].branch, view_.slider_force[k]);
+  for (std::size_t j = 0; j < network_->deflections.size(); ++j) add(network_->deflections[j], view_.f[j]);
+  return result;
+}
+
+bool Dae::load_changes(const Structure::Tie& tie) const {
+  const auto within = [&](NodeId node) { return std::find(tie.nodes.begin(), tie.nodes.end(), node) != tie.nodes.end(); };
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    const bool changes = inputs_->force_rate[k] != 0 || (f.block >= 0 && inputs_->blocks().couples(f.block));
+    if (changes && within(f.a) != within(f.b)) return true;
+  }
+  return false;
+}
+
+const std::vector<double>& Dae::slopes() {
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    const std::size_t k = at(laws.first);
+    laws.batch->linearise(&view_.p[k], &view_.f[k], &df_[k], &view_.creep[k], &dc_[k]);
+  }
+  return df_;
+}
+
+double Dae::reaction(NodeId node) const {
+  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * view_.acceleration[at(node)];
+}
+
+double Dae::supplied_power() const {
+  double power = 0;
+  for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    power += inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
+  }
+  return power;
+}
+
+bool Dae::power_needs_rates() const {
+  return !structure_->groups.empty() ||
+         std::any_of(network_->deflection_laws.begin(), network_->deflection_laws.end(),
+                     [](const Laws<DeflectionBatch>& laws) { return !laws.batch->knows_heat(); });
+}
+
+double Dae::dissipated_power() const {
+  double power = 0;
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    if (laws.batch->knows_heat()) continue;
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const std::size_t j = at(laws.first) + i;
+      power += laws.batch->dissipated_power(i, view_.p[j], view_.dp[j], view_.flow[j]);
+    }
+  }
+  for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) power += slip_force_[k] * view_.slider_velocity[k];
+  return power;
+}
+
+double Dae::heat_of_laws() const {
+  double heat = 0;
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    for (std::size_t i = 0; laws.batch->knows_heat() && i < laws.batch->size(); ++i) {
+      heat += laws.batch->heat(i, view_.p[at(laws.first) + i]);
+    }
+  }
+  return heat;
+}
+
+double Dae::stored_energy() const {
+  double energy = 0;
+  for (const Laws<DeflectionBatch>& laws : network_->deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      energy += laws.batch->stored_energy(i, view_.p[at(laws.first) + i]);
+    }
+  }
+  for (std::size_t n = 0; n < v_.size(); ++n) {
+    energy += structure_->own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
+  }
+  return energy;
+}
+
+}  // namespace rheonet

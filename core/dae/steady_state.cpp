@@ -1,0 +1,197 @@
+#include "core/dae/steady_state.hpp"
+
+#include "core/dae/pair_start.hpp"
+#include "core/dae/steady_state_solver.hpp"
+
+namespace rheonet {
+
+SteadyStateSolver::SteadyStateSolver(const Network& network, const Structure& classified, double t, Start& begin)
+    : network_(network),
+      structure_(classified),
+      inputs_(begin.inputs),
+      state_(begin.state),
+      resting_(network.scene->start_from == Scene::StartFrom::rest),
+      t_(t),
+      velocity_(classified.kind.size(), 0),
+      load_(velocity_),
+      load_magnitude_(velocity_),
+      broken_(network.sliders.size(), 0) {
+  result_.modes.slider.assign(network.sliders.size(), Modes::stuck);
+  result_.slider_force.assign(network.sliders.size(), 0);
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      laws_.push_back({laws.batch.get(), i, laws.batch->steady(i), 0});
+    }
+  }
+}
+
+SteadyStart SteadyStateSolver::go() {
+  enter_inputs();
+  refuse_stretching();
+  hold_what_is_free();
+  // A slider that breaks away releases the difference to its sliding force: then everything is to be found anew.
+  do {
+    while (!find_velocities()) {
+    }
+  } while (!find_positions());
+  if (resting_) refuse_motion();
+  note_what_gave_way();
+  follow_pairs(network_, state_);
+  return std::move(result_);
+}
+
+/// Motions are where they are just after the start: a step there is over.
+void SteadyStateSolver::enter_inputs() {
+  std::vector<int> changing;  // elements
+  inputs_.enter(t_);
+  inputs_.evaluate(t_);
+  inputs_.settle_blocks(t_, state_);
+  for (std::size_t m = 0; m < network_.motions.size(); ++m) {
+    const std::size_t n = at(network_.motions[m].node);
+    const double step = inputs_.steps()[m];
+    state_.position[n] += step;
+    for (std::size_t j = 0; step != 0 && j < laws_.size(); ++j) {
+      const Branch& b = network_.deflections[j];
+      const double moved = (at(b.a) == n ? step : 0) - (at(b.b) == n ? step : 0);
+      laws_[j].batch->jump(laws_[j].i, state_.p[j], moved);
+      state_.p[j] += moved;
+    }
+    if (!resting_) velocity_[n] = inputs_.velocity[m];
+    if (!resting_ && inputs_.acceleration[m] != 0) changing.push_back(network_.motions[m].element);
+  }
+  for (std::size_t k = 0; k < network_.forces.size(); ++k) {
+    const Network::Force& force = network_.forces[k];
+    for (const auto& [node, sign] : {std::pair{force.a, 1}, std::pair{force.b, -1}}) {
+      if (node < 0) continue;
+      load_[at(node)] += sign * inputs_.force[k];
+      load_magnitude_[at(node)] += std::abs(inputs_.force[k]);
+    }
+    if (inputs_.force_rate[k] != 0) changing.push_back(force.element);
+  }
+  for (int element : changing) {
+    note(fmt::format("`{}` changes with time: the state is that under its value at the start, held",
+                     network_.scene->elements[at(element)].name));
+  }
+}
+
+/// Refuses springs whose ends move at different velocities for ever.
+void SteadyStateSolver::refuse_stretching() const {
+  std::vector<std::vector<std::pair<NodeId, const Branch*>>> around(velocity_.size());
+  for_each_rigid([&](const Branch& b) {
+    around[at(b.a)].push_back({b.b, &b});
+    around[at(b.b)].push_back({b.a, &b});
+  });
+  std::vector<const Branch*> from(velocity_.size(), nullptr);
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    const NodeId first = static_cast<NodeId>(n);
+    if (!known(first)) continue;
+    std::vector<NodeId> reached{first};
+    std::vector<char> seen(velocity_.size(), 0);
+    seen[n] = 1;
+    for (std::size_t r = 0; r < reached.size(); ++r) {
+      const NodeId node = reached[r];
+      if (known(node) && velocity_[at(node)] != velocity_[n]) report_stretching(first, node, from);
+      if (node != first && known(node)) continue;  // the search from it covers the rest
+      for (const auto& [other, branch] : around[at(node)]) {
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        from[at(other)] = branch;
+        reached.push_back(other);
+      }
+    }
+  }
+}
+
+void SteadyStateSolver::report_stretching(NodeId first, NodeId last, const std::vector<const Branch*>& from) const {
+  std::vector<std::string> path;
+  for (NodeId node = last; node != first;) {
+    const Branch& b = *from[at(node)];
+    path.push_back(name(b));
+    node = b.a == node ? b.b : b.a;
+  }
+  std::reverse(path.begin(), path.end());
+  throw SimulationError(network_.spot_of(from[at(last)]->element), fmt::format(
+      "{}: {} between `{}`, which moves at {}, and `{}`, at {}, would stretch for ever; make the velocities equal or "
+      "put something between them that gives way",
+      kind(), format_list(path), network_.node_name(first), with_unit(velocity_[at(first)], Quantity::velocity),
+      network_.node_name(last), with_unit(velocity_[at(last)], Quantity::velocity)));
+}
+
+/// Nodes that nothing joins to a prescribed motion or to ground keep the velocity of their centre of mass.
+void SteadyStateSolver::hold_what_is_free() {
+  DisjointSets sets(velocity_.size());
+  for (const Branch& b : network_.deflections) sets.join(b.a, b.b);
+  for (const Branch& b : network_.rates) sets.join(b.a, b.b);
+  for (const Network::Slider& s : network_.sliders) sets.join(s.branch.a, s.branch.b);
+  std::vector<char> held(velocity_.size(), 0);
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    if (known(static_cast<NodeId>(n))) held[at(sets.find(static_cast<NodeId>(n)))] = 1;
+  }
+  std::vector<double> load(velocity_.size(), 0), magnitude(load), momentum(load), mass(load);
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    const std::size_t set = at(sets.find(static_cast<NodeId>(n)));
+    load[set] += load_[n];
+    magnitude[set] += load_magnitude_[n];
+    mass[set] += structure_.own_mass[n];
+    momentum[set] += structure_.own_mass[n] * state_.velocity[n];
+  }
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    if (held[n] || sets.find(static_cast<NodeId>(n)) != static_cast<NodeId>(n)) continue;
+    if (std::abs(load[n]) > rounding * magnitude[n]) {
+      std::vector<NodeId> nodes;
+      for (std::size_t m = 0; m < velocity_.size(); ++m) {
+        if (at(sets.find(static_cast<NodeId>(m))) == n) nodes.push_back(static_cast<NodeId>(m));
+      }
+      report_acceleration(nodes);
+    }
+    pinned_.push_back(static_cast<NodeId>(n));
+    if (!resting_ && mass[n] > 0) velocity_[n] = momentum[n] / mass[n];
+    note(fmt::format("nothing joins node `{}` to ground or to a motion: it moves at {}",
+                     network_.node_name(static_cast<NodeId>(n)), with_unit(velocity_[n], Quantity::velocity)));
+  }
+}
+
+void SteadyStateSolver::report_acceleration(const std::vector<NodeId>& nodes) const {
+  std::vector<std::string> names, loads;
+  for (NodeId node : nodes) names.push_back(network_.node_name(node));
+  const auto there = [&](NodeId node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+  for (const Network::Force& force : network_.forces) {
+    if (there(force.a) || there(force.b)) loads.push_back(network_.scene->elements[at(force.element)].name);
+  }
+  throw SimulationError(network_.spot_of_node(nodes.front()), fmt::format(
+      "{}: what is at node{} {} cannot take the force{} {} for ever, and would go ever faster; give it a dashpot or more "
+      "friction, or apply less force",
+      kind(), names.size() > 1 ? "s" : "", format_list(names), loads.size() > 1 ? "s" : "", format_list(loads)));
+}
+
+/// Notes the start values that the steady state contradicts.
+void SteadyStateSolver::note_what_gave_way() {
+  for (std::size_t n = 0; n < velocity_.size(); ++n) {
+    const SceneNode& node = network_.node(static_cast<NodeId>(n));
+    state_.velocity[n] = velocity_[n];
+    if (n == 0 || std::isnan(node.velocity) || known(static_cast<NodeId>(n))) continue;
+    if (std::abs(node.velocity - velocity_[n]) <= rounding * std::abs(node.velocity)) continue;
+    note(fmt::format("node `{}` moves at {}, not at its start value, {}", node.name,
+                     with_unit(velocity_[n], Quantity::velocity), with_unit(node.velocity, Quantity::velocity)));
+  }
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const SceneElement& element = network_.scene->elements[at(network_.deflections[j].element)];
+    const std::vector<Parameter>& parameters = declarations()[at(element.declaration)]->parameters;
+    double slope = 0;
+    const double f = laws_[j].batch->force_along(laws_[j].i, state_.p[j], 0, slope);
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const double f0 = element.values[k];
+      if (parameters[k].kind != Parameter::Kind::initial || parameters[k].quantity != Quantity::force) continue;
+      // The initial force of a spring says where it is free of force.
+      if (std::isnan(f0) || laws_[j].rigid() || std::abs(f - f0) <= rounding * std::abs(f0)) continue;
+      note(fmt::format("`{}` has the force {}, not its start value, {}", element.name, with_unit(f, Quantity::force),
+                       with_unit(f0, Quantity::force)));
+    }
+  }
+}
+
+SteadyStart settle(const Network& network, const Structure& classified, double t, Start& begin) {
+  return SteadyStateSolver(network, classified, t, begin).go();
+}
+
+}  // namespace rheonet

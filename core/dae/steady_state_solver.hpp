@@ -1,0 +1,124 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
+#include "core/dae/convex.hpp"
+#include "core/dae/steady_state.hpp"
+
+namespace rheonet {
+
+/// Implementation of `settle`. In steady motion each law is a function of velocity alone: springs are rigid, friction slides at
+/// its full force, laws that creep have the force of their creep. The velocities are those of least dissipation, a convex
+/// problem. Their forces load a second convex problem, for the displacements of springs and of friction that sticks.
+class SteadyStateSolver {
+ public:
+  SteadyStateSolver(const Network& network, const Structure& classified, double t, Start& begin);
+  SteadyStart go();
+
+ private:
+  /// Forces balance, and values agree, if they differ by no more than this share of their magnitudes.
+  static constexpr double rounding = 1e-12;
+
+  struct Law {
+    DeflectionBatch* batch;
+    std::size_t i;
+    DeflectionBatch::Steady steady;
+    int direction;
+    bool rigid() const { return std::isinf(steady.rest); }
+    /// Its force follows from its deflection: a spring, or friction that sticks.
+    bool elastic() const { return steady.rest > 0 && direction == 0; }
+    double force(double w) const {
+      return std::clamp(steady.rest * direction + steady.slope * w, -steady.bound, steady.bound);
+    }
+  };
+
+  std::string kind() const { return resting_ ? "no state of rest to start from" : "no steady state to start from"; }
+  std::string with_unit(double x, Quantity quantity) const {
+    return rheonet::with_unit(*network_.scene, x, quantity);
+  }
+  std::string name(const Branch& b) const { return network_.name_of(b); }
+  void note(const std::string& text) {
+    result_.notes.push_back((resting_ ? "start from rest: " : "steady start: ") + text);
+  }
+
+  bool known(NodeId node) const { return structure_.kind[at(node)] == Kind::known; }
+  double difference(const Branch& b) const {
+    const double va = velocity_[at(b.a)], vb = velocity_[at(b.b)], w = va - vb;
+    return std::abs(w) <= rounding * std::max(std::abs(va), std::abs(vb)) ? 0 : w;
+  }
+  int slot(NodeId node) const { return structure_.rank[at(node)]; }
+  /// Slot of the node that represents all nodes that move with this one.
+  int leader(NodeId node) const { return slot(leader_[at(node)]); }
+  bool together(const Branch& b) const { return leader_[at(b.a)] == leader_[at(b.b)]; }
+  bool held(NodeId node) const {
+    return known(node) || std::find(pinned_.begin(), pinned_.end(), node) != pinned_.end();
+  }
+
+  double bound(std::size_t slider) const {
+    const Slip& law = network_.sliders[slider].law;
+    return broken_[slider] ? law.coulomb : law.breakaway;
+  }
+  bool rigid(std::size_t slider) const { return std::isinf(network_.sliders[slider].law.breakaway); }
+
+  template <class Visit>
+  void for_each_rigid(Visit visit) const {
+    for (std::size_t j = 0; j < laws_.size(); ++j) {
+      if (laws_[j].rigid()) visit(network_.deflections[j]);
+    }
+    for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+      if (rigid(k)) visit(network_.sliders[k].branch);
+    }
+  }
+
+  // steady_state.cpp: inputs and messages.
+  void enter_inputs();
+  void refuse_stretching() const;
+  [[noreturn]] void report_stretching(NodeId first, NodeId last, const std::vector<const Branch*>& from) const;
+  [[noreturn]] void report_acceleration(const std::vector<NodeId>& nodes) const;
+  void hold_what_is_free();
+  void note_what_gave_way();
+
+  // steady_velocities.cpp
+  void lead(DisjointSets& sets);
+  bool find_velocities();
+  bool break_away(const std::vector<int>& direction);
+  ConvexNetwork velocity_problem() const;
+  void add_rates(ConvexNetwork& problem, double scale) const;
+  double natural_speed(double force) const;
+  void solve(ConvexNetwork& problem, double far) const;
+  void take_velocities(const ConvexNetwork& problem);
+  void refine_velocities(double scale);
+  void refuse_motion() const;
+
+  // steady_positions.cpp
+  struct Forces;
+  Forces forces_at_start();
+  bool find_positions();
+  void take_positions(const ConvexNetwork& problem);
+  std::vector<std::string> fix_positions(ConvexNetwork& problem, DisjointSets& hang) const;
+
+  const Network& network_;
+  const Structure& structure_;
+  Inputs& inputs_;
+  State& state_;
+  const bool resting_;
+  const double t_;
+  std::vector<Law> laws_;         ///< one for each deflection branch
+  std::vector<double> velocity_;  ///< of each node
+  std::vector<double> load_, load_magnitude_;  ///< applied at each node
+  std::vector<NodeId> leader_;    ///< of each node: the node that represents all that move with it
+  std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else determines it
+  std::vector<char> broken_;      ///< of each slider: it has broken away
+  std::vector<int> slip_;         ///< of each slider: its direction
+  SteadyStart result_;
+};
+
+}  // namespace rheonet

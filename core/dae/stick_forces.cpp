@@ -1,0 +1,97 @@
+#include "core/dae/stick_forces.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
+#include "core/network/adjacent_elements.hpp"
+
+namespace rheonet {
+
+// The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
+// the balance there is the sum of the balances of the other nodes. The rest falls into separate parts.
+StickForces::StickForces(const Network& network, const Structure& structure) : network_(network) {
+  const auto inner = [&](NodeId node) { return structure.kind[at(node)] == Kind::joined; };
+  DisjointSets parts(structure.kind.size());
+  std::vector<int> sliders_at(structure.kind.size(), 0);
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const auto& [element, a, b] = network.sliders[k].branch;
+    if (!structure.stuck[k]) continue;
+    if (inner(a) && inner(b)) parts.join(a, b);
+    ++sliders_at[at(a)];
+    ++sliders_at[at(b)];
+  }
+  std::vector<int> part(structure.kind.size(), -1), row(part);  // of each node: its part, and its place there
+  std::vector<std::vector<BoxedBranch>> branches;
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const Network::Slider& s = network.sliders[k];
+    if (!structure.stuck[k]) continue;
+    const NodeId a = s.branch.a, b = s.branch.b, node = inner(a) ? a : b;
+    if (!(inner(a) && inner(b)) && (!inner(node) || sliders_at[at(node)] == 1)) {
+      lone_.push_back({k, node, !inner(node) ? 0.0 : node == a ? 1.0 : -1.0});
+      continue;
+    }
+    int& of = part[at(parts.find(node))];
+    if (of < 0) {
+      of = static_cast<int>(branches.size());
+      branches.emplace_back();
+      shared_.push_back({{}, {}, BoxedForces(0, {}), {}, {}});
+    }
+    Shared& shared = shared_[at(of)];
+    const auto place = [&](NodeId end) {
+      if (!inner(end)) return -1;
+      if (row[at(end)] < 0) {
+        row[at(end)] = static_cast<int>(shared.nodes.size());
+        shared.nodes.push_back(end);
+      }
+      return row[at(end)];
+    };
+    const int first = place(a);
+    shared.sliders.push_back(k);
+    branches[at(of)].push_back({first, place(b), -s.law.breakaway, s.law.breakaway});
+  }
+  for (std::size_t k = 0; k < shared_.size(); ++k) {
+    Shared& shared = shared_[k];
+    shared.load.resize(shared.nodes.size());
+    shared.force.resize(shared.sliders.size());
+    shared.problem = BoxedForces(static_cast<int>(shared.nodes.size()), std::move(branches[k]));
+  }
+}
+
+void StickForces::solve(double t, const std::vector<double>& left, std::vector<double>& force) {
+  for (const auto& [slider, node, side] : lone_) force[slider] = side == 0 ? 0 : -side * left[at(node)];
+  for (Shared& shared : shared_) {
+    double sum = 0;
+    for (std::size_t n = 0; n < shared.nodes.size(); ++n) sum += shared.load[n] = -left[at(shared.nodes[n])];
+    if (!std::isfinite(sum)) {  // the integrator tries too long a step: it rejects states that are not finite
+      for (const std::size_t k : shared.sliders) force[k] = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
+    if (shared.problem.solve(shared.load, shared.force) == BoxedForces::Outcome::failed) report_unbalanced(t, shared);
+    for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];
+  }
+}
+
+void StickForces::report_unbalanced(double t, const Shared& shared) const {
+  std::string what;
+  Spot where;
+  if (const int n = shared.problem.failed_node(); n >= 0) {
+    const NodeId node = shared.nodes[at(n)];
+    where = network_.spot_of_node(node);
+    what = fmt::format("the forces at node {} cannot be balanced: the bounds of {}", network_.node_name(node),
+                       format_list(elements_at(network_, {node})));
+  } else {
+    const Branch& b = network_.sliders[shared.sliders[at(shared.problem.failed_branch())]].branch;
+    where = network_.spot_of(b.element);
+    what = fmt::format("the force of `{}`, which sticks beside other sliders, is not the one of least norm: the bounds of {}",
+                       network_.name_of(b), format_list(elements_at(network_, {b.a, b.b})));
+  }
+  throw SimulationError(where, fmt::format("{} {} may lie too far apart for double precision; check them", at_time(*network_.scene, t), what));
+}
+
+}  // namespace rheonet

@@ -1,0 +1,406 @@
+#include "core/netlist/element_templates.hpp"
+
+#include <algorithm>
+
+#include "core/netlist/group_names.hpp"
+#include "core/netlist/signal_connections.hpp"
+#include "core/netlist/table_reader.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::string article(const std::string& type) {
+  return (std::string_view("aeiou").find(type.front()) == std::string_view::npos ? "a `" : "an `") + type + "`";
+}
+
+const Parameter* find_parameter(const Declaration& declaration, const std::string& name) {
+  for (const Parameter& p : declaration.parameters)
+    if (p.name == name) return &p;
+  return nullptr;
+}
+
+/// Describes a valid value of a missing parameter.
+std::string wanted(const Parameter& parameter, Domain domain) {
+  const std::string unit = unit_of(parameter.quantity, domain);
+  if (parameter.kind == Parameter::Kind::signal)
+    return "a signal: a number or a table such as { step = \"1 " + unit + "\" }";
+  return parameter.quantity == Quantity::number ? "a number"
+                                                : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
+}
+
+/// Lists the parameters that are signals.
+std::string what_may_vary(Declarations declarations) {
+  std::string text;
+  for (const Declaration* declaration : declarations) {
+    std::vector<std::string> signals;
+    for (const Parameter& p : declaration->parameters)
+      if (p.kind == Parameter::Kind::signal) signals.push_back(p.name);
+    if (!signals.empty()) text += (text.empty() ? "" : ", ") + list_names(signals, "and") + " of " + article(declaration->type);
+  }
+  return "signals, which vary in time, are " + text;
+}
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The entry `type`, `series` or `parallel` of an element or group; nullptr, with a mistake, unless it has exactly one.
+const TomlEntry* find_kind(const TomlValue& source, Spot spot, const std::string& called, DiagnosticList& diagnostics) {
+  const TomlEntry* kind = nullptr;
+  for (const char* key : {"type", "series", "parallel"}) {
+    const TomlEntry* entry = source.find(key);
+    if (entry && kind) {
+      refuse_both(*kind, *entry, called, diagnostics,
+                  "a group in a group is a member of its own: series = [ { parallel = [ ... ] }, ... ]");
+      return nullptr;
+    }
+    if (entry) kind = entry;
+  }
+  if (!kind) {
+    std::string hint = "expected `type`, `series` or `parallel`";
+    Spot where = spot;
+    for (const TomlEntry& entry : source.entries)
+      if (const auto meant = nearest(entry.key, {"type", "series", "parallel"}); !meant.empty()) {
+        hint = "is `" + entry.key + "` meant to be `" + meant + "`?";
+        where = entry.spot;
+      }
+    diagnostics.error(where, called + " has no `type`", hint);
+  }
+  return kind;
+}
+
+/// Reports a parameter given by its name in the other domain: "unknown key" would help less. True if there is one.
+bool refuse_other_names(const Parameter& parameter, const std::string& name, bool in_model, Domain domain, TableReader& reader,
+                        DiagnosticList& diagnostics) {
+  const bool rotation = domain == Domain::rotation;
+  bool misnamed = false;
+  for (const std::string& other : {parameter.name, parameter.rotational_name}) {
+    const TomlEntry* entry = other.empty() || other == name ? nullptr : reader.find_quietly(other);
+    if (!entry) continue;
+    // In a model for translation, an override replaces the value that the model gives.
+    const TomlEntry* given_now = reader.find_quietly(name);
+    if (in_model && rotation && other == parameter.name && given_now && given_now->spot.on_command_line()) continue;
+    misnamed = true;
+    diagnostics.error(
+        entry->spot,
+        "`" + other + "` is called `" + name + "` in a " + (rotation ? "rotational" : "translational") + " scene",
+        "write `" + name + "`" + (rotation ? "" : ", or set domain = \"rotation\""));
+  }
+  return misnamed;
+}
+
+}  // namespace
+
+int Scope::node(const std::string& name, Spot spot) {
+  if (name == "ground") return ground;
+  const auto [found, is_new] = node_index.emplace(name, static_cast<int>(nodes.size()));
+  if (is_new) nodes.push_back({name, spot});
+  return found->second;
+}
+
+const ElementTemplate* Scope::find(const std::string& name) const {
+  const auto found = entry_index.find(name);
+  return found == entry_index.end() ? nullptr : &entries[found->second];
+}
+
+void TemplateReader::read_elements(const TomlValue& table, Scope& scope, bool in_model) {
+  if (!expect_table(table, "`elements`", context_.diagnostics)) return;
+  scope.entries.reserve(table.entries.size());
+  for (const TomlEntry& entry : table.entries) {
+    if (!expect_name(entry.key, entry.spot, "an element", context_.diagnostics)) continue;
+    if (entry.key == "ground") {
+      context_.diagnostics.error(entry.spot, "an element cannot be called `ground`: that is the node that never moves");
+      continue;
+    }
+    scope.entry_index.emplace(entry.key, scope.entries.size());
+    scope.entries.push_back(read_entry(entry.key, entry.spot, entry.value, &scope, in_model));
+  }
+  check_names(scope, context_.diagnostics);
+}
+
+ElementTemplate TemplateReader::read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope, bool in_model) {
+  ElementTemplate plan;
+  plan.in_model = in_model;
+  plan.name = std::move(name);
+  plan.spot = spot;
+  plan.source = &source;
+  DiagnosticList& diagnostics = context_.diagnostics;
+  const std::size_t before = diagnostics.errors();
+  const std::string called = scope ? "element `" + plan.name + "`" : "a member of a group";
+  if (!expect_table(source, called, diagnostics, "an element is a table: { type = \"spring\", ... }")) return plan;
+
+  const TomlEntry* kind = find_kind(source, spot, called, diagnostics);
+  if (!kind) return plan;
+
+  const auto read_name = [&](TableReader& reader) {
+    const TomlEntry* entry = scope ? nullptr : reader.find("name");
+    if (!entry) return;
+    if (!expect_string(entry->value, "`name`", diagnostics)) return;
+    if (!expect_name(entry->value.text, entry->value.spot, "an element", diagnostics)) return;
+    plan.name = entry->value.text;
+    plan.spot = entry->value.spot;
+  };
+  if (kind->key != "type") {
+    plan.kind = kind->key == "series" ? ElementTemplate::Kind::series : ElementTemplate::Kind::parallel;
+    TableReader reader(source, article(kind->key) + " group");
+    read_name(reader);
+    read_place(plan, scope, 2, false, true, reader);
+    read_repeat(plan, reader);
+    read_group(plan, *kind, reader);
+    reader.finish(diagnostics);
+    // An unnamed group within another adds no level: its members are numbered with the members around it.
+    if (scope || !plan.name.empty() || plan.repeat) name_members(plan, diagnostics);
+  } else if (expect_string(kind->value, "`type`", diagnostics)) {
+    const std::string& type = kind->value.text;
+    const auto model = models_.find(type);
+    const Declaration* declaration = find_type(type);
+    if (declaration || model != models_.end()) {
+      TableReader reader(source, article(type));
+      reader.find("type");
+      read_name(reader);
+      if (declaration)
+        read_element(plan, *kind, *declaration, scope, reader);
+      else
+        read_instance(plan, *model->second, scope, reader);
+      read_repeat(plan, reader);
+      reader.finish(diagnostics);
+    } else if (context_.models_missing) {
+      return plan;  // the type may be a model of that file
+    } else {
+      refuse_type(*kind, source, !scope);
+    }
+  }
+  plan.sound = diagnostics.errors() == before;
+  return plan;
+}
+
+const Declaration* TemplateReader::find_type(const std::string& type) const {
+  for (const Declaration* d : context_.declarations)
+    if (d->type == type ||
+        (context_.domain == Domain::rotation && !d->rotational_type.empty() && d->rotational_type == type))
+      return d;
+  return nullptr;
+}
+
+void TemplateReader::refuse_type(const TomlEntry& type, const TomlValue& source, bool is_member) {
+  std::vector<std::string> names;
+  for (const Declaration* d : context_.declarations) {
+    if (!d->rotational_type.empty() && d->rotational_type == type.value.text) {
+      context_.diagnostics.error(type.value.spot,
+                              article(type.value.text) + " belongs to a rotational scene, this one is translational",
+                              "use `" + d->type + "`, or set domain = \"rotation\"");
+      // The type's keys are known nevertheless.
+      TableReader reader(source, article(type.value.text));
+      reader.find("type");
+      if (is_member) reader.find("name");
+      if (d->ports != Declaration::Ports::between) reader.find("at");
+      if (d->ports != Declaration::Ports::at) reader.find("between");
+      for (const Parameter& p : d->parameters) {
+        reader.find(p.name_in(Domain::rotation));
+        reader.find_quietly(p.name);
+      }
+      reader.find("repeat");
+      reader.finish(context_.diagnostics);
+      return;
+    }
+    names.push_back(d->type);
+    if (context_.domain == Domain::rotation && !d->rotational_type.empty()) names.push_back(d->rotational_type);
+  }
+  for (const auto& [name, model] : models_) names.push_back(name);
+  context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`",
+                          did_you_mean(type.value.text, names, "the types are " + list_names(names, "and")));
+}
+
+void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope,
+                           TableReader& reader) {
+  DiagnosticList& diagnostics = context_.diagnostics;
+  const Domain domain = context_.domain;
+  const auto found = std::find(context_.declarations.begin(), context_.declarations.end(), &declaration);
+  plan.declaration = static_cast<int>(found - context_.declarations.begin());
+  const bool block = declaration.ports == Declaration::Ports::block;
+  const bool may_be_at = declaration.ports != Declaration::Ports::between;
+  const bool may_be_between = declaration.ports != Declaration::Ports::at;
+  if (!scope && block)
+    diagnostics.error(type.value.spot, article(type.value.text) + " is a block, which stands at no node: it cannot be a member of `series` or `parallel`",
+                   "give it an entry of its own in [elements]");
+  else if (!scope && !may_be_between)
+    diagnostics.error(type.value.spot,
+                   article(type.value.text) + " stands at a node: it cannot be a member of `series` or `parallel`",
+                   "give it an entry of its own in [elements], with `at`");
+  if (block) {
+    plan.at = true;
+    plan.inputs = read_inputs(declaration, plan.name, plan.spot, reader, diagnostics);
+  } else {
+    read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, reader);
+  }
+  // A source of motion at `ground` is refused elsewhere, as a conflict.
+  if (plan.at && plan.nodes == std::vector<int>{Scope::ground} && !declaration.prescribes_motion())
+    diagnostics.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
+                     "name another node, or leave it out");
+
+  const bool rotation = domain == Domain::rotation;
+  std::vector<const TomlEntry*> given;  // of declaration.one_of
+  plan.values.resize(declaration.parameters.size());
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const Parameter& parameter = declaration.parameters[i];
+    const bool as_in_translation = plan.in_model && rotation && reader.find_quietly(parameter.name) &&
+                                   !reader.find_quietly(parameter.rotational_name);
+    const std::string& name = as_in_translation ? parameter.name : parameter.name_in(domain);
+    const bool misnamed = refuse_other_names(parameter, name, plan.in_model, domain, reader, diagnostics);
+    const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+                               !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
+    const TomlEntry* entry = may_be_absent ? reader.find(name)
+                                           : reader.require(name, plan.spot, wanted(parameter, domain));
+    if (!entry) {
+      if (parameter.kind == Parameter::Kind::signal && parameter.fallback) plan.default_signals.push_back(i);
+      continue;
+    }
+    if (among(declaration.one_of, parameter.name)) given.push_back(entry);
+    if (parameter.kind == Parameter::Kind::signal) {
+      if (const TomlEntry* feed = find_feed(entry->value)) {
+        if (auto connection = read_feed(*feed, entry->value, declaration, i, context_)) plan.feeds.push_back(std::move(*connection));
+        continue;
+      }
+      const bool any_unit = parameter.unit != Parameter::Unit::quantity;
+      plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(parameter.quantity), context_);
+      plan.signal_parameters.push_back(static_cast<int>(i));
+    } else if (entry->value.is_table()) {
+      diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(context_.declarations));
+    } else {
+      plan.values[i] = Formula(entry->value, "`" + name + "`", diagnostics);
+    }
+  }
+  if (given.size() > 1) refuse_both(*given[0], *given[1], article(type.value.text), diagnostics);
+  if (!declaration.one_of.empty() && given.empty()) {
+    std::vector<std::string> names;
+    for (const std::string& name : declaration.one_of)
+      if (const Parameter* p = find_parameter(declaration, name)) names.push_back(p->name_in(domain));
+    diagnostics.error(plan.spot, article(type.value.text) + " needs " + list_names(names));
+  }
+}
+
+void TemplateReader::read_instance(ElementTemplate& plan, Model& model, Scope* scope, TableReader& reader) {
+  plan.kind = ElementTemplate::Kind::instance;
+  plan.model = &model;
+  const std::size_t ports = model.ports.size();
+  if (!scope && ports != 2 && ports != 0)
+    context_.diagnostics.error(plan.spot, "model `" + model.name + "` has " + std::to_string(ports) +
+                                           (ports == 1 ? " port" : " ports") +
+                                           ": a member of `series` or `parallel` needs two");
+  read_place(plan, scope, ports, ports == 1, ports != 1, reader);
+  for (const NamedFormula& parameter : model.parameters) {
+    const TomlEntry* entry = parameter.formula.given()
+                                 ? reader.find(parameter.name)
+                                 : reader.require(parameter.name, plan.spot, "the model gives it no default");
+    plan.values.push_back(entry ? Formula(entry->value, "`" + parameter.name + "`", context_.diagnostics) : Formula());
+  }
+}
+
+void TemplateReader::read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader) {
+  reader.find(group.key);
+  if (!expect_array(group.value, "`" + group.key + "`", context_.diagnostics,
+                    "a group lists its members: " + group.key + " = [ { type = \"spring\", ... }, ... ]"))
+    return;
+  if (group.value.items.empty()) context_.diagnostics.error(group.value.spot, "`" + group.key + "` has no members");
+  plan.members.reserve(group.value.items.size());
+  for (const TomlValue& item : group.value.items) plan.members.push_back(read_entry("", item.spot, item, nullptr, plan.in_model));
+}
+
+void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, TableReader& reader) {
+  DiagnosticList& diagnostics = context_.diagnostics;
+  const TomlEntry* at = may_be_at && scope ? reader.find("at") : reader.find_quietly("at");
+  const TomlEntry* between = may_be_between && scope ? reader.find("between") : reader.find_quietly("between");
+  if (!scope) {
+    for (const TomlEntry* entry : {at, between})
+      if (entry)
+        diagnostics.error(entry->spot, "a member of `series` or `parallel` has no `" + entry->key + "`",
+                       "its place in the group says between which nodes it is");
+    return;
+  }
+  const std::string two = ports == 2 ? "two nodes" : std::to_string(ports) + " nodes";
+  const std::string between_hint = ports == 2 ? "between = [\"a\", \"ground\"]" : "one for each port of the model";
+  if (at && !may_be_at) {
+    diagnostics.error(at->spot, "`" + plan.name + "` is between " + two + ", not `at` one", between_hint);
+    return;
+  }
+  if (between && !may_be_between) {
+    diagnostics.error(between->spot, "`" + plan.name + "` is `at` one node, not `between` several", "at = \"a\"");
+    return;
+  }
+  if (at && between) {
+    refuse_both(*at, *between, "`" + plan.name + "`", diagnostics);
+    return;
+  }
+  if (!at && !between) {
+    diagnostics.error(plan.spot,
+                   "`" + plan.name + "` needs " +
+                       list_names(may_be_at && may_be_between ? std::vector<std::string>{"at", "between"}
+                                  : may_be_at                 ? std::vector<std::string>{"at"}
+                                                              : std::vector<std::string>{"between"}),
+                   may_be_between ? between_hint : "at = \"a\"");
+    return;
+  }
+  const auto take = [&](const TomlValue& value) {
+    if (!expect_string(value, "the name of a node", diagnostics)) return;
+    if (!expect_name(value.text, value.spot, "a node", diagnostics)) return;
+    plan.nodes.push_back(scope->node(value.text, value.spot));
+  };
+  if (at) {
+    plan.at = true;
+    take(at->value);
+    return;
+  }
+  if (!expect_array(between->value, "`between`", diagnostics, between_hint)) return;
+  const auto& items = between->value.items;
+  if (items.size() != ports && ports > 0) {
+    diagnostics.error(between->value.spot, "`between` must name " + two + ", but names " + std::to_string(items.size()),
+                   between_hint);
+    return;
+  }
+  for (const TomlValue& item : items) take(item);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (items[i].is_string() && items[j].is_string() && items[i].text == items[j].text)
+        diagnostics.error(items[i].spot, "`between` names the node `" + items[i].text + "` twice",
+                       "an element is between different nodes");
+}
+
+void TemplateReader::read_repeat(ElementTemplate& plan, TableReader& reader) {
+  DiagnosticList& diagnostics = context_.diagnostics;
+  const TomlEntry* entry = reader.find("repeat");
+  if (!entry ||
+      !expect_table(entry->value, "`repeat`", diagnostics, "repeat = { count = 10, as = \"i\", arrange = \"series\" }"))
+    return;
+  TableReader repeat_keys(entry->value, "`repeat`");
+  Repeat repeat;
+  const auto is_block = [&] { return context_.declarations[static_cast<std::size_t>(plan.declaration)]->ports == Declaration::Ports::block; };
+  const bool chainable = plan.kind == ElementTemplate::Kind::element    ? !plan.at && !is_block()
+                         : plan.kind == ElementTemplate::Kind::instance ? plan.model->ports.size() == 2
+                                                             : true;
+  repeat.series = chainable;
+  if (const TomlEntry* count = repeat_keys.require("count", entry->spot, "repeat = { count = 10 }"))
+    repeat.count = Formula(count->value, "`count`", diagnostics);
+  if (const TomlEntry* as = repeat_keys.find("as"); as && expect_string(as->value, "`as`", diagnostics)) {
+    if (as->value.text == "n")
+      diagnostics.error(as->value.spot, "`as` cannot be `n`: that is the count", "choose another name");
+    else if (expect_identifier(as->value.text, as->value.spot, "the number of a member", diagnostics))
+      repeat.as = as->value.text;
+  }
+  if (const TomlEntry* arrange = repeat_keys.find("arrange");
+      arrange && expect_string(arrange->value, "`arrange`", diagnostics)) {
+    const std::string& text = arrange->value.text;
+    if (text != "series" && text != "parallel")
+      diagnostics.error(arrange->value.spot, "`arrange` must be `series` or `parallel`, but is `" + text + "`",
+                     did_you_mean(text, {"series", "parallel"}));
+    else if (text == "series" && !chainable)
+      diagnostics.error(arrange->value.spot, "only what is between two nodes can be repeated in series",
+                     "arrange = \"parallel\"");
+    else
+      repeat.series = text == "series";
+  }
+  repeat_keys.finish(diagnostics);
+  plan.repeat = std::move(repeat);
+}
+
+}  // namespace rheonet

@@ -1,0 +1,120 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "core/netlist/context.hpp"
+#include "core/netlist/parameters.hpp"
+#include "core/netlist/signals.hpp"
+#include "core/netlist/table_reader.hpp"
+
+namespace rheonet {
+
+struct Model;
+
+/// An input of a block, or the block that feeds a signal, as written: `controller`, `-drum.velocity`.
+struct SignalConnection {
+  const TomlValue* source = nullptr;  ///< a string
+  std::string path;                   ///< without the sign
+  double sign = 1;
+  int parameter = -1;  ///< index into Declaration::parameters of the signal that is fed
+};
+
+/// `repeat = { count, as, arrange }` of an entry.
+struct Repeat {
+  Formula count;
+  std::string as = "i";
+  bool series = true;
+};
+
+/// One entry of an `elements` table, or one member of `series` or `parallel`. Its structure is checked and its types are
+/// resolved; its values are not evaluated yet. One plan serves all elements made from it.
+struct ElementTemplate {
+  enum class Kind { element, series, parallel, instance };
+
+  Kind kind = Kind::element;
+  bool sound = false;  ///< false: it has a mistake; no elements are made
+  bool in_model = false;  ///< stands in a model, which has no domain of its own
+  std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
+  Spot spot;           ///< of its name, or of its table
+  const TomlValue* source = nullptr;
+  std::vector<int> nodes;  ///< `at`, `between`: indices into Scope::nodes, or Scope::ground. Empty within a group
+  std::optional<Repeat> repeat;
+
+  int declaration = 0;          ///< of an element
+  bool at = false;              ///< of an element
+  std::vector<Formula> values;  ///< of an element: one a declared parameter; of an instance: one a parameter of its model
+  std::vector<SignalTemplate> signals;  ///< of an element, one for each of signal_parameters
+  std::vector<int> signal_parameters;
+  std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
+  std::vector<SignalConnection> inputs;  ///< of a block
+  std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
+
+  std::vector<ElementTemplate> members;  ///< of a group
+  Model* model = nullptr;     ///< of an instance
+};
+
+/// The entries of one `elements` table, and the nodes that they name.
+struct Scope {
+  struct Node {
+    std::string name;
+    Spot spot;
+  };
+  static constexpr int ground = -1;  ///< stands for the ground among indices into `nodes`
+  std::vector<Node> nodes;  ///< a model's ports come first
+  std::unordered_map<std::string, int> node_index;
+  std::vector<ElementTemplate> entries;
+
+  std::unordered_map<std::string, std::size_t> entry_index;
+
+  /// Index of the node `name`, or `ground`; adds the node if it is new.
+  int node(const std::string& name, Spot spot);
+  /// The entry `name`, nullptr if absent.
+  const ElementTemplate* find(const std::string& name) const;
+};
+
+/// A model of `[models]`.
+struct Model {
+  std::string name;
+  Spot spot;
+  const TomlValue* source = nullptr;
+  std::vector<std::string> ports;
+  std::vector<NamedFormula> parameters;
+  std::vector<std::size_t> order;  ///< order in which the parameters can be evaluated
+  Scope scope;
+  std::vector<Number> defaults;              ///< of the parameters; NaN if absent or invalid
+  const Environment* environment = nullptr;  ///< the [parameters] of its file
+  double least_elements = 0;                 ///< lower bound of the elements of an instance: each `repeat` counts once
+  bool sound = false;
+};
+
+using Models = std::map<std::string, std::unique_ptr<Model>>;
+
+/// Makes plans of the entries of a file.
+class TemplateReader {
+ public:
+  TemplateReader(Context& context, const Models& models) : context_(context), models_(models) {}
+
+  /// Reads all entries of an `elements` table. `scope` already contains the ports.
+  void read_elements(const TomlValue& table, Scope& scope, bool in_model = false);
+  /// Reads one entry. `scope` names its nodes; nullptr for a member of a group, which names no nodes.
+  ElementTemplate read_entry(std::string name, Spot spot, const TomlValue& source, Scope* scope, bool in_model);
+
+ private:
+  void read_element(ElementTemplate& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope, TableReader& reader);
+  void read_instance(ElementTemplate& plan, Model& model, Scope* scope, TableReader& reader);
+  void read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader);
+  void read_place(ElementTemplate& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, TableReader& reader);
+  void read_repeat(ElementTemplate& plan, TableReader& reader);
+  const Declaration* find_type(const std::string& type) const;
+  void refuse_type(const TomlEntry& type, const TomlValue& source, bool is_member);
+
+  Context& context_;
+  const Models& models_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,32 @@
+#include "core/netlist/expand.hpp"
+#include "core/netlist/records.hpp"
+
+namespace rheonet {
+
+/// Path of a wire's source in the scene. A wire in a model may name the model's elements and nodes, and its ports.
+std::string Expander::path_of(const SignalConnection& connection) const {
+  if (inside_.path.empty()) return connection.path;
+  const std::size_t dot = connection.path.find('.');
+  const auto port = inside_.ports.find(connection.path.substr(0, dot));
+  if (port == inside_.ports.end()) return inside_.path + '.' + connection.path;
+  return port->second + (dot == connection.path.npos ? "" : connection.path.substr(dot));
+}
+
+void Expander::connection(const ElementTemplate& plan, const Environment& environment, int element) {
+  for (const SignalConnection& feed : plan.feeds) loose_.ends.push_back({&feed, path_of(feed), inside_.path, -1, element});
+  const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  if (declaration.ports != Declaration::Ports::block) return;
+  const int block = static_cast<int>(scene_.blocks.size());
+  scene_.blocks.push_back({.element = element, .inputs = {}, .unit = {}});
+  for (const SignalConnection& input : plan.inputs) loose_.ends.push_back({&input, path_of(input), inside_.path, block, element});
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
+    const Formula& formula = plan.values[i];
+    if (declaration.parameters[i].unit == Parameter::Unit::quantity || !formula.given()) continue;
+    if (const auto number = formula.evaluate(environment, context_.diagnostics))
+      loose_.units.push_back({block, static_cast<int>(i), unit_of(*number), &formula.source()});
+  }
+  for (std::size_t i = 0; i < plan.signals.size(); ++i)
+    loose_.units.push_back({block, plan.signal_parameters[i], plan.signals[i].unit(), nullptr});
+}
+
+}  // namespace rheonet

@@ -1,0 +1,277 @@
+#include "core/netlist/signal_connections.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/netlist/counting.hpp"
+#include "core/netlist/expression.hpp"
+#include "core/netlist/records.hpp"
+#include "core/netlist/scene_index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+const char* const source_example = "a block (`controller`) or a quantity of the network (`drum.velocity`)";
+
+std::optional<SignalConnection> read_wire(const TomlValue& source, const std::string& what, DiagnosticList& diagnostics) {
+  if (!expect_string(source, what, diagnostics, source_example)) return {};
+  SignalConnection connection{.source = &source, .path = source.text};
+  if (connection.path.starts_with('-')) {
+    connection.sign = -1;
+    connection.path.erase(0, 1);
+  }
+  if (!connection.path.empty()) return connection;
+  diagnostics.error(source.spot, what + " is empty", source_example);
+  return {};
+}
+
+/// Adds the instance that the wire is in, if any, to messages.
+class Within {
+ public:
+  Within(DiagnosticList& diagnostics, const LooseEnd& end) {
+    if (!end.within.empty()) within_.emplace(diagnostics, end.within);
+  }
+
+ private:
+  std::optional<DiagnosticList::Within> within_;
+};
+
+class Connection {
+ public:
+  Connection(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene)
+      : loose_(loose), doubtful_(doubtful), context_(context), diagnostics_(context.diagnostics), scene_(scene) {}
+
+  void make() {
+    if (!find_sources()) return;
+    find_units();
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) check_block(static_cast<int>(k));
+    for (std::size_t k = 0, feed = 0; k < loose_.ends.size(); ++k)
+      if (loose_.ends[k].block < 0) check_feed(loose_.ends[k], scene_.feeds[feed++]);
+  }
+
+ private:
+  const std::string& name(int block) const { return scene_.elements[at(scene_.blocks[at(block)].element)].name; }
+  const Declaration& declaration(int element) const {
+    return *context_.declarations[at(scene_.elements[at(element)].declaration)];
+  }
+
+  /// Finds the sources of all wires; false if one is not found. No message is added for a source that has a mistake.
+  bool find_sources() {
+    bool all = true;
+    std::vector<std::string> names;
+    for (const LooseEnd& end : loose_.ends) {
+      names.push_back(end.path);
+      names.push_back(end.path.substr(0, end.path.rfind('.')));
+    }
+    const SceneIndex index(scene_, names);
+    for (const LooseEnd& end : loose_.ends) {
+      const Within within(diagnostics_, end);
+      const std::size_t dot = end.path.rfind('.');
+      int block = index.find(end.path).block;
+      if (block < 0 && dot != end.path.npos && end.path.substr(dot) == ".out")
+        block = index.find(end.path.substr(0, dot)).block;
+      if (end.block < 0) {
+        all = all && block >= 0;
+        if (block < 0)
+          refuse(end, index.find(end.path));
+        else
+          scene_.feeds.push_back({end.element, block, end.connection->sign});
+        continue;
+      }
+      const int source = block < 0 ? sensed(end, index.find(end.path)) : block;
+      all = all && source >= 0;
+      if (source >= 0) scene_.blocks[at(end.block)].inputs.push_back({block >= 0, source, end.connection->sign});
+    }
+    return all;
+  }
+
+  /// Index of a quantity of the network in Scene::sensed; -1, with a mistake, if the path names none.
+  int sensed(const LooseEnd& end, const SceneIndex::Found& found) {
+    if (end.path.find('.') == end.path.npos || found.any()) {
+      refuse(end, found);
+      return -1;
+    }
+    TomlValue path = *end.connection->source;
+    path.text = end.path;
+    auto record = std::move(find_records({path}, doubtful_, context_, scene_).front());
+    if (!record) return -1;
+    scene_.sensed.push_back(std::move(*record));
+    return static_cast<int>(scene_.sensed.size()) - 1;
+  }
+
+  bool is_doubtful(const std::string& path) const { return doubtful_.contains(path.substr(0, path.find('.'))); }
+
+  void refuse(const LooseEnd& end, const SceneIndex::Found& found) {
+    if (!found.any() && is_doubtful(end.path)) return;
+    const Spot spot = end.connection->source->spot;
+    if (found.any() && end.block >= 0) {
+      diagnostics_.error(spot, "`" + end.path + "` does not say which quantity is meant",
+                      "for instance `" + end.path + (found.node >= 0 ? ".velocity`" : ".force`"));
+      return;
+    }
+    std::vector<std::string> blocks;
+    for (std::size_t k = 0; k < scene_.blocks.size(); ++k) blocks.push_back(name(static_cast<int>(k)));
+    diagnostics_.error(spot, "no block is called `" + end.path + "`",
+                    did_you_mean(end.path, blocks,
+                                 end.block < 0 ? "a signal comes from a block: a `gain` makes one of a quantity of the network"
+                                               : "an input is " + std::string(source_example)));
+  }
+
+  BlockUnit unit_of_input(const SceneBlock::Input& input) const {
+    return input.from_block ? scene_.blocks[at(input.index)].unit : unit_of(scene_, scene_.sensed[at(input.index)]);
+  }
+
+  const Parameter& parameter(const OwnUnit& own) const {
+    return declaration(scene_.blocks[at(own.block)].element).parameters[at(own.parameter)];
+  }
+
+  /// Unit of the inputs: that of the first input or associated parameter that has one.
+  BlockUnit taken_in(int block) const {
+    for (const SceneBlock::Input& input : scene_.blocks[at(block)].inputs)
+      if (const BlockUnit unit = unit_of_input(input); !unit.open) return unit;
+    return given(block, Parameter::Unit::input);
+  }
+
+  BlockUnit given(int block, Parameter::Unit kind) const {
+    for (const OwnUnit& own : loose_.units)
+      if (own.block == block && parameter(own).unit == kind && !own.unit.open) return own.unit;
+    return {};
+  }
+
+  /// Unit of the output, from the inputs and `own` parameters.
+  BlockUnit made(int block) const {
+    const Declaration::Inputs& inputs = declaration(scene_.blocks[at(block)].element).inputs;
+    BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
+    for (const OwnUnit& own : loose_.units) {
+      if (own.block != block || parameter(own).unit != Parameter::Unit::own) continue;
+      const bool open = unit.open || own.unit.open;
+      unit = unit_of(product(one_of(unit), one_of(own.unit)));
+      unit.open = open;
+    }
+    if (inputs.integrates) unit.dimension = unit.dimension * dimension_of(Quantity::time, context_.domain);
+    return unit;
+  }
+
+  /// Passes units from block to block until nothing changes.
+  void find_units() {
+    for (bool again = true; again;) {
+      again = false;
+      for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
+        BlockUnit& unit = scene_.blocks[k].unit;
+        if (!unit.open) continue;
+        unit = made(static_cast<int>(k));
+        if (unit.open) unit = given(static_cast<int>(k), Parameter::Unit::output);
+        again = again || !unit.open;
+      }
+    }
+  }
+
+  void check_block(int block) {
+    const BlockUnit in = taken_in(block), out = made(block);
+    const auto differs = [](const BlockUnit& a, const BlockUnit& b) {
+      return !fits(one_of(a), one_of(b));
+    };
+    for (const LooseEnd& end : loose_.ends) {
+      if (end.block != block) continue;
+      const BlockUnit unit = unit_of_end(end);
+      if (!differs(unit, in)) continue;
+      const Within within(diagnostics_, end);
+      diagnostics_.error(end.connection->source->spot, "`" + end.path + "` is " + words(unit) + ", but the other inputs of `" +
+                                                  name(block) + "` are " + words(in),
+                      "all inputs of a block have one unit: put a `gain` before it");
+    }
+    for (const OwnUnit& own : loose_.units) {
+      if (own.block != block) continue;
+      const Parameter::Unit kind = parameter(own).unit;
+      const BlockUnit& expected = kind == Parameter::Unit::input ? in : kind == Parameter::Unit::output ? out : own.unit;
+      if (differs(own.unit, expected))
+        diagnostics_.error(own.source->spot, "`" + parameter(own).name + "`: expected " + words(expected) + ", as what the block " +
+                                              (kind == Parameter::Unit::input ? "takes in" : "puts out") + ", found " +
+                                              words(own.unit));
+    }
+  }
+
+  BlockUnit unit_of_end(const LooseEnd& end) const {
+    std::size_t number = 0;
+    for (const LooseEnd& other : loose_.ends) {
+      if (&other == &end) break;
+      if (other.block == end.block) ++number;
+    }
+    return unit_of_input(scene_.blocks[at(end.block)].inputs[number]);
+  }
+
+  void check_feed(const LooseEnd& end, const SceneFeed& feed) {
+    const BlockUnit& unit = scene_.blocks[at(feed.block)].unit;
+    if (unit.open) return;
+    const Parameter& wanted = declaration(end.element).parameters[at(end.connection->parameter)];
+    const auto checked = as_quantity(one_of(unit), wanted.quantity, context_.domain);
+    const auto* wrong = std::get_if<TextError>(&checked);
+    if (!wrong) return;
+    const Within within(diagnostics_, end);
+    diagnostics_.error(end.connection->source->spot,
+                    "`" + wanted.name_in(context_.domain) + "` from block `" + end.path + "`: " + wrong->message);
+  }
+
+  static std::string words(const BlockUnit& unit) { return describe(one_of(unit)); }
+
+  const LooseEnds& loose_;
+  const std::set<std::string>& doubtful_;
+  Context& context_;
+  DiagnosticList& diagnostics_;
+  Scene& scene_;
+};
+
+}  // namespace
+
+std::vector<SignalConnection> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, TableReader& reader,
+                              DiagnosticList& diagnostics) {
+  const Declaration::Inputs& inputs = declaration.inputs;
+  std::vector<SignalConnection> connections;
+  if (inputs.most == 0) return connections;
+  const TomlEntry* in = reader.require("in", spot, std::string("an input is ") + source_example);
+  if (!in) return connections;
+  std::vector<const TomlValue*> sources{&in->value};
+  if (in->value.is_array()) {
+    sources.clear();
+    for (const TomlValue& item : in->value.items) sources.push_back(&item);
+  }
+  if (sources.size() < inputs.least || sources.size() > inputs.most) {
+    diagnostics.error(in->value.spot, "`" + called + "` takes in " +
+                                       (inputs.most > inputs.least ? "at least " : "") + std::to_string(inputs.least) +
+                                       (inputs.least > 1 ? " signals" : " signal") + ", but `in` names " +
+                                       std::to_string(sources.size()),
+                   inputs.most == 1 ? "a `sum` adds several" : "in = [\"a\", \"-b\"]");
+    return connections;
+  }
+  for (const TomlValue* source : sources)
+    if (auto connection = read_wire(*source, "`in`", diagnostics)) connections.push_back(std::move(*connection));
+  return connections;
+}
+
+const TomlEntry* find_feed(const TomlValue& signal) { return signal.is_table() ? signal.find("block") : nullptr; }
+
+std::optional<SignalConnection> read_feed(const TomlEntry& feed, const TomlValue& signal, const Declaration& declaration,
+                              std::size_t parameter, Context& context) {
+  const Parameter& fed = declaration.parameters[parameter];
+  if (!fed.from_block) {
+    context.diagnostics.error(feed.spot, "the " + fed.name_in(context.domain) + " of a `" + declaration.type +
+                                          "` is a function of time alone: no block can give it",
+                           "take in that block in its place");
+    return {};
+  }
+  TableReader reader(signal, "a signal from a block");
+  reader.find("block");
+  reader.finish(context.diagnostics);
+  auto connection = read_wire(feed.value, "`block`", context.diagnostics);
+  if (connection) connection->parameter = static_cast<int>(parameter);
+  return connection;
+}
+
+void connect(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
+  if (!loose.ends.empty() || !loose.units.empty()) Connection(loose, doubtful, context, scene).make();
+}
+
+}  // namespace rheonet

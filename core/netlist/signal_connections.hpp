@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/netlist/context.hpp"
+#include "core/netlist/element_templates.hpp"
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+/// Reads the inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` for several.
+std::vector<SignalConnection> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, TableReader& reader,
+                              DiagnosticList& diagnostics);
+
+/// The `block` entry of `{ block = "controller" }` given in place of a signal; nullptr if the signal is none.
+const TomlEntry* find_feed(const TomlValue& signal);
+/// Reads the feed of the signal `parameter` of `declaration`; absent if it has a mistake.
+std::optional<SignalConnection> read_feed(const TomlEntry& feed, const TomlValue& signal, const Declaration& declaration,
+                              std::size_t parameter, Context& context);
+
+/// A wire met while elements are made. It is connected afterwards, because it may name an element that comes later.
+struct LooseEnd {
+  const SignalConnection* connection;
+  std::string path;     ///< path in the scene
+  std::string within;   ///< instance or member around it, for messages; "" if none
+  int block = -1;       ///< block that has it as input; -1: it feeds the element
+  int element = -1;
+};
+/// The unit of a parameter of a block.
+struct OwnUnit {
+  int block;
+  int parameter;
+  BlockUnit unit;
+  const TomlValue* source;
+};
+struct LooseEnds {
+  std::vector<LooseEnd> ends;
+  std::vector<OwnUnit> units;
+};
+
+/// Finds the sources of the wires, and checks that their units fit. `doubtful` are names that already have a mistake.
+void connect(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene);
+
+}  // namespace rheonet

@@ -1,0 +1,111 @@
+#include "core/netlist/table_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <string_view>
+
+#include "core/netlist/characters.hpp"
+
+namespace rheonet {
+
+namespace {
+
+bool is_printable_text(std::string_view text) {
+  const std::u32string characters = decode(text);
+  return std::all_of(characters.begin(), characters.end(), is_printable);
+}
+
+bool expect_kind(const TomlValue& value, TomlValue::Kind kind, const char* kind_name, const std::string& what,
+                 DiagnosticList& diagnostics, std::string hint) {
+  if (value.kind == kind) return true;
+  diagnostics.error(value.spot, what + " must be " + kind_name + ", but is " + describe(value), std::move(hint));
+  return false;
+}
+
+/// The right place of a key that is often misplaced; empty for all other keys.
+std::string place_of(std::string_view key) {
+  const auto among = [&](std::initializer_list<std::string_view> reader) { return std::find(reader.begin(), reader.end(), key) != reader.end(); };
+  if (among({"domain", "title", "include"})) return "at the top of the file, above all tables: it is for the whole scene";
+  if (among({"stop", "accuracy", "output", "record", "start_from"})) return "in [simulate]";
+  return "";
+}
+
+}  // namespace
+
+const TomlEntry* TableReader::require(const std::string& key, Spot where, std::string hint) {
+  const TomlEntry* entry = find(key);
+  if (!entry) missing_.push_back({key, where, std::move(hint)});
+  return entry;
+}
+
+void TableReader::finish(DiagnosticList& diagnostics) const {
+  const auto among = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  std::vector<std::string> mistyped;
+  for (const TomlEntry& entry : table_.entries) {
+    if (among(known_, entry.key) || among(silent_, entry.key)) continue;
+    mistyped.push_back(nearest(entry.key, known_));
+    const std::string place = place_of(entry.key);
+    diagnostics.error(entry.spot, "unknown key `" + entry.key + "` of " + what_,
+                   place.empty() ? did_you_mean(entry.key, known_, "its keys are " + list_names(known_, "and"))
+                                 : "`" + entry.key + "` belongs " + place);
+  }
+  for (const Missing& missing : missing_)
+    if (!among(mistyped, missing.key))
+      diagnostics.error(missing.where, what_ + " needs `" + missing.key + "`", missing.hint);
+}
+
+void refuse_both(const TomlEntry& a, const TomlEntry& b, const std::string& what, DiagnosticList& diagnostics,
+                 std::string hint) {
+  const bool in_order = comes_before(a.spot, b.spot);
+  const TomlEntry &first = in_order ? a : b, &later = in_order ? b : a;
+  diagnostics.error(later.spot, what + " has both `" + first.key + "` and `" + later.key + "`", std::move(hint));
+}
+
+bool expect_boolean(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::boolean, "true or false", what, diagnostics, std::move(hint));
+}
+
+bool expect_table(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::table, "a table", what, diagnostics, std::move(hint));
+}
+
+bool expect_string(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::string, "a string", what, diagnostics, std::move(hint));
+}
+
+bool expect_array(const TomlValue& value, const std::string& what, DiagnosticList& diagnostics, std::string hint) {
+  return expect_kind(value, TomlValue::Kind::array, "an array", what, diagnostics, std::move(hint));
+}
+
+bool expect_name(std::string_view name, Spot spot, const std::string& what, DiagnosticList& diagnostics) {
+  const bool good = !name.empty() && is_printable_text(name) && std::all_of(name.begin(), name.end(), [](char c) {
+    return is_letter(c) || is_digit(c) || c == '_' || c == '-';
+  });
+  if (!good)
+    diagnostics.error(spot, "`" + std::string(name) + "` is no name for " + what,
+                   "names are made of letters, digits, `_` and `-`");
+  return good;
+}
+
+bool expect_identifier(std::string_view name, Spot spot, const std::string& what, DiagnosticList& diagnostics) {
+  constexpr std::array<std::string_view, 3> reserved{"pi", "inf", "nan"};
+  const bool good =
+      !name.empty() && !is_digit(name.front()) && is_printable_text(name) &&
+      std::all_of(name.begin(), name.end(), [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+  if (!good) {
+    diagnostics.error(spot, "`" + std::string(name) + "` is no name for " + what,
+                   "names that expressions use are made of letters, digits and `_`, and begin with no digit");
+    return false;
+  }
+  if (std::find(reserved.begin(), reserved.end(), name) != reserved.end()) {
+    diagnostics.error(spot, "`" + std::string(name) + "` cannot name " + what + ": it is a number already",
+                   "choose another name");
+    return false;
+  }
+  return true;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "core/dae/consistency.hpp"
+#include "core/dae/dae.hpp"
+#include "core/netlist/scene.hpp"
+
+namespace rheonet {
+
+/// An element with a displacement of its own between the ends of a displacement record. The difference of two positions
+/// would lose the digits of a small displacement. -1: there is no such element. `sign` is -1 if its ends are swapped.
+struct Gauge { int element = -1; double sign = 1; };
+/// The gauge of each record.
+std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records);
+
+/// For each node, whether a record, claim or block needs its position.
+std::vector<char> needed_positions(const Network& network);
+
+/// Evaluates records of a scene from states of its DAE.
+class OutputSampler {
+ public:
+  OutputSampler(const Network& network, const std::vector<Record>& records);
+  /// Switches to the equations of another set of modes.
+  void attach(Dae& dae, Consistency& consistency);
+
+  /// The value of each record [SI] in a consistent state. A state inside an integrator step is consistent to the tolerance
+  /// only: with `rate`, the inverse of the step, the unknowns are made consistent where that matters.
+  const std::vector<double>& read(double t, const std::vector<double>& y, const std::vector<double>& yp,
+                                  double rate = 0);
+
+ private:
+  const std::vector<double>& read_state(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
+  double element_force(int element, const Dae::View& view) const;
+  double position(NodeId node, const Dae::View& view) const;
+  double velocity(NodeId node, const Dae::View& view) const;
+  double displacement(std::size_t record, const Dae::View& view) const;
+  double velocity(const Record& record, const Dae::View& view) const;
+
+  const Network& network_;
+  const Scene& scene_;
+  const std::vector<Record>& records_;
+  const std::vector<Gauge> gauges_;
+  Dae* dae_ = nullptr;
+  Consistency* consistency_ = nullptr;
+  bool bent_ = false;          ///< some massless node is out of balance between steps
+  bool rates_needed_ = false;  ///< a record needs y' of a floating node
+  std::vector<double> y_, slope_, yp_, row_;
+};
+
+}  // namespace rheonet

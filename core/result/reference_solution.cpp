@@ -1,0 +1,169 @@
+#include "core/result/reference_solution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace rheonet {
+
+namespace {
+
+using Instants = std::vector<ReferenceSolution::Instant>;
+
+// A jump explains a distance up to this multiple of its size, because the record may have moved on after it.
+constexpr double explained = 2;
+// Round-off of a record, in units of the last place of the largest one with its unit: it may be a difference of two such.
+constexpr double record_grains = 16;
+// An interval shorter than this share of the intervals before and after it is treated as a jump.
+constexpr double share_of_stretches = 1e-2;
+
+/// Collects the yardstick during a run.
+class Watch {
+ public:
+  Watch(const Scene& scene, double near, ReferenceSolution& result) : scene_(scene), near_(near), result_(result), event_(scene.start) {
+    result_.largest.assign(scene.records.size(), 0);
+  }
+
+  void row(const std::vector<double>& values) { see(values); }
+
+  void state(double t, const std::vector<double>& values) {
+    see(values);
+    if (t == last_time_) {
+      if (t > event_) pass(t);
+      if (values != last_ && near_a_row(t)) result_.instants.push_back({t, last_, values});
+      at_event_ = values;
+    }
+    last_time_ = t;
+    last_ = values;
+  }
+
+  void end() {
+    take_passage(std::numeric_limits<double>::infinity());
+    std::stable_sort(result_.instants.begin(), result_.instants.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  }
+
+ private:
+  /// Ends the interval from the last event to the event at t, with the records last seen.
+  void pass(double t) {
+    const double stretch = t - event_;
+    take_passage(stretch);
+    if (stretch <= near_ && stretch <= share_of_stretches * before_event_ && near_a_row(t)) passage_ = {{t, at_event_, last_, stretch}};
+    before_event_ = stretch;
+    event_ = t;
+  }
+  /// Accepts the candidate interval if it is also short compared with the interval that followed.
+  void take_passage(double next) {
+    if (!passage_.empty() && passage_.front().lasts <= share_of_stretches * next) result_.instants.push_back(std::move(passage_.front()));
+    passage_.clear();
+  }
+  void see(const std::vector<double>& values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      result_.largest[k] = std::max(result_.largest[k], std::abs(values[k]));
+    }
+  }
+  bool near_a_row(double t) const {
+    const double row = std::round((t - scene_.start) / scene_.output_every) * scene_.output_every + scene_.start;
+    return std::abs(t - row) <= near_;
+  }
+
+  const Scene& scene_;
+  double near_;
+  ReferenceSolution& result_;
+  double last_time_ = not_given;
+  std::vector<double> last_;
+  double event_;                  ///< the last event, or the start [s]
+  double before_event_ = 0;       ///< length of the interval before that [s]
+  std::vector<double> at_event_;  ///< records just after the last event
+  Instants passage_;              ///< a candidate for a steep change, or none
+};
+
+/// Distance of a value from a record at t; near a jump, from the nearer side.
+double distance(double value, double truth, std::size_t column, double t, const Instants& instants, double shift) {
+  double result = std::abs(value - truth);
+  const auto first = std::lower_bound(instants.begin(), instants.end(), t - shift,
+                                      [](const ReferenceSolution::Instant& i, double time) { return i.time < time; });
+  for (auto i = first; i != instants.end() && i->time <= t + shift; ++i) {
+    const double before = i->before[column], after = i->after[column];
+    if (i->lasts > shift || explained * std::abs(after - before) < result) continue;
+    if (i->lasts > 0 && std::min(before, after) <= value && value <= std::max(before, after)) return 0;
+    result = std::min({result, std::abs(value - before), std::abs(value - after)});
+  }
+  return result;
+}
+
+/// Calls visit(row of a, row of b) for the times that both runs have rows at, with the last row at each time.
+template <class Visit>
+void visit_common(const Trajectory& a, const Trajectory& b, Visit visit) {
+  const auto last_at_its_time = [](const Trajectory& c, std::size_t row) {
+    return row + 1 == c.times.size() || c.times[row + 1] > c.times[row];
+  };
+  for (std::size_t i = 0, j = 0; i < a.times.size() && j < b.times.size();) {
+    if (a.times[i] < b.times[j] || !last_at_its_time(a, i)) {
+      ++i;
+    } else if (b.times[j] < a.times[i] || !last_at_its_time(b, j)) {
+      ++j;
+    } else {
+      visit(i++, j++);
+    }
+  }
+}
+
+/// The largest value of any record with the same unit, for each record.
+std::vector<double> largest_of_kind(const Scene& scene, const std::vector<double>& largest) {
+  std::map<std::string, double> of_unit;
+  for (std::size_t k = 0; k < scene.records.size(); ++k) {
+    double& most = of_unit[unit_text(scene, scene.records[k])];
+    most = std::max(most, largest[k]);
+  }
+  std::vector<double> result;
+  for (const Record& record : scene.records) result.push_back(of_unit[unit_text(scene, record)]);
+  return result;
+}
+
+}  // namespace
+
+ReferenceSolution run_as_reference(const Scene& scene, double near, RunSettings settings) {
+  ReferenceSolution result;
+  Watch watch(scene, near, result);
+  settings.state = [&watch](double time, const std::vector<double>& values) { watch.state(time, values); };
+  result.trajectory = run_to_memory(scene, std::move(settings));
+  watch.end();
+  for (const std::vector<double>& row : result.trajectory.rows) watch.row(row);
+  return result;
+}
+
+std::vector<RecordError> record_errors(const Scene& scene, const Trajectory& trajectory, const ReferenceSolution& truth,
+                                       const ErrorMeasure& measure) {
+  const std::vector<double> kind = largest_of_kind(scene, truth.largest);
+  std::vector<RecordError> errors(scene.records.size());
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    RecordError& error = errors[k];
+    error.scale = truth.largest[k];
+    const double rounding = record_grains * std::numeric_limits<double>::epsilon() * kind[k];
+    visit_common(trajectory, truth.trajectory, [&](std::size_t row, std::size_t true_row) {
+      const double t = trajectory.times[row];
+      double off = distance(trajectory.rows[row][k], truth.trajectory.rows[true_row][k], k, t, truth.instants, measure.shift);
+      off = off <= rounding ? 0 : measure.factor * off;
+      if (std::isnan(error.beyond) && off > measure.allowed * error.scale) error.beyond = t;
+      if (off <= error.largest) return;
+      error.largest = off;
+      error.time = t;
+    });
+    const double dead_band = RecordError::share_of_kind * measure.allowed * kind[k];
+    if (error.largest > error.scale / 2 && std::max(error.largest, error.scale) <= dead_band) {
+      error.scale = kind[k];
+      error.beyond = not_given;
+    }
+  }
+  return errors;
+}
+
+std::size_t worst_of(const std::vector<RecordError>& errors) {
+  const auto less = [](const RecordError& a, const RecordError& b) { return a.relative() < b.relative(); };
+  return static_cast<std::size_t>(std::max_element(errors.begin(), errors.end(), less) - errors.begin());
+}
+
+}  // namespace rheonet

@@ -1,0 +1,104 @@
+#include "core/solve/chatter_detection.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/format_list.hpp"
+
+namespace rheonet {
+
+namespace {
+
+// Failures of the integrator in a row after which the run ends.
+constexpr std::size_t enough_failures = 30;
+// Steps near one time after which the run ends; near is within `standstill_grains` of the round-off of time.
+constexpr int enough_steps = 1000;
+// Counts of `enough` events in a row without a change, after which the run has no end.
+constexpr int enough_counts = 20;
+constexpr double standstill_grains = 64;
+
+}  // namespace
+
+ChatterDetection::ChatterDetection(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0) {}
+
+void ChatterDetection::reset() {
+  begun_ = false;
+  counts_ = 0;
+  for (int cause : fired_) count_[static_cast<std::size_t>(cause)] = 0;
+  fired_.clear();
+}
+
+bool ChatterDetection::Watched::changed(const std::vector<double>& now, double accuracy) {
+  for (double x : now) largest = std::max(largest, std::abs(x));
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (std::abs(now[k] - before[k]) > accuracy * largest) return true;
+  }
+  return false;
+}
+
+bool ChatterDetection::lost(double t, const std::vector<int>& causes, const State& state) {
+  const bool moved = velocity_.changed(state.velocity, accuracy_);
+  if (deflection_.changed(state.p, accuracy_) || moved) reset();
+  if (!begun_) {
+    begun_ = true;
+    since_ = first_ = t;
+    velocity_.before = state.velocity;
+    deflection_.before = state.p;
+  }
+  bool often = false;
+  for (int cause : causes) {
+    int& count = count_[static_cast<std::size_t>(cause)];
+    if (count++ == 0) fired_.push_back(cause);
+    often = often || count >= enough;
+  }
+  return often;
+}
+
+bool ChatterDetection::without_end(double t, double instant) {
+  if (++counts_ >= enough_counts && t - first_ < instant) return true;
+  for (int cause : fired_) count_[static_cast<std::size_t>(cause)] = 0;
+  fired_.clear();
+  since_ = t;
+  return false;
+}
+
+std::vector<int> ChatterDetection::busiest() const {
+  std::vector<int> result = fired_;
+  std::stable_sort(result.begin(), result.end(), [&](int a, int b) {
+    return count_[static_cast<std::size_t>(a)] > count_[static_cast<std::size_t>(b)];
+  });
+  return result;
+}
+
+std::string ChatterDetection::describe(const Network& network, double t) const {
+  constexpr std::size_t most = 3;
+  const auto& elements = network.scene->elements;
+  std::vector<int> busy = busiest();
+  std::erase_if(busy, [&](int cause) { return static_cast<std::size_t>(cause) >= elements.size(); });
+  std::vector<std::string> names;
+  for (int cause : busy) names.push_back(elements[static_cast<std::size_t>(cause)].name);
+  const bool several = busy.size() > 1;
+  return fmt::format(
+      "element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a dashpot beside {}, a mass "
+      "at {} ends or a looser accuracy would end it",
+      several ? "s" : "", format_list(names, most), several ? "" : "es", enough, t - since_, several ? "them" : "it",
+      several ? "their" : "its");
+}
+
+bool ChatterDetection::failing(double t, double within) {
+  failures_.push_back(t);
+  if (failures_.size() > enough_failures) failures_.pop_front();
+  return failures_.size() == enough_failures && t - failures_.front() < within;
+}
+
+bool ChatterDetection::stalled(double t, double grain) {
+  if (std::abs(t - reached_) > standstill_grains * grain) {
+    reached_ = t;
+    steps_there_ = 0;
+  }
+  return ++steps_there_ > enough_steps;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,55 @@
+#include "core/solve/mode_cache.hpp"
+
+#include "core/base/index.hpp"
+
+namespace rheonet {
+
+namespace {
+
+constexpr std::size_t most_kept = 64;
+
+}  // namespace
+
+System::System(const Network& network, Structure s, Inputs& inputs, const std::vector<char>& needed, const Modes& modes,
+               Tolerances& tolerances, const Integrator::Options& options)
+    : structure(std::move(s)),
+      dae(network, structure, inputs, needed),
+      consistency(dae),
+      events(dae, consistency, tolerances, modes),
+      integrator(dae, events, tolerances.values(), tolerances.grains(), options) {}
+
+ModeCache::ModeCache(const Network& network, const Structure& classified, Inputs& inputs, const std::vector<char>& needed,
+                 const Modes& modes, Tolerances& tolerances, const Integrator::Options& options)
+    : network_(network), inputs_(inputs), needed_(needed), modes_(modes), tolerances_(tolerances), options_(options) {
+  for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.deflections[at(laws.first) + i];
+      const bool floating = classified.group[at(b.a)] >= 0 || classified.group[at(b.b)] >= 0;
+      if (floating && laws.batch->events(i) > 0) may_tie_.push_back({laws.batch.get(), i});
+    }
+  }
+}
+
+const std::shared_ptr<System>& ModeCache::of_modes() {
+  std::vector<char> key;
+  for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
+  for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
+  auto found = mode_cache_.find(key);
+  if (found == mode_cache_.end()) {
+    if (mode_cache_.size() >= most_kept) {
+      history_ = statistics();
+      mode_cache_.clear();
+    }
+    found = mode_cache_.emplace(key, std::make_shared<System>(network_, analyse(network_, modes_), inputs_, needed_, modes_,
+                                                           tolerances_, options_)).first;
+  }
+  return found->second;
+}
+
+Integrator::Statistics ModeCache::statistics() const {
+  Integrator::Statistics sum = history_;
+  for (const auto& [key, system] : mode_cache_) sum += system->integrator.statistics();
+  return sum;
+}
+
+}  // namespace rheonet

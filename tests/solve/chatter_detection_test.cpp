@@ -1,0 +1,111 @@
+// Runs that events would keep from getting on.
+
+#include "core/solve/chatter_detection.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/support/scene_builder.hpp"
+#include "tests/support/simulate.hpp"
+
+namespace rheonet::test {
+
+namespace {
+
+constexpr double accuracy = 1e-6;
+
+State state(double velocity, double deflection) {
+  return {.velocity = {0, velocity, -3.7}, .p = {deflection, 0.29}, .position = {}, .blocks = {}, .offset = {}};
+}
+
+}  // namespace
+
+TEST_CASE("headway: one element that fires while nothing changes") {
+  ChatterDetection chatter(3, accuracy);
+  for (int n = 1; n < ChatterDetection::enough; ++n) {
+    CHECK_FALSE(chatter.lost(0.1 + 1e-9 * n, n % 2 ? std::vector<int>{1} : std::vector<int>{1, 2}, state(1.3, 0.11)));
+  }
+  CHECK(chatter.lost(0.2, {1}, state(1.3, 0.11)));
+  CHECK_EQ(chatter.since(), 0.1 + 1e-9);
+  CHECK(chatter.busiest() == std::vector<int>{1, 2});
+  chatter.reset();
+  CHECK(chatter.busiest().empty());
+  CHECK_FALSE(chatter.lost(0.3, {1}, state(1.3, 0.11)));
+  CHECK_EQ(chatter.since(), 0.3);
+}
+
+TEST_CASE("headway: a change that the accuracy resolves begins a new count, one below does not") {
+  // The largest velocity is 3.7, the largest deflection 0.29.
+  for (const double share : {0.9, 1.1}) {
+    for (const bool velocity : {false, true}) {
+      ChatterDetection chatter(1, accuracy);
+      const double change = share * accuracy * (velocity ? 3.7 : 0.29);
+      bool lost = false;
+      for (int n = 0; n < 2 * ChatterDetection::enough; ++n) {
+        const double moved = n % 2 ? change : 0;
+        lost = chatter.lost(n, {0}, state(1.3 + (velocity ? moved : 0), 0.11 + (velocity ? 0 : moved))) || lost;
+      }
+      CHECK_EQ(lost, share < 1);
+    }
+  }
+}
+
+TEST_CASE("headway: what goes on for count after count without a change is without end, unless it takes its time") {
+  constexpr double instant = 1e-3;
+  for (const double spacing : {0.9e-7, 1.1e-7}) {  // 20 counts take just less and just more than that
+    for (const bool moves : {false, true}) {
+      ChatterDetection chatter(1, accuracy);
+      int counts = 0;
+      bool ended = false;
+      for (int n = 0; n < 20 * ChatterDetection::enough && !ended; ++n) {
+        const double t = 0.1 + spacing * n;
+        if (!chatter.lost(t, {0}, state(moves && n == 7 * ChatterDetection::enough ? 1.4 : 1.3, 0.11))) continue;
+        ++counts;
+        ended = chatter.without_end(t, instant);
+      }
+      CHECK_EQ(ended, spacing < 1e-7 && !moves);
+      if (ended) CHECK_EQ(counts, 20);
+      if (ended) CHECK(chatter.busiest() == std::vector<int>{0});
+    }
+  }
+}
+
+TEST_CASE("headway: many elements that fire once each are no chattering") {
+  constexpr int many = 10 * ChatterDetection::enough;
+  ChatterDetection chatter(many, accuracy);
+  for (int n = 0; n < many; ++n) CHECK_FALSE(chatter.lost(0.1, {n}, state(1.3, 0.11)));
+}
+
+TEST_CASE("events that are far between for the network are none too many in a long run") {
+  // A block let go on stiff friction and a weak dashpot rings at 1000 rad/s, and comes to rest in some hundred cycles: for
+  // the run as a whole, 10^8 s, all of that is an instant.
+  SceneBuilder b;
+  constexpr double m = 1, sigma = 1e6, Fc = 1, zeta = 0.01;
+  b.at("m1", "mass", "block", {{"mass", m}});
+  b.between("f1", "sfm", "block", "ground", {{"stiffness", sigma}, {"coulomb", Fc}});
+  b.between("c1", "dashpot", "block", "ground", {{"damping", 2 * zeta * std::sqrt(sigma * m)}});
+  b.start("block", 0, 0.01);
+  Summary summary;
+  const RunTable run = simulate(b.finish(1e8, 4, 1e-9), &summary);
+  CHECK(summary.events > 500);
+  CHECK(std::abs(run["block.velocity"].back()) < 1e-11);
+  CHECK(std::abs(run["f1.force"].back()) < 1e-9);
+}
+
+TEST_CASE("friction at presliding distances far below the way gone is followed to rest") {
+  // 10^6 N/m take 1 N over a micrometre, after half a metre of sliding: their force is known to the rounding of that way.
+  constexpr double m = 1, sigma = 1e6, Fc = 1, v = 1;
+  for (const double accuracy_of_run : {1e-6, 1e-9}) {
+    SceneBuilder b;
+    b.at("m1", "mass", "block", {{"mass", m}});
+    b.between("f1", "sfm", "block", "ground", {{"stiffness", sigma}, {"coulomb", Fc}, {"exponent", 1}});
+    b.start("block", 0, v);
+    const RunTable run = simulate(b.finish(1.2, 12, accuracy_of_run));
+    // Work: m v^2/2 = Fc x - Fc^2/sigma (1 - exp(-sigma x/Fc)), but for what still rings at the end.
+    CHECK(std::abs(run["block.position"].back() - (m * v * v / (2 * Fc) + Fc / sigma)) < 2e-6);
+    CHECK(std::abs(run["block.velocity"].back()) < 1e-3);
+  }
+}
+
+}  // namespace rheonet::test
