@@ -14,9 +14,9 @@ namespace rheonet {
 namespace {
 
 /// Reads the rows of a file, and reports the first mistakes in them.
-class TableReader {
+class TableFileReader {
  public:
-  TableReader(int file, const std::vector<TomlValue>& columns, Context& context) : file_(file), named_(columns), context_(context) {}
+  TableFileReader(int file, const std::vector<TomlValue>& columns, Context& context) : file_(file), named_(columns), context_(context) {}
 
   /// The table; absent if there are mistakes.
   std::optional<TableFile> read() {
@@ -152,7 +152,7 @@ std::optional<TableFile> read_table_file(const TomlValue& name, const std::vecto
   if (!found) return {};
   const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.diagnostics);
   if (!file) return {};
-  auto table = TableReader(*file, columns, context).read();
+  auto table = TableFileReader(*file, columns, context).read();
   if (table && table->points.empty()) {
     context.diagnostics.error(name.spot, "the table `" + name.text + "` has no rows");
     return {};

@@ -13,7 +13,7 @@ TEST_CASE("a reversal that a search meets exactly is where it is") {
   b.motion("braked", "a", "velocity", Signal(Signal::Ramp{-0.5, 0, 0.25}));
   const Scene scene = b.finish(3, 10, 1e-6);
   const Network network = build_network(scene);
-  Drive drive(network, classify(network), 0, {0, 0});
-  drive.enter(0);
-  CHECK_EQ(drive.next_reversal(0, -1, 0, 3), 0.5);
+  Inputs inputs(network, classify(network), 0, {0, 0});
+  inputs.enter(0);
+  CHECK_EQ(inputs.next_reversal(0, -1, 0, 3), 0.5);
 }

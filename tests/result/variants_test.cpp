@@ -34,9 +34,9 @@ const SimulationMethod& named(const std::vector<SimulationMethod>& all, const st
 
 }  // namespace
 
-TEST_CASE("alternatives that components declare are laws that there are, with all their parameters") {
-  REQUIRE_FALSE(alternatives().empty());
-  for (const SurrogateLaw& alternative : alternatives()) {
+TEST_CASE("surrogate laws that components declare are laws that there are, with all their parameters") {
+  REQUIRE_FALSE(surrogate_laws().empty());
+  for (const SurrogateLaw& alternative : surrogate_laws()) {
     CAPTURE(alternative.type);
     CHECK_FALSE(alternative.name.empty());
     const Component *component = find_component(alternative.type), *other = find_component(alternative.becomes);
