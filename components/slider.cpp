@@ -5,12 +5,19 @@
 namespace rheonet {
 namespace {
 
-// Coulomb: w = 0 with |f| <= Fs, or f = Fc sgn w.
-Slip coulomb(std::span<const double> v) { return {.coulomb = v[0], .breakaway = v[1]}; }
+// Coulomb: w = 0 with |f| <= Fs, or f = Fc sgn w. With a normal force N, Fc and Fs are coefficients of friction times N.
+Box coulomb(std::span<const Dual> v) {
+  const auto given = [](Dual x, Dual otherwise) { return std::isnan(x.value) ? otherwise : x; };
+  const Dual normal = given(v[2], 1), sliding = normal * v[0], breakaway = normal * given(v[1], v[0]) * given(v[3], 1);
+  return Box::symmetric({sliding, breakaway});
+}
 
 std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
-  if (v[1] >= v[0]) return {};
-  return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
+  if (v[1] < v[0])
+    return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
+  if (v[3] != 1 && v[1] > v[0])
+    return Misfit{"peak", "and `breakaway` both say at which force the slider breaks away: leave one out"};
+  return {};
 }
 
 const RegisterComponent register_slider({
@@ -18,28 +25,34 @@ const RegisterComponent register_slider({
         {
             .type = "slider",
             .ports = Declaration::Ports::between,
-            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
-                            .symbol = "Fc", .description = "force of sliding; 0 means no force, inf a rigid link"},
-                           {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true,
-                            .same_as = "coulomb", .symbol = "Fs",
-                            .description = "force at which it breaks away, at least `coulomb`"}},
+            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true,
+                            .coefficient_with = "normal", .from_block = true, .symbol = "Fc",
+                            .description = "force of sliding; 0 means no force, inf a rigid link; with `normal`, the coefficient of friction"},
+                           {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true,
+                            .coefficient_with = "normal", .same_as = "coulomb", .from_block = true, .symbol = "Fs",
+                            .description = "force at which it breaks away, at least `coulomb`"},
+                           {.name = "normal", .quantity = Quantity::force, .lower_open = false, .may_vary = true, .optional = true,
+                            .from_block = true, .symbol = "N", .description = "normal force that presses the surfaces together; it multiplies `coulomb` and `breakaway`"},
+                           {.name = "peak", .fallback = 1.0, .lower = 1, .lower_open = false, .symbol = "Fs/Fc",
+                            .description = "breakaway as a multiple of `coulomb`"}},
             .check = breakaway_above_coulomb,
             .effects = {{Effect::dry_friction, "coulomb", 0}},
             .absences = {{{Effect::dry_friction}, {{"breakaway", 0}}}},
-            .summary = "ideal Coulomb slider: sticks without creep, or slips at a constant force",
-            .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w)",
+            .summary = "ideal Coulomb slider, brake or clutch: sticks without creep, or slips at its sliding force",
+            .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w); with `normal`, both times N",
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
             .notes = "Stores nothing, dissipates f w. Where the balance of forces does not determine how sticking sliders share a load, "
-                     "they share it with the least sum of squares within their bounds.",
+                     "they share it with the least sum of squares within their bounds.\n"
+                     "A brake or a clutch is a slider with a `normal` that varies. Where it is below 0 the surfaces are apart: no force.",
         },
     .role = Role::slip,
-    .limits = {{.when = "breakaway = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[1] == 0; },
+    .limits = {{.when = "breakaway = 0 or normal = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[1] == 0 || v[2] == 0; },
                 .values = {}},
                {.when = "breakaway = inf", .becomes = "slider",
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]) && std::isfinite(v[0]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }}},
-    .slip = coulomb,
+    .box = coulomb,
     .drawing = {.outline = "M.24 .34 H.68 V.6 H.24 Z",
                 .lines = "M0 .5 H.24 M.12 .62 H.88 V.5 H1",
                 .thin = "M.2 .62 L.14 .7 M.3 .62 L.24 .7 M.4 .62 L.34 .7 M.5 .62 L.44 .7 M.6 .62 L.54 .7 M.7 .62 L.64 .7 "
@@ -51,7 +64,8 @@ const RegisterSurrogate smoothed({.type = "slider",
                                     .name = "smoothed",
                                     .becomes = "cfm",
                                     .values = [](std::span<const double> v, double speed, double length) {
-                                      return std::vector<double>{v[0] / length, v[0], v[0] / speed, 0, not_given};
+                                      const double sliding = constant_box(*find_component("slider"), v).forward.sliding.value;
+                                      return std::vector<double>{sliding / length, sliding, sliding / speed, 0, not_given};
                                     }});
 
 }  // namespace

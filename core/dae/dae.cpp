@@ -11,7 +11,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
     : network_(&network),
       structure_(&structure),
       inputs_(&inputs),
-      stick_forces_(network, structure),
+      stick_forces_(network, structure, inputs),
       positions_(find_positions(network, structure, needed)) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
@@ -34,6 +34,10 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   driven_from_ = offset_;
   slip_force_.assign(network.sliders.size(), 0);
   slider_shift_ = slip_force_;
+  slip_side_.assign(network.sliders.size(), 0);
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    if (!structure.stuck[k] && !network.sliders[k].varying.empty()) varying_.push_back(k);
+  }
   view_.slider_velocity = view_.slider_force = slip_force_;
   v_.assign(nodes, 0);
   a_.assign(nodes, 0);
@@ -192,6 +196,7 @@ void Dae::take_entries(Drafts& drafts) {
   take(creep_entries_);
   take(felt_entries_);
   take(couplings_);
+  for (SlidingCoupling& c : sliding_couplings_) c.coupling.entry = entry[at(c.coupling.entry)];
   for (Follower& f : followers_) {
     f.own_entry = entry[at(f.own_entry)];
     f.leader_entry = entry[at(f.leader_entry)];
@@ -217,7 +222,8 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   offset_ = state.offset;
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = network_->sliders[k].branch;
-    slip_force_[k] = structure_->stuck[k] ? 0 : modes.slider[k] * network_->sliders[k].law.coulomb;
+    slip_side_[k] = structure_->stuck[k] ? Modes::stuck : modes.slider[k];
+    slip_force_[k] = slip_side_[k] == 0 ? 0 : slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
     slider_shift_[k] = state.position[at(b.a)] - state.position[at(b.b)];
   }
   y.assign(at(size_), 0);

@@ -218,12 +218,15 @@ class Dae {
     By by;
     std::size_t branch;
   };
+  /// The same through a varying parameter of a slipping slider: times the slope of its sliding force.
+  struct SlidingCoupling { Coupling coupling; std::size_t slider, parameter; };
   struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
   std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
   void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor,
               Coupling::By by = Coupling::By::itself, std::size_t branch = 0);
   void build_couplings(PatternBuilder& builder);
   void couple_motions(PatternBuilder& builder);
+  void couple_sliders(PatternBuilder& builder);
   void move_by_blocks(const double* y);
   double acceleration_by(const Network::Motion& motion) const;
   void feel_blocks(const double* y);
@@ -273,6 +276,7 @@ class Dae {
   std::vector<int> iv_, ip_, if_, ix_, iz_;
   int deflections_begin_ = 0, deflections_end_ = 0;  ///< those of ip_ are one after the other
   std::vector<Coupling> couplings_;
+  std::vector<SlidingCoupling> sliding_couplings_;
   std::vector<Row> rows_;
   /// For each delayed branch, the negated present velocity of its free ends. These ends are masses (otherwise no step is longer
   /// than the delay).
@@ -301,6 +305,8 @@ class Dae {
   std::vector<double> driven_from_;    ///< of each driven branch: its deflection at the last `enter` or `mark` of the inputs [m]
   std::vector<double> slider_shift_;   ///< displacement of each sticking slider
   std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
+  std::vector<signed char> slip_side_; ///< of each slider: the direction in which it slips; 0 while it sticks
+  std::vector<std::size_t> varying_;   ///< slipping sliders whose sliding force varies
   std::vector<char> by_force_;         ///< of each rate branch: these equations need its law as w = rate(f)
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;

@@ -41,6 +41,7 @@ void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t sou
 void Dae::build_couplings(PatternBuilder& builder) {
   for (std::size_t k = 0; k < iz_.size(); ++k) couple(builder, iz_[k], true, k, -1);
   couple_motions(builder);
+  couple_sliders(builder);
   for (const Network::Force& f : network_->forces) {
     if (f.block < 0) continue;
     for (const auto& [end, sign] : {std::pair{f.a, -f.sign}, std::pair{f.b, f.sign}}) {
@@ -48,6 +49,29 @@ void Dae::build_couplings(PatternBuilder& builder) {
       const NodeId node = structure_->rigid[at(end)];
       couple(builder, iv_[at(node)], false, at(f.block), sign);
       couple(builder, balance_of_group(node), false, at(f.block), sign);
+    }
+  }
+}
+
+/// Entries of the forces of slipping sliders, of whose parameters blocks give some.
+void Dae::couple_sliders(PatternBuilder& builder) {
+  const BlockSignals& blocks = inputs_->blocks();
+  for (const std::size_t k : varying_) {
+    const Branch& b = structure_->sliders[k];
+    if (b.a == b.b) continue;
+    for (std::size_t i = 0; i < network_->sliders[k].varying.size(); ++i) {
+      const auto [parameter, block, block_sign] = network_->sliders[k].varying[i];
+      for (std::size_t atom = 0; atom < blocks.atoms(); ++atom) {
+        if (!blocks.couples(block, atom)) continue;
+        for (const AtomTerm& term : terms_of_atom(atom)) {
+          for (const auto& [end, sign] : {std::pair{b.a, block_sign}, std::pair{b.b, -block_sign}}) {
+            for (const int row : {iv_[at(end)], balance_of_group(end)}) {
+              if (row < 0 || term.column < 0) continue;
+              sliding_couplings_.push_back({{builder.ticket(row, term.column), false, at(block), atom, sign * term.factor, term.by, term.branch}, k, i});
+            }
+          }
+        }
+      }
     }
   }
 }
@@ -136,13 +160,18 @@ void Dae::feel_blocks(const double* y) {
 }
 
 void Dae::block_jacobian(double* values) const {
-  if (couplings_.empty()) return;
+  if (couplings_.empty() && sliding_couplings_.empty()) return;
   BlockSignals& blocks = inputs_->blocks();
   blocks.update_slopes(inputs_->history());
-  for (const Coupling& c : couplings_) {
+  const auto derivative = [&](const Coupling& c) {
     const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
     const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;
-    values[c.entry] += c.factor * slope * by;
+    return c.factor * slope * by;
+  };
+  for (const Coupling& c : couplings_) values[c.entry] += derivative(c);
+  for (const auto& [c, slider, parameter] : sliding_couplings_) {
+    const int side = slip_side_[slider];
+    values[c.entry] += side * inputs_->sliding_slope(slider, side, parameter) * derivative(c);
   }
 }
 

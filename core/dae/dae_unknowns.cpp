@@ -93,7 +93,12 @@ bool Dae::any_follows_time() const {
   const auto pushed = [&](const Network::Force& f) {
     return at_once(structure_->rigid[at(f.a)]) || (f.b >= 0 && at_once(structure_->rigid[at(f.b)]));
   };
+  const auto rubbed = [&](std::size_t k) {
+    const Branch& b = structure_->sliders[k];
+    return b.a != b.b && (at_once(b.a) || at_once(b.b));
+  };
   return std::any_of(structure_->rates.begin(), structure_->rates.end(), pulled) ||
+         std::any_of(varying_.begin(), varying_.end(), rubbed) ||
          std::any_of(network_->forces.begin(), network_->forces.end(), pushed);
 }
 

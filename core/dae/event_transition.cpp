@@ -41,8 +41,14 @@ EventTransition::EventTransition(const Network& network, const Structure& classi
 
 // A slider that slips must come to rest, and break away, before it slips the other way.
 double EventTransition::bound(std::size_t k, int side) const {
-  const Slip& law = network_.sliders[k].law;
-  return broken_[k] || slipping_[k] == side ? law.coulomb : law.breakaway;
+  const Bounds& bounds = inputs_.box(k).at(side);
+  return broken_[k] || slipping_[k] == side ? bounds.sliding.value : bounds.breakaway.value;
+}
+
+double EventTransition::bound_rate(std::size_t k, int side) const {
+  if (network_.sliders[k].varying.empty()) return 0;
+  const Bounds& bounds = inputs_.box(k).at(side);
+  return broken_[k] || slipping_[k] == side ? bounds.sliding.derivative : bounds.breakaway.derivative;
 }
 
 EventTransition::Change EventTransition::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
@@ -117,7 +123,7 @@ void EventTransition::take_back_excess(const Modes& modes, std::vector<double>& 
 /// Integration error alone does not stop a slipping slider: keep its force and accept the residual at its nodes.
 void EventTransition::keep_slipping(std::vector<double>& force) {
   for (std::size_t k = 0; k < force.size(); ++k) {
-    const double full = slipping_[k] * network_.sliders[k].law.coulomb, lack = slipping_[k] * (full - force[k]);
+    const double full = slipping_[k] * inputs_.box(k).at(slipping_[k]).sliding.value, lack = slipping_[k] * (full - force[k]);
     if (!(lack > 0) || lack > largest_error * std::abs(full)) continue;
     force[k] = full;
     for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += lack;

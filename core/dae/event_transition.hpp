@@ -129,6 +129,8 @@ class EventTransition {
   Nodal together(const Nodal& single) const;
   Nodal nodal(const State& state, const std::vector<double>& slider_force, bool rates) const;
   double bound(std::size_t slider, int side) const;
+  /// Its rate of change [N/s].
+  double bound_rate(std::size_t slider, int side) const;
   bool massless(NodeId node) const {
     const Kind kind = structure_.kind[static_cast<std::size_t>(node)];
     return kind == Kind::viscous || kind == Kind::floating;

@@ -33,6 +33,10 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
     motions_.push_back(std::move(motion));
   }
   for (const Network::Force& f : network.forces) forces_.push_back({f.element, f.signal, {}});
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    box_.push_back(network.sliders[k].box);
+    if (!network.sliders[k].varying.empty()) varying_sliders_.push_back(k);
+  }
   position.resize(motions_.size());
   velocity = acceleration = steps_ = position;
   force.resize(forces_.size());
@@ -171,6 +175,24 @@ void Inputs::apply_blocks() {
     force[k] = f.sign * out.value;
     force_rate[k] = f.sign * out.derivative;
   }
+  for (const std::size_t k : varying_sliders_) {
+    const Network::Slider& slider = network_->sliders[k];
+    std::vector<Dual> values(slider.values.begin(), slider.values.end());
+    for (const Network::VaryingParameter& v : slider.varying) {
+      values[static_cast<std::size_t>(v.parameter)] = Dual(v.sign) * blocks_.out(v.block);
+    }
+    box_[k] = slider.component->box(values);
+  }
+}
+
+double Inputs::sliding_slope(std::size_t k, int side, std::size_t which) const {
+  const Network::Slider& slider = network_->sliders[k];
+  std::vector<Dual> values(slider.values.begin(), slider.values.end());
+  for (std::size_t i = 0; i < slider.varying.size(); ++i) {
+    const Network::VaryingParameter& v = slider.varying[i];
+    values[static_cast<std::size_t>(v.parameter)] = {v.sign * blocks_.out(v.block).value, i == which ? 1.0 : 0.0};
+  }
+  return slider.component->box(values).at(side).sliding.derivative;
 }
 
 /// Sensor values of a state, with the rates of positions.

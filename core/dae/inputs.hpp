@@ -54,7 +54,7 @@ class Inputs {
   void sense(double t, const State& state);
   BlockSignals& blocks() { return blocks_; }
   const BlockSignals& blocks() const { return blocks_; }
-  /// Takes the forces, the velocities and their rates from the present outputs of the blocks.
+  /// Takes forces, velocities, parameters of sliders and their rates from the present outputs of the blocks.
   void apply_blocks();
   /// Sets the blocks' states to their equilibrium, for a start at t from rest or in steady motion.
   void settle_blocks(double t, State& state);
@@ -83,6 +83,12 @@ class Inputs {
   /// (-1 is ground); infinite if there is none. No crossing is missed, however close the next one is. The result is cached: a
   /// call before that time, with the same `limit`, costs nothing.
   double next_reversal(int a, int b, double t, double limit);
+
+  /// The box of a slider at the time last evaluated. Derivatives are rates in time, partial (at constant unknowns) where a block
+  /// gives a parameter.
+  const Box& box(std::size_t slider) const { return box_[slider]; }
+  /// Derivative of the sliding force of a slider to one side by its varying parameter number `which`.
+  double sliding_slope(std::size_t slider, int side, std::size_t which) const;
 
   /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.
   struct Reach { double force = 0, velocity = 0; };
@@ -116,6 +122,8 @@ class Inputs {
 
   std::vector<Motion> motions_;
   std::vector<Force> forces_;
+  std::vector<Box> box_;                      ///< of each slider
+  std::vector<std::size_t> varying_sliders_;  ///< those whose box varies
   std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present pieces
   std::vector<double> steps_;
   TimePoint next_break_;  ///< of the signals

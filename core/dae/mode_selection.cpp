@@ -87,10 +87,11 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
     const bool sticks = held.find(b.a) == held.find(b.b) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
     const int direction = sticks ? 0 : problem.direction(selection.slider[k]);
     modes.slider[k] = static_cast<signed char>(direction);
-    if (direction != 0 && bound(k, direction) > network_.sliders[k].law.coulomb) broken.push_back(static_cast<int>(k));
+    if (direction != 0 && bound(k, direction) > inputs_.box(k).at(direction).sliding.value) broken.push_back(static_cast<int>(k));
   }
   for (int k : let_slip(problem, selection.law, selection.slider, selection.bound_side, selection.at_rest, fired, modes, change)) {
-    if (bound(at(k), modes.slider[at(k)]) > network_.sliders[at(k)].law.coulomb) broken.push_back(k);
+    const int direction = modes.slider[at(k)];
+    if (bound(at(k), direction) > inputs_.box(at(k)).at(direction).sliding.value) broken.push_back(k);
   }
   rest_beside_sliders(fired, state, modes);
   return broken;
@@ -225,20 +226,21 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double force = (*selection.force)[k];
-    ConvexNetwork::Law law{.low = -bound(k, -1) - force, .high = bound(k, 1) - force};
+    const double forward = selection.h * bound_rate(k, 1), backward = selection.h * bound_rate(k, -1);
+    ConvexNetwork::Law law{.low = -bound(k, -1) - force - backward, .high = bound(k, 1) - force + forward};
     // At its bound the rate alone decides, not the round-off of the event.
     const double limit = bound(k, force > 0 ? 1 : -1);
     const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
     const bool fired = contains(selection.fired->sliders, static_cast<int>(k));
     if (selection.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
-      (force > 0 ? law.high : law.low) = 0;
+      (force > 0 ? law.high : law.low) = force > 0 ? forward : -backward;
     } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
       // How the velocity of a massless node continues, this first-order problem does not see: the event decides.
       (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();
     }
     selection.slider[k] = selection.problem.add(slot(b.a), slot(b.b), law);
     if (!fired) selection.problem.was_apart(selection.slider[k], selection.modes->slider[k]);
-    selection.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == 0 ? 1 : law.low == 0 ? -1 : 0;
+    selection.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == forward ? 1 : law.low == -backward ? -1 : 0;
   }
 }
 

@@ -38,6 +38,7 @@ void Dae::gather(double t, const double* y) {
     rate_in_[r] = if_[r] >= 0 ? y[if_[r]] : v_[at(b.a)] - v_[at(b.b)];
   }
   if (inputs_->blocks().any()) feel_blocks(y);
+  for (const std::size_t k : varying_) slip_force_[k] = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
 }
 
 /// Sums the forces of the branches and the applied forces, at the nodes that represent joined ones.
@@ -251,6 +252,11 @@ void Dae::time_derivative(double* r) const {
     for (int k = row.terms.velocity_begin; k < row.terms.velocity_end; ++k) {
       r[row.row] += velocities_[at(k)].sign * a_[at(velocities_[at(k)].index)];
     }
+  }
+  for (const std::size_t k : varying_) {
+    const double rate = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.derivative;
+    add(structure_->sliders[k].a, rate);
+    add(structure_->sliders[k].b, -rate);
   }
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     add(network_->forces[k].a, -inputs_->force_rate[k]);

@@ -46,7 +46,7 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
       forces.hang.join(s.branch.a, s.branch.b);
       if (!rigid(k)) forces.sticking.push_back(name(s.branch));
     } else {
-      result_.slider_force[k] = slip_[k] * s.law.coulomb;
+      result_.slider_force[k] = slip_[k] * inputs_.box(k).at(slip_[k]).sliding.value;
       forces.push(s.branch, result_.slider_force[k]);
     }
   }
@@ -76,7 +76,7 @@ bool SteadyStateSolver::find_positions() {
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] != 0) continue;
-    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b), {.low = -bound(k), .high = bound(k)});
+    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b), {.low = -bound(k, -1), .high = bound(k, 1)});
   }
   solve(problem, std::numeric_limits<double>::infinity());
   std::vector<int> direction(slip_.size(), 0);

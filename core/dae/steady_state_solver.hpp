@@ -12,6 +12,7 @@
 #include "core/base/index.hpp"
 #include "core/dae/convex.hpp"
 #include "core/dae/steady_state.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -62,11 +63,11 @@ class SteadyStateSolver {
     return known(node) || std::find(pinned_.begin(), pinned_.end(), node) != pinned_.end();
   }
 
-  double bound(std::size_t slider) const {
-    const Slip& law = network_.sliders[slider].law;
-    return broken_[slider] ? law.coulomb : law.breakaway;
+  double bound(std::size_t slider, int side) const {
+    const Bounds& bounds = inputs_.box(slider).at(side);
+    return broken_[slider] ? bounds.sliding.value : bounds.breakaway.value;
   }
-  bool rigid(std::size_t slider) const { return std::isinf(network_.sliders[slider].law.breakaway); }
+  bool rigid(std::size_t slider) const { return is_rigid_link(network_.sliders[slider]); }
 
   template <class Visit>
   void for_each_rigid(Visit visit) const {

@@ -56,7 +56,7 @@ bool SteadyStateSolver::find_velocities() {
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (!together(s.branch)) {
-      slider_branch[k] = problem.add(leader(s.branch.a), leader(s.branch.b), {.low = -bound(k), .high = bound(k)});
+      slider_branch[k] = problem.add(leader(s.branch.a), leader(s.branch.b), {.low = -bound(k, -1), .high = bound(k, 1)});
     }
   }
   add_rates(problem, scale);
@@ -84,8 +84,8 @@ bool SteadyStateSolver::find_velocities() {
 bool SteadyStateSolver::break_away(const std::vector<int>& direction) {
   bool any = false;
   for (std::size_t k = 0; k < direction.size(); ++k) {
-    const Slip& law = network_.sliders[k].law;
-    if (direction[k] == 0 || broken_[k] || law.breakaway == law.coulomb) continue;
+    const Bounds& bounds = inputs_.box(k).at(direction[k]);
+    if (direction[k] == 0 || broken_[k] || bounds.breakaway.value == bounds.sliding.value) continue;
     broken_[k] = any = true;
   }
   return any;
@@ -179,7 +179,7 @@ void SteadyStateSolver::refine_velocities(double scale) {
     }
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] != 0) push(network_.sliders[k].branch, slip_[k] * network_.sliders[k].law.coulomb);
+    if (slip_[k] != 0) push(network_.sliders[k].branch, slip_[k] * inputs_.box(k).at(slip_[k]).sliding.value);
   }
   add_rates(problem, scale);
   if (problem.solve() == ConvexNetwork::Outcome::solved) take_velocities(problem);

@@ -15,7 +15,7 @@ namespace rheonet {
 
 // The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
 // the balance there is the sum of the balances of the other nodes. The rest falls into separate parts.
-StickForces::StickForces(const Network& network, const Structure& structure) : network_(network) {
+StickForces::StickForces(const Network& network, const Structure& structure, const Inputs& inputs) : network_(network), inputs_(inputs) {
   const auto inner = [&](NodeId node) { return structure.kind[at(node)] == Kind::joined; };
   DisjointSets parts(structure.kind.size());
   std::vector<int> sliders_at(structure.kind.size(), 0);
@@ -53,7 +53,7 @@ StickForces::StickForces(const Network& network, const Structure& structure) : n
     };
     const int first = place(a);
     shared.sliders.push_back(k);
-    branches[at(of)].push_back({first, place(b), -s.law.breakaway, s.law.breakaway});
+    branches[at(of)].push_back({first, place(b), -s.box.backward.breakaway.value, s.box.forward.breakaway.value});
   }
   for (std::size_t k = 0; k < shared_.size(); ++k) {
     Shared& shared = shared_[k];
@@ -71,6 +71,11 @@ void StickForces::solve(double t, const std::vector<double>& left, std::vector<d
     if (!std::isfinite(sum)) {  // the integrator tries too long a step: it rejects states that are not finite
       for (const std::size_t k : shared.sliders) force[k] = std::numeric_limits<double>::quiet_NaN();
       continue;
+    }
+    for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
+      const std::size_t k = shared.sliders[i];
+      const Box& box = inputs_.box(k);
+      if (!network_.sliders[k].varying.empty()) shared.problem.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
     }
     if (shared.problem.solve(shared.load, shared.force) == BoxedForces::Outcome::failed) report_unbalanced(t, shared);
     for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];

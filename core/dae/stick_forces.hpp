@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/dae/inputs.hpp"
 #include "core/network/structure.hpp"
 #include "core/nonsmooth/boxed_forces.hpp"
 
@@ -13,7 +14,7 @@ namespace rheonet {
 /// overloaded cut exceed their bounds.
 class StickForces {
  public:
-  StickForces(const Network& network, const Structure& structure);
+  StickForces(const Network& network, const Structure& structure, const Inputs& inputs);
   bool empty() const { return lone_.empty() && shared_.empty(); }
 
   /// `left[n]` is the sum of all other forces at node n at time t, inertia included [N]. Writes the forces of the sliders that
@@ -32,6 +33,7 @@ class StickForces {
   };
   [[noreturn]] void report_unbalanced(double t, const Shared& shared) const;
   const Network& network_;
+  const Inputs& inputs_;
   std::vector<Lone> lone_;
   std::vector<Shared> shared_;
 };

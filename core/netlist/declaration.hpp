@@ -42,6 +42,9 @@ struct Parameter {
   double upper = std::numeric_limits<double>::infinity();  ///< inclusive if finite; values are finite ...
   bool may_be_infinite = false;                            ///< ... unless the law has a limit at infinity: then "inf" is accepted
   std::string flow_index = {};        ///< for damping: the parameter that holds n in N*(s/m)^n; "" means n = 1
+  bool may_vary = false;              ///< a signal may be given in place of a value; below `lower` it counts as `lower`
+  bool optional = false;              ///< may be absent, without a default
+  std::string coefficient_with = {};  ///< where that parameter is given, this one is a number that multiplies it
   std::string same_as = {};           ///< the parameter whose value is used if none is given (`breakaway` = `coulomb`)
   bool opposite = false;              ///< the value of `same_as` is negated (`lower` = -`upper`)
   bool from_block = false;            ///< of a signal: the output of a block may be given instead
@@ -52,6 +55,8 @@ struct Parameter {
   const std::string& name_in(Domain domain) const {
     return domain == Domain::rotation && !rotational_name.empty() ? rotational_name : name;
   }
+  /// Whether a signal may be given for it.
+  bool takes_signal() const { return kind == Kind::signal || may_vary; }
   /// Whether the parameter prescribes a node's motion: a signal for its position or its velocity.
   bool prescribes(Quantity motion) const { return kind == Kind::signal && quantity == motion; }
   bool prescribes_motion() const { return prescribes(Quantity::position) || prescribes(Quantity::velocity); }
@@ -107,6 +112,10 @@ struct Declaration {
   std::string source = {};   ///< citation
   std::string notes = {};    ///< sign, range of validity, stored and dissipated energy
 
+  /// It applies a force or a motion that a signal gives.
+  bool is_source() const {
+    return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::signal; });
+  }
   bool prescribes_motion() const {
     return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.prescribes_motion(); });
   }

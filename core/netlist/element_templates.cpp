@@ -35,7 +35,7 @@ std::string what_may_vary(Declarations declarations) {
   for (const Declaration* declaration : declarations) {
     std::vector<std::string> signals;
     for (const Parameter& p : declaration->parameters)
-      if (p.kind == Parameter::Kind::signal) signals.push_back(p.name);
+      if (p.takes_signal()) signals.push_back(p.name);
     if (!signals.empty()) text += (text.empty() ? "" : ", ") + list_names(signals, "and") + " of " + article(declaration->type);
   }
   return "signals, which vary in time, are " + text;
@@ -91,6 +91,12 @@ bool refuse_other_names(const Parameter& parameter, const std::string& name, boo
 }
 
 }  // namespace
+
+bool ElementTemplate::varies(std::size_t parameter) const {
+  const int p = static_cast<int>(parameter);
+  return std::find(signal_parameters.begin(), signal_parameters.end(), p) != signal_parameters.end() ||
+         std::any_of(feeds.begin(), feeds.end(), [&](const SignalConnection& feed) { return feed.parameter == p; });
+}
 
 int Scope::node(const std::string& name, Spot spot) {
   if (name == "ground") return ground;
@@ -248,7 +254,7 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
                                    !reader.find_quietly(parameter.rotational_name);
     const std::string& name = as_in_translation ? parameter.name : parameter.name_in(domain);
     const bool misnamed = refuse_other_names(parameter, name, plan.in_model, domain, reader, diagnostics);
-    const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+    const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
                                !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
     const TomlEntry* entry = may_be_absent ? reader.find(name)
                                            : reader.require(name, plan.spot, wanted(parameter, domain));
@@ -257,13 +263,13 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
       continue;
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
-    if (parameter.kind == Parameter::Kind::signal) {
+    if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && entry->value.is_table())) {
       if (const TomlEntry* feed = find_feed(entry->value)) {
         if (auto connection = read_feed(*feed, entry->value, declaration, i, context_)) plan.feeds.push_back(std::move(*connection));
         continue;
       }
       const bool any_unit = parameter.unit != Parameter::Unit::quantity;
-      plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(parameter.quantity), context_);
+      plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(plan.quantity_of(parameter)), context_);
       plan.signal_parameters.push_back(static_cast<int>(i));
     } else if (entry->value.is_table()) {
       diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(context_.declarations));

@@ -55,6 +55,14 @@ struct ElementTemplate {
   std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
 
   std::vector<ElementTemplate> members;  ///< of a group
+
+  /// Whether a signal or a block gives this parameter of an element.
+  bool varies(std::size_t parameter) const;
+  /// Quantity of a parameter of an element: a number where it is a coefficient of another one that is given.
+  Quantity quantity_of(const Parameter& parameter) const {
+    const bool coefficient = !parameter.coefficient_with.empty() && source->find(parameter.coefficient_with) != nullptr;
+    return coefficient ? Quantity::number : parameter.quantity;
+  }
   Model* model = nullptr;     ///< of an instance
 };
 

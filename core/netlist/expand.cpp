@@ -131,7 +131,7 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   element.spot = plan.spot;
   // A source (motion or force) has the force that it applies; any other element has the force applied to it.
   if (around.force)
-    around.force->push_back({static_cast<int>(scene_.elements.size()), element.signals.empty() ? 1 : -1});
+    around.force->push_back({static_cast<int>(scene_.elements.size()), context_.declarations[static_cast<std::size_t>(plan.declaration)]->is_source() ? -1 : 1});
   scene_.elements.push_back(std::move(element));
   connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;
@@ -142,19 +142,25 @@ bool Expander::element_value(const ElementTemplate& plan, const Environment& env
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
   if (!formula.given()) {
-    if (parameter.fallback && parameter.kind == Parameter::Kind::value) values_[i] = *parameter.fallback;
+    if (parameter.fallback && parameter.kind == Parameter::Kind::value && !plan.varies(i)) values_[i] = *parameter.fallback;
     return true;
   }
   element.given.set(i);
   std::optional<double> value;
+  const Quantity quantity = plan.quantity_of(parameter);
   if (parameter.unit == Parameter::Unit::quantity) {
-    value = formula.evaluate(environment, parameter.quantity, context_.domain, context_.diagnostics, flow_index);
+    value = formula.evaluate(environment, quantity, context_.domain, context_.diagnostics, flow_index);
   } else if (const auto number = formula.evaluate(environment, context_.diagnostics)) {
     value = number->value;
     flow_index = 1;
   }
   if (!value) return false;
   values_[i] = *value;
+  if (quantity != parameter.quantity) {
+    Parameter coefficient = parameter;
+    coefficient.quantity = quantity;
+    return check_bounds(*value, coefficient, formula, context_.domain, flow_index, context_.diagnostics);
+  }
   return check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.diagnostics);
 }
 
@@ -177,7 +183,7 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     if (!std::isnan(n)) good = element_value(plan, environment, i, n, element) && good;
   }
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (!parameters[i].same_as.empty() && !plan.values[i].given())
+    if (!parameters[i].same_as.empty() && !plan.values[i].given() && !plan.varies(i))
       values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(values_)) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/netlist/declaration.hpp"
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/dimension.hpp"
 #include "core/netlist/effect.hpp"
@@ -44,7 +45,7 @@ struct SceneElement {
   NodeId a = ground;
   NodeId b = ground;   ///< ground for an element `at` one node
   bool at = false;     ///< written with `at`
-  Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent initial values
+  Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent optional values
   std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
   Shared<Signal> signals;       ///< signals of the parameters in signal_parameters, in order of declaration
   Shared<int> signal_parameters;  ///< indices into Declaration::parameters
@@ -81,8 +82,8 @@ struct SceneBlock {
   BlockUnit unit;
 };
 
-/// The signal of `element` is the output of `block`, times `sign`.
-struct SceneFeed { int element, block; double sign; };
+/// The signal of `element` for one of its parameters is the output of `block`, times `sign`.
+struct SceneFeed { int element, parameter, block; double sign; };
 
 struct Record {
   enum class Subject { node, element, assembly, block };
@@ -154,6 +155,9 @@ struct Scene {
   std::int64_t output_intervals = 0;
   bool output_events = false;  ///< also a pair of rows at every event
 };
+
+/// Quantity of a parameter of an element: a number where it is a coefficient of another one that is given.
+Quantity quantity_of(const Declaration& declaration, const SceneElement& element, std::size_t parameter);
 
 /// The unit and quantity of a record, and its SI unit as a user would type it ("1" for a number). The output of a block may
 /// be a quantity without a name here, or one of unknown unit.

@@ -76,7 +76,7 @@ Json parameter_schema(const Parameter& parameter) {
     description += fmt::format("; if absent, {} `{}`", parameter.opposite ? "minus" : "as", parameter.same_as);
   if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
-  Json schema = described(reference(parameter.kind == Parameter::Kind::signal ? "signal" : "value"), description);
+  Json schema = described(reference(parameter.takes_signal() ? "signal" : "value"), description);
   if (parameter.fallback && std::isfinite(*parameter.fallback)) schema["default"] = *parameter.fallback;
   // The bounds apply to numbers only; the value of a text is known only when the netlist is read.
   if (parameter.kind == Parameter::Kind::signal) return schema;

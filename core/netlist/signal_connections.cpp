@@ -78,7 +78,7 @@ class Connection {
         if (block < 0)
           refuse(end, index.find(end.path));
         else
-          scene_.feeds.push_back({end.element, block, end.connection->sign});
+          scene_.feeds.push_back({end.element, end.connection->parameter, block, end.connection->sign});
         continue;
       }
       const int source = block < 0 ? sensed(end, index.find(end.path)) : block;
@@ -207,7 +207,8 @@ class Connection {
     const BlockUnit& unit = scene_.blocks[at(feed.block)].unit;
     if (unit.open) return;
     const Parameter& wanted = declaration(end.element).parameters[at(end.connection->parameter)];
-    const auto checked = as_quantity(one_of(unit), wanted.quantity, context_.domain);
+    const Quantity quantity = quantity_of(declaration(end.element), scene_.elements[at(end.element)], at(end.connection->parameter));
+    const auto checked = as_quantity(one_of(unit), quantity, context_.domain);
     const auto* wrong = std::get_if<TextError>(&checked);
     if (!wrong) return;
     const Within within(diagnostics_, end);

@@ -137,7 +137,10 @@ class Adviser {
   std::vector<char> driven_parts(const Parts& parts) const {
     std::vector<char> driven(static_cast<std::size_t>(parts.count), 0);
     std::vector<char> fed(scene_.elements.size(), 0);
-    for (const SceneFeed& feed : scene_.feeds) fed[at(feed.element)] = 1;
+    for (const SceneFeed& feed : scene_.feeds) {
+      const Role role = components()[at(scene_.elements[at(feed.element)].declaration)]->role;
+      if (role == Role::motion || role == Role::force) fed[at(feed.element)] = 1;
+    }
     for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
       if (parts.of_element[e] >= 0 && (fed[e] || drives(scene_.elements[e]))) driven[at(parts.of_element[e])] = 1;
     }

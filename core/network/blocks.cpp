@@ -31,6 +31,9 @@ class Finder {
     const std::vector<int> rates = number_rates();
     for (const SceneBlock& block : scene_.blocks) add(block);
     for (const int block : rates) add_rate(block);
+    for (Network::Slider& slider : network_.sliders) {
+      for (Network::VaryingParameter& varying : slider.varying) add_parameter(slider, varying);
+    }
     // Without a state to smooth discontinuities, a loop of delays alone would repeat each of them for ever.
     const auto refuse_delays = [&](const std::vector<int>& loop) {
       refuse(loop, "make a loop in which nothing but delays takes time, and what jumps would jump for ever; put a `lag` into it");
@@ -77,6 +80,28 @@ class Finder {
     for (Blocks::Input& input : rate.inputs) input.sign *= of.law.gain;
     if (of.law.leak != 0) rate.inputs.push_back({true, state, -of.law.leak});
     result_.blocks.push_back(std::move(rate));
+  }
+
+  /// A varying parameter is the output of a block, or of a generator made for its signal. Below its least value it counts as that
+  /// value: a limiter sees to it.
+  void add_parameter(const Network::Slider& slider, Network::VaryingParameter& varying) {
+    const int e = slider.branch.element;
+    const SceneElement& element = scene_.elements[at(e)];
+    const auto fed = std::find_if(scene_.feeds.begin(), scene_.feeds.end(), [&](const SceneFeed& feed) {
+      return feed.element == e && feed.parameter == varying.parameter;
+    });
+    Blocks::Input input{true, -1, 1};
+    if (fed != scene_.feeds.end()) {
+      input = {true, fed->block, fed->sign};
+    } else {
+      const auto which = std::find(element.signal_parameters.begin(), element.signal_parameters.end(), varying.parameter);
+      const Signal& signal = element.signals[static_cast<std::size_t>(which - element.signal_parameters.begin())];
+      input.index = static_cast<int>(result_.blocks.size());
+      result_.blocks.push_back({.element = e, .law = {}, .generates = true, .signal = signal.seen_from(scene_.start), .inputs = {}});
+    }
+    varying.block = static_cast<int>(result_.blocks.size());
+    const double least = slider.component->declaration.parameters[at(varying.parameter)].lower;
+    result_.blocks.push_back({.element = e, .law = {.lower = least}, .generates = false, .signal = {}, .inputs = {input}});
   }
 
   void add(const SceneBlock& made) {
@@ -136,7 +161,7 @@ class Finder {
   void force(Blocks::Block& block, int element, double sign, int record) {
     const Network::Place& place = network_.places[at(element)];
     for (const SceneFeed& feed : scene_.feeds) {
-      if (feed.element != element) continue;
+      if (feed.element != element || (place.role != Role::motion && place.role != Role::force)) continue;
       block.inputs.push_back({true, feed.block, sign * feed.sign});
       return;
     }

@@ -31,6 +31,11 @@ RegisterComponent::RegisterComponent(Component component) {
   for (const Component* c : r.sorted) r.declarations.push_back(&c->declaration);
 }
 
+Box constant_box(const Component& component, std::span<const double> values) {
+  const std::vector<Dual> constant(values.begin(), values.end());
+  return component.box(constant);
+}
+
 const std::vector<const Component*>& components() { return registry().sorted; }
 
 Declarations declarations() { return registry().declarations; }

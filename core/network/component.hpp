@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -144,10 +145,25 @@ class RateBatch {
   virtual double velocity_at(std::size_t i, double f) const = 0;
 };
 
-/// A law of the role `slip`: sticks (w = 0) while abs(f) <= breakaway, slips with f = coulomb sgn w.
-struct Slip {
-  double coulomb;    ///< N
-  double breakaway;  ///< N, not less than coulomb
+/// Bounds of the force of a set-valued law in one direction of motion: magnitudes, infinite where it never moves that way [N].
+struct Bounds {
+  Dual sliding;    ///< while it slips
+  Dual breakaway;  ///< while it sticks; not less than `sliding`
+};
+
+/// A law of the role `slip`, at one time. It sticks (w = 0) while -backward.breakaway <= f <= forward.breakaway. It slips with
+/// f = forward.sliding for w > 0, and with f = -backward.sliding for w < 0.
+struct Box {
+  Bounds forward, backward;
+
+  const Bounds& at(int side) const { return side < 0 ? backward : forward; }
+  /// Friction: the same in both directions.
+  static Box symmetric(const Bounds& bounds) { return {bounds, bounds}; }
+  /// Larger of the two forces at which it breaks away [N].
+  double largest() const { return forward.breakaway < backward.breakaway ? backward.breakaway.value : forward.breakaway.value; }
+  /// Needs more force to break away than to slide, in some direction.
+  bool breaks_away() const { return forward.breakaway > forward.sliding || backward.breakaway > backward.sliding; }
+  bool rigid() const { return std::isinf(forward.breakaway.value) && std::isinf(backward.breakaway.value); }
 };
 
 /// A law of the role `block`. With u the sum of the inputs (or the generated signal), its output is
@@ -204,7 +220,8 @@ struct Component {
   std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
-  std::function<Slip(std::span<const double>)> slip = {};                                          ///< for Role::slip
+  /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
+  std::function<Box(std::span<const Dual>)> box = {};
   std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is a linear spring
   Symbol drawing = {};             ///< if empty, a plain box
@@ -215,6 +232,9 @@ struct Component {
     return domain == Domain::rotation && !rotational_drawing.empty() ? rotational_drawing : drawing;
   }
 };
+
+/// The box of a component whose parameters are constant.
+Box constant_box(const Component& component, std::span<const double> values);
 
 /// The components in alphabetical order of their types.
 const std::vector<const Component*>& components();

@@ -18,11 +18,12 @@ Reduced take_limits(const Component* component, std::vector<double> values, std:
     if (limit->becomes.empty()) return {nullptr, {}};
     values = limit->values(values);
     component = find_component(limit->becomes);
+    values.resize(component->declaration.parameters.size(), not_given);
   }
 }
 
 std::string name_of(const Reduced& law) {
-  if (law.component->slip && std::isinf(law.component->slip(law.values).breakaway)) return "a rigid link";
+  if (law.component->box && constant_box(*law.component, law.values).rigid()) return "a rigid link";
   return "a `" + law.component->declaration.type + "`";
 }
 

@@ -149,6 +149,16 @@ namespace {
 /// Elements collected by component before they are made into batches.
 struct Gathered { ByComponent deflections, rates; };
 
+/// The parameters of a law for which the element has signals, unless a limit or an effect left out has replaced its law.
+std::vector<int> varying_parameters(const SceneElement& element, const Reduced& law) {
+  std::vector<int> result;
+  if (law.component != components()[static_cast<std::size_t>(element.declaration)]) return result;
+  for (const int parameter : element.signal_parameters) {
+    if (std::isnan(law.values[static_cast<std::size_t>(parameter)])) result.push_back(parameter);
+  }
+  return result;
+}
+
 /// Stores an element in the list of its role.
 void place_element(Network& network, int index, Reduced& law, const Branch& ends, Gathered& gathered) {
   const Scene& scene = *network.scene;
@@ -171,7 +181,12 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       break;
     case Role::slip:
       place_in(network.sliders);
-      network.sliders.push_back({ends, law.component->slip(law.values)});
+      network.sliders.push_back({ends, constant_box(*law.component, law.values), law.component});
+      // Their blocks are found later.
+      for (const int parameter : varying_parameters(element, law)) {
+        network.sliders.back().values = law.values;
+        network.sliders.back().varying.push_back({parameter, -1, 1});
+      }
       break;
     case Role::mass:
       place_in(network.masses);
@@ -195,6 +210,7 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
 void feed_sources(Network& network) {
   for (const SceneFeed& feed : network.scene->feeds) {
     const auto [role, index, unused] = network.places[static_cast<std::size_t>(feed.element)];
+    if (role != Role::motion && role != Role::force) continue;
     const auto take = [&](auto& source) {
       source.block = feed.block;
       source.sign = feed.sign;

@@ -35,7 +35,15 @@ struct Network {
   struct Mass { int element; NodeId node; double mass; };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given.
   struct Motion { int element; NodeId node; Signal signal; bool position; int block = -1; double sign = 1, from = not_given; };
-  struct Slider { Branch branch; Slip law; };
+  /// A parameter of a slider that is `sign` times the output of a block.
+  struct VaryingParameter { int parameter, block; double sign; };
+  struct Slider {
+    Branch branch;
+    Box box;  ///< at constant parameters; else see Inputs::box
+    const Component* component = nullptr;          ///< of its law
+    std::vector<double> values = {};               ///< of its parameters; empty if all are constant
+    std::vector<VaryingParameter> varying = {};
+  };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output.
   struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; };
   /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, motions or forces.

@@ -23,8 +23,9 @@ bool is_spring(const Reduced& law) { return law.component && law.component->spri
 
 bool is_plain_slider(const Reduced& law) {
   if (!law.component || law.component->role != Role::slip) return false;
-  const Slip slip = law.component->slip(law.values);
-  return slip.breakaway == slip.coulomb && std::isfinite(slip.coulomb);
+  const Box box = constant_box(*law.component, law.values);
+  const double sliding = box.forward.sliding.value;
+  return std::isfinite(sliding) && sliding == box.backward.sliding.value && !box.breaks_away();
 }
 
 bool starts_displaced(const Scene& scene, std::size_t element) {
@@ -51,7 +52,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
       Touch& t = result[at(node)];
       ++t.count;
       if (is_spring(laws[e])) t.spring = static_cast<int>(e);
-      if (is_plain_slider(laws[e])) t.slider = static_cast<int>(e);
+      if (element.signals.empty() && is_plain_slider(laws[e])) t.slider = static_cast<int>(e);
       t.firm = t.firm || role == Role::mass || role == Role::motion;
       if (role == Role::motion && prescribes_position(element)) {
         t.start = {element.signals.at(0).before(scene.start), element.signals.at(0).value(scene.start)};
@@ -108,7 +109,7 @@ std::vector<Pair> find_pairs(const Scene& scene, const std::vector<Reduced>& law
               .spring_end = other_end(spring, node),
               .slider_end = other_end(slider, node),
               .law = spring_law.component->spring(spring_law.values),
-              .coulomb = slider_law.component->slip(slider_law.values).coulomb,
+              .coulomb = constant_box(*slider_law.component, slider_law.values).forward.sliding.value,
               .spring_sign = spring.b == node ? 1.0 : -1.0,
               .slider_sign = slider.a == node ? 1.0 : -1.0};
     if (pair.spring_end == pair.slider_end) continue;

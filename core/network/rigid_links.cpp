@@ -8,7 +8,7 @@
 
 namespace rheonet {
 
-bool is_rigid_link(const Network::Slider& slider) { return std::isinf(slider.law.breakaway); }
+bool is_rigid_link(const Network::Slider& slider) { return slider.varying.empty() && slider.box.rigid(); }
 
 DisjointSets joined_by_links(const Network& network) {
   DisjointSets joined(network.nodes());

@@ -25,6 +25,12 @@ class BoxedForces {
   BoxedForces& operator=(BoxedForces&&) noexcept;
   ~BoxedForces();
 
+  /// Gives a branch other bounds [N].
+  void bound(std::size_t branch, double low, double high) {
+    branches_[branch].low = low;
+    branches_[branch].high = high;
+  }
+
   enum class Outcome {
     within,  ///< every force is in its box
     beyond,  ///< cuts are overloaded: see `cuts`

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/base/index.hpp"
+#include "core/network/rigid_links.hpp"
 #include "core/result/grouped.hpp"
 
 namespace rheonet {
@@ -19,7 +20,7 @@ class EventSearch {
   explicit EventSearch(const Network& network) : network_(network) {}
 
   PossibleEvents find() {
-    for (const Network::Slider& slider : network_.sliders) add_slider(slider.law, slider.branch.element);
+    for (const Network::Slider& slider : network_.sliders) add_slider(slider);
     for (const Pair& pair : network_.pairs) add("stick, slip, reversal", pair.slider);
     for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -45,9 +46,13 @@ class EventSearch {
  private:
   void add(const std::string& kinds, int e) { grouped_.add(kinds, {.kinds = kinds}, network_.scene->elements[at(e)].name); }
 
-  void add_slider(const Slip& law, int e) {
-    if (!std::isfinite(law.breakaway)) return;  // a rigid link never slips
-    add(law.breakaway > law.coulomb ? "stick, slip, breakaway, reversal" : "stick, slip, reversal", e);
+  void add_slider(const Network::Slider& slider) {
+    if (is_rigid_link(slider)) return;
+    const bool reverses = std::isfinite(slider.box.forward.sliding.value) && std::isfinite(slider.box.backward.sliding.value);
+    std::string kinds = "stick, slip";
+    if (slider.box.breaks_away() || !slider.varying.empty()) kinds += ", breakaway";
+    if (reverses) kinds += ", reversal";
+    add(kinds, slider.branch.element);
   }
 
   /// Counts the jumps and corners of a signal, whose times are known.

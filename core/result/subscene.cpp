@@ -43,7 +43,7 @@ class Taker {
     for (const int k : taking.blocks) take_block(whole.blocks[at(k)]);
     for (const int k : taking.feeds) {
       const SceneFeed& feed = whole.feeds[at(k)];
-      scene_.feeds.push_back({numbers.element[at(feed.element)], numbers.block[at(feed.block)], feed.sign});
+      scene_.feeds.push_back({numbers.element[at(feed.element)], feed.parameter, numbers.block[at(feed.block)], feed.sign});
     }
   }
   ~Taker() {

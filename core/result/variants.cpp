@@ -49,7 +49,8 @@ Glance look(const Scene& scene) {
   std::vector<int> elements;
   for (int e = 0; at(e) < scene.elements.size(); ++e) {
     const auto is_its = [&](const SurrogateLaw& a) { return a.type == type_of(scene.elements[at(e)]); };
-    if (std::none_of(surrogate_laws().begin(), surrogate_laws().end(), is_its)) continue;
+    const bool varies = !scene.elements[at(e)].signals.empty();  // a surrogate law has constant parameters
+    if (varies || std::none_of(surrogate_laws().begin(), surrogate_laws().end(), is_its)) continue;
     elements.push_back(e);
     some.records.push_back({scene.elements[at(e)].name + ".velocity", Record::Subject::element, e, Record::Channel::velocity});
   }

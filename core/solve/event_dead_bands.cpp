@@ -91,7 +91,7 @@ void Tolerances::find_slip_noise(const std::vector<double>& slope) {
   const auto noise_at = [&](NodeId node) { return structure.kind[at(node)] == Kind::known ? 0 : held_noise_[at(held_[at(node)])]; };
   for (std::size_t k = 0; k < slip_noise_.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    const double bound = network_.sliders[k].law.breakaway;
+    const double bound = dae_->inputs().box(k).largest();
     const double dead_band = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
     slip_noise_[k] = std::isfinite(bound) ? std::min(dead_band, slip_share * local() * bound) : 0;
   }

@@ -120,7 +120,7 @@ bool NetworkEvents::moved_apart(int k) const {
 
 /// Dead band of the guard of a sticking slider [N].
 double NetworkEvents::force_band(int k) const {
-  return dae_.network().sliders[at(k)].law.breakaway * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
+  return dae_.inputs().box(at(k)).largest() * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
 }
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
@@ -129,7 +129,9 @@ double NetworkEvents::slider_function(int k, const Dae::View& view) const {
     const Branch& ends = dae_.structure().sliders[at(k)];
     return tolerances_.slider_noise(k) + margin_[at(k)] - std::abs(view.velocity[at(ends.a)] - view.velocity[at(ends.b)]);
   }
-  return dae_.network().sliders[at(k)].law.breakaway - std::abs(view.slider_force[at(k)]) + force_band(k);
+  const Box& box = dae_.inputs().box(at(k));
+  const double force = view.slider_force[at(k)];
+  return std::min(box.forward.breakaway.value - force, box.backward.breakaway.value + force) + force_band(k);
 }
 
 double NetworkEvents::band(int k) const {

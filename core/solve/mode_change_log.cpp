@@ -78,8 +78,8 @@ class WithinStep {
 
 }  // namespace
 
-ModeChangeLog::ModeChangeLog(const Network& network, const BlockSignals& blocks)
-    : network_(network), blocks_(blocks), sides_(network.blocks.blocks.size(), 0) {
+ModeChangeLog::ModeChangeLog(const Network& network, const Inputs& inputs)
+    : network_(network), inputs_(inputs), blocks_(inputs.blocks()), sides_(network.blocks.blocks.size(), 0) {
   last_.slider.assign(network.sliders.size(), Modes::stuck);
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     if (laws.batch.get() == network.bundles) continue;
@@ -117,9 +117,9 @@ const std::vector<Event>& ModeChangeLog::follow(double t, const Modes& modes, co
   }
   for (std::size_t k = 0; k < modes.slider.size(); ++k) {
     if (modes.slider[k] == last_.slider[k]) continue;
-    const Slip& law = network_.sliders[k].law;
+    const Bounds& bounds = inputs_.box(k).at(modes.slider[k] != 0 ? modes.slider[k] : last_.slider[k]);
     turn(t, network_.sliders[k].branch.element, last_.slider[k], modes.slider[k], "stick",
-         law.breakaway > law.coulomb ? "breakaway" : "slip");
+         bounds.breakaway > bounds.sliding ? "breakaway" : "slip");
     last_.slider[k] = modes.slider[k];
   }
   for (Bundle& bundle : bundles_) follow(t, bundle, p[static_cast<std::size_t>(bundle.branch)]);

@@ -5,6 +5,7 @@
 
 #include "core/dae/block_signals.hpp"
 #include "core/dae/dae.hpp"
+#include "core/dae/inputs.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
 #include "core/solve/integrator.hpp"
@@ -32,7 +33,7 @@ struct Event {
 class ModeChangeLog {
  public:
   /// Both must outlive this.
-  ModeChangeLog(const Network& network, const BlockSignals& blocks);
+  ModeChangeLog(const Network& network, const Inputs& inputs);
 
   /// Events since the last call, given the deflections of all branches [m]. Valid until the next call.
   const std::vector<Event>& follow(double t, const Modes& modes, const std::vector<double>& p);
@@ -66,6 +67,7 @@ class ModeChangeLog {
   void turn(double t, int element, int before, int after, const char* to_rest, const char* from_rest);
 
   const Network& network_;
+  const Inputs& inputs_;
   const BlockSignals& blocks_;
   std::vector<int> sides_;  ///< of each block: see BlockSignals::side
   std::vector<Law> laws_;

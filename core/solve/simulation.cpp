@@ -61,7 +61,7 @@ class Run {
         error_model_(network, classified_, settings.stop),
         tolerances_(network, tolerance(error_model_.local_share())),
         mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
-        mode_changes_(network, inputs_.blocks()),
+        mode_changes_(network, inputs_),
         chatter_(network.scene->elements.size() + 1, settings.accuracy),
         regularisation_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);

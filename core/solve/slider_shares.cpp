@@ -39,7 +39,7 @@ void Tolerances::find_slider_shares() {
   }
   std::fill(slider_share_.begin(), slider_share_.end(), 1.0);
   for (std::size_t k = 0; k < rested_.size(); ++k) {
-    const double bound = network_.sliders[k].law.breakaway;
+    const double bound = dae_->inputs().box(k).largest();
     const std::size_t part = at(part_of(structure.sliders[k]));
     if (!rested_[k] || !(bound > 0) || much_larger * bound >= force[part]) continue;
     slider_share_[part] = std::min(slider_share_[part], std::max(least_slider_share, much_larger * bound / force[part]));

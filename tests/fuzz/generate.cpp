@@ -59,7 +59,7 @@ TomlValue signal(Random& random) {
 }
 
 TomlValue parameter_value(const Parameter& parameter, const std::vector<std::string>& blocks, Random& random) {
-  if (parameter.kind == Parameter::Kind::signal) {
+  if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && random.below(4) == 0)) {
     if (parameter.from_block && !blocks.empty() && random.below(4) == 0)
       return table_value({{"block", string_value(blocks[static_cast<std::size_t>(random.below(static_cast<int>(blocks.size())))])}});
     return signal(random);
@@ -98,7 +98,7 @@ TomlValue element(const Declaration& declaration, const std::vector<std::string>
   const std::string chosen = one_of.empty() ? "" : one_of[static_cast<std::size_t>(random.below(static_cast<int>(one_of.size())))];
   for (const Parameter& parameter : declaration.parameters) {
     const bool alternative = std::find(one_of.begin(), one_of.end(), parameter.name) != one_of.end();
-    const bool optional = parameter.fallback || !parameter.same_as.empty() || parameter.kind == Parameter::Kind::initial;
+    const bool optional = parameter.optional || parameter.fallback || !parameter.same_as.empty() || parameter.kind == Parameter::Kind::initial;
     const int seldom = parameter.kind == Parameter::Kind::initial ? 20 : 3;  // start values that contradict each other end it all
     if (alternative ? parameter.name != chosen : optional && random.below(seldom) > 0) continue;
     entries.emplace_back(parameter.name_in(domain), parameter_value(parameter, blocks, random));

@@ -115,10 +115,10 @@ Scene rescaled(Scene scene, const Scaling& scaling) {
     const Declaration& d = declared(e);
     const std::vector<double> before = e.values;
     for (std::size_t k = 0; k < d.parameters.size(); ++k) {
-      e.values.own()[k] *= scaling.of(d.parameters[k].quantity, scene.domain, flow_index(d, d.parameters[k], before));
+      e.values.own()[k] *= scaling.of(quantity_of(d, e, k), scene.domain, flow_index(d, d.parameters[k], before));
     }
     for (std::size_t k = 0; k < e.signals.size(); ++k) {
-      e.signals.own()[k] = transformed(e.signals[k], scaling.of(parameter_of(e, k).quantity, scene.domain), scaling.time);
+      e.signals.own()[k] = transformed(e.signals[k], scaling.of(quantity_of(declared(e), e, at(e.signal_parameters[k])), scene.domain), scaling.time);
     }
   }
   scene.start *= scaling.time;

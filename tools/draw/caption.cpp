@@ -56,7 +56,8 @@ std::string unit_of_parameter(const Scene& scene, int index, const Parameter& pa
     double flow_index = 1;
     for (std::size_t k = 0; k < declaration.parameters.size(); ++k)
       if (declaration.parameters[k].name == parameter.flow_index) flow_index = element.values[k];
-    return unit_of(parameter.quantity, scene.domain, flow_index);
+    const auto number = static_cast<std::size_t>(&parameter - declaration.parameters.data());
+    return unit_of(quantity_of(declaration, element, number), scene.domain, flow_index);
   }
   const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(),
                                   [index](const SceneBlock& each) { return each.element == index; });
@@ -174,17 +175,17 @@ struct Beginning {
   }
 };
 
-/// What feeds the signal of an element; nullptr if it has its own.
-const SceneFeed* feed_of(const Scene& scene, int element) {
+/// What feeds a parameter of an element; nullptr if it has a signal of its own.
+const SceneFeed* feed_of(const Scene& scene, int element, int parameter) {
   const auto found = std::find_if(scene.feeds.begin(), scene.feeds.end(),
-                                  [element](const SceneFeed& feed) { return feed.element == element; });
+                                  [=](const SceneFeed& feed) { return feed.element == element && feed.parameter == parameter; });
   return found == scene.feeds.end() ? nullptr : &*found;
 }
 
 /// The lines that say what the signal of an element is.
 std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t which, const Typed& typed) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
-  if (const SceneFeed* feed = feed_of(scene, index)) {
+  if (const SceneFeed* feed = feed_of(scene, index, element.signal_parameters[which])) {
     const SceneBlock& block = scene.blocks[static_cast<std::size_t>(feed->block)];
     return {(feed->sign < 0 ? "from −" : "from ") + scene.elements[static_cast<std::size_t>(block.element)].name};
   }

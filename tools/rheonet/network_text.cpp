@@ -26,6 +26,7 @@ std::string count(std::size_t n, const char* one, const char* many) {
 }
 
 std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scene) {
+  const auto index = static_cast<int>(&element - scene.elements.data());
   const Declaration& declaration = *declarations()[static_cast<std::size_t>(element.declaration)];
   const auto node = [&scene](NodeId id) { return scene.nodes[static_cast<std::size_t>(id)].name; };
 
@@ -33,10 +34,16 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
     const std::string name = parameter.name_in(scene.domain);
-    const std::string unit = unit_of(parameter.quantity, scene.domain, flow_index_of(parameter, declaration, element));
+    const std::string unit = unit_of(quantity_of(declaration, element, i), scene.domain, flow_index_of(parameter, declaration, element));
     const auto& with_signal = element.signal_parameters;
     const auto found = std::find(with_signal.begin(), with_signal.end(), static_cast<int>(i));
-    if (found != with_signal.end()) {
+    const auto fed = std::find_if(scene.feeds.begin(), scene.feeds.end(), [&](const SceneFeed& feed) {
+      return feed.element == index && feed.parameter == static_cast<int>(i);
+    });
+    if (fed != scene.feeds.end()) {
+      const SceneBlock& block = scene.blocks[static_cast<std::size_t>(fed->block)];
+      values.push_back(fmt::format("{} = {}block {}", name, fed->sign < 0 ? "-" : "", scene.elements[static_cast<std::size_t>(block.element)].name));
+    } else if (found != with_signal.end()) {
       const auto which = static_cast<std::size_t>(found - with_signal.begin());
       values.push_back(fmt::format("{} = {}", name, in_words(element.signals[which], unit)));
     } else if (!std::isnan(element.values[i])) {

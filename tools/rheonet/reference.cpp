@@ -68,13 +68,14 @@ std::string bounds(const Parameter& p) {
     if (!std::isinf(p.upper)) text += ", <= " + short_number(p.upper);
   }
   if (p.may_be_infinite) text += ", or inf";
+  if (p.may_vary) text += ", or a signal";
   return text;
 }
 
 std::string fallback(const Parameter& p, const Declaration& declaration) {
   if (p.fallback) return short_number(*p.fallback);
   if (!p.same_as.empty()) return (p.opposite ? "-" : "") + p.same_as;
-  if (p.kind == Parameter::Kind::initial) return "not given";
+  if (p.kind == Parameter::Kind::initial || p.optional) return "not given";
   const std::vector<std::string>& choice = declaration.one_of;
   if (std::find(choice.begin(), choice.end(), p.name) != choice.end()) {
     return fmt::format("one of {}", fmt::join(choice, ", "));
@@ -127,7 +128,7 @@ bool is_rigid(const Limit& limit, const Declaration& declaration) {
   const Component* component = find_component(limit.becomes);
   if (component == nullptr || component->role != Role::slip) return false;
   const std::vector<double> values = values_at(limit, declaration);
-  return !values.empty() && std::isinf(component->slip(limit.values(values)).coulomb);
+  return !values.empty() && constant_box(*component, limit.values(values)).rigid();
 }
 
 std::string becomes(const Limit& limit, const Declaration& declaration) {
