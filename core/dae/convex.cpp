@@ -143,8 +143,10 @@ void ConvexNetwork::stick_at_first() {
   for (Branch* branch : order) {
     Branch& b = *branch;
     const int sa = sets.find(b.a), sb = sets.find(b.b);
-    const bool rigid = std::isinf(b.law.low) && std::isinf(b.law.high);
-    if (const double w = difference(head[at(sa)], head[at(sb)]); !rigid && heavy[at(sa)] && heavy[at(sb)] && w != 0) {
+    // A force without a bound holds it, or ends a motion that the law forbids.
+    const double w = difference(head[at(sa)], head[at(sb)]);
+    const bool rigid = (std::isinf(b.law.low) && std::isinf(b.law.high)) || std::isinf(w < 0 ? b.law.low : b.law.high);
+    if (!rigid && heavy[at(sa)] && heavy[at(sb)] && w != 0) {
       b.side = w > 0 ? 1 : -1;
       continue;
     }

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/dae.hpp"
@@ -62,6 +63,7 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
   // A step that arrives through a delay is no step of the inputs: these do no work then.
   const bool delayed = take_delayed_steps(t, state, change);
   if (delayed && !driven) stepped = false;
+  change.heat += impact(t, state, change.notes);
   change.heat += halt(t, fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
@@ -203,6 +205,50 @@ double EventTransition::time_ahead(double t, double horizon, const State& state)
 
 double EventTransition::given_velocity(NodeId node) const {
   return structure_.motion[at(node)] < 0 ? 0 : inputs_.velocity[at(structure_.motion[at(node)])];
+}
+
+/// Masses whose relative velocity a law forbids (a freewheel turned backwards, at a start or a step) collide, and go on without
+/// it: a plastic impact. Its impulses are those of least kinetic energy,
+///     minimise 1/2 (v - v0)' M (v - v0)     with     w in the permitted direction, at every law without a bound.
+/// Friction and dashpots take no impulse. Returns the energy that becomes heat [J].
+double EventTransition::impact(double t, State& state, std::vector<std::string>& notes) const {
+  const auto velocity = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known ? given_velocity(n) : state.velocity[at(n)]; };
+  const auto forbidden = [&](std::size_t k) {
+    const auto& [element, a, b] = network_.sliders[k].branch;
+    const double va = velocity(a), vb = velocity(b);
+    if (massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) return false;
+    return std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value) &&
+           std::abs(va - vb) > link_rounding * (std::abs(va) + std::abs(vb));
+  };
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    if (forbidden(k)) names.push_back(network_.name_of(network_.sliders[k].branch));
+  }
+  if (names.empty()) return 0;
+  ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    const auto node = static_cast<NodeId>(n);
+    problem.start(slot(node), velocity(node));
+    if (structure_.kind[n] == Kind::known) problem.fix(slot(node), 0);
+    if (structure_.kind[n] == Kind::massive) problem.set_inertia(slot(node), structure_.mass[n]);
+  }
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Box& box = inputs_.box(k);
+    const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
+    const ConvexNetwork::Law law{.low = -impulse(box.backward), .high = impulse(box.forward)};
+    if (law.low < law.high) problem.add(slot(network_.sliders[k].branch.a), slot(network_.sliders[k].branch.b), law);
+  }
+  if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
+  double lost = 0;
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    if (structure_.kind[n] != Kind::massive) continue;
+    const double before = state.velocity[n], after = problem.value(slot(static_cast<NodeId>(n)));
+    lost += structure_.mass[n] * (before - after) * (before + after) / 2;
+    state.velocity[n] = after;
+  }
+  notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
+                              names.size() > 1 ? "their" : "its", lost > 0 ? fmt::format(", which turns {:.6g} J into heat", lost) : ""));
+  return std::max(0.0, lost);
 }
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what remains of their relative

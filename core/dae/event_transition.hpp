@@ -74,6 +74,7 @@ class EventTransition {
   [[noreturn]] void report_unbalanced(double t) const;
   [[noreturn]] void report_hidden_shares(double t) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
+  double impact(double t, State& state, std::vector<std::string>& notes) const;
   double given_velocity(NodeId node) const;
   /// Throws SimulationError if rigid links join nodes that move at different velocities.
   void refuse_torn_links(double t) const;

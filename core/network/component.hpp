@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -159,8 +160,15 @@ struct Box {
   const Bounds& at(int side) const { return side < 0 ? backward : forward; }
   /// Friction: the same in both directions.
   static Box symmetric(const Bounds& bounds) { return {bounds, bounds}; }
-  /// Larger of the two forces at which it breaks away [N].
-  double largest() const { return forward.breakaway < backward.breakaway ? backward.breakaway.value : forward.breakaway.value; }
+  /// Larger of the two forces at which it breaks away [N]; infinite ones do not count.
+  double largest() const {
+    double result = 0;
+    for (const Bounds* b : {&forward, &backward}) {
+      if (std::isfinite(b->breakaway.value)) result = std::max(result, b->breakaway.value);
+    }
+    return result;
+  }
+  bool takes_force() const { return forward.breakaway.value > 0 || backward.breakaway.value > 0; }
   /// Needs more force to break away than to slide, in some direction.
   bool breaks_away() const { return forward.breakaway > forward.sliding || backward.breakaway > backward.sliding; }
   bool rigid() const { return std::isinf(forward.breakaway.value) && std::isinf(backward.breakaway.value); }

@@ -93,7 +93,8 @@ void Tolerances::find_slip_noise(const std::vector<double>& slope) {
     const Branch& b = network_.sliders[k].branch;
     const double bound = dae_->inputs().box(k).largest();
     const double dead_band = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
-    slip_noise_[k] = std::isfinite(bound) ? std::min(dead_band, slip_share * local() * bound) : 0;
+    // A law that takes no force in one direction (a freewheel) has no bound to compare with.
+    slip_noise_[k] = bound > 0 ? std::min(dead_band, slip_share * local() * bound) : dead_band;
   }
 }
 
