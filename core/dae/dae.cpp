@@ -12,6 +12,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
       structure_(&structure),
       inputs_(&inputs),
       stick_forces_(network, structure, inputs),
+      inertia_(network, structure),
       positions_(find_positions(network, structure, needed)) {
   const std::size_t nodes = network.nodes(), nd = network.deflections.size(), nr = network.rates.size();
   number_unknowns();
@@ -129,7 +130,13 @@ void Dae::draft_balances(Drafts& drafts) const {
     drafts.depend(group_row(b.b), ip_[j], Source::force, index, -1);
   }
   for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (structure_->kind[n] == Kind::massive) drafts.put_mass(iv_[n], iv_[n], structure_->mass[n]);
+    if (structure_->kind[n] == Kind::massive) drafts.put_mass(iv_[n], iv_[n], structure_->inertia[n]);
+  }
+  for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
+    const Branch& b = structure_->inerters[k];
+    if (b.a == b.b || iv_[at(b.a)] < 0 || iv_[at(b.b)] < 0) continue;
+    drafts.put_mass(iv_[at(b.a)], iv_[at(b.b)], -network_->inerters[k].inertance);
+    drafts.put_mass(iv_[at(b.b)], iv_[at(b.a)], -network_->inerters[k].inertance);
   }
 }
 

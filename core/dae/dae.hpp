@@ -5,6 +5,7 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/dae/inertia_matrix.hpp"
 #include "core/dae/inputs.hpp"
 #include "core/dae/matrix.hpp"
 #include "core/dae/positions.hpp"
@@ -167,6 +168,8 @@ class Dae {
   DeflectionBatch& batch_of(int branch, std::size_t& i) const { return network_->batch_of(branch, i); }
   /// Force that a motion applies to its node [N] in the state last viewed.
   double reaction(NodeId node) const;
+  /// Force of an inerter [N] in the state last viewed.
+  double inerter_force(std::size_t index) const;
   /// Output of a block in the state last viewed.
   double output(int block) const { return inputs_->blocks().out(block).value; }
   /// Limiters take the sides that fit this state: see BlockSignals::choose.
@@ -270,6 +273,7 @@ class Dae {
   const Structure* structure_;
   Inputs* inputs_;
   StickForces stick_forces_;
+  InertiaMatrix inertia_;
   Positions positions_;
   int size_ = 0;
   bool idle_ = false, rough_ = false, follows_time_ = false, secants_ = false;

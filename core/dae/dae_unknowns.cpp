@@ -58,7 +58,7 @@ void Dae::number_unknowns() {
     }
   }
   const std::vector<char> told_by_others = told_by_dilatant_laws(told);
-  const auto mass_of = [&](NodeId node) { return known(node) ? std::numeric_limits<double>::infinity() : structure_->mass[at(node)]; };
+  const auto mass_of = [&](NodeId node) { return known(node) ? std::numeric_limits<double>::infinity() : structure_->inertia[at(node)]; };
   const double length = network.scene->stop - network.scene->start;
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {

@@ -58,12 +58,13 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
   inputs_.sense(t, state);
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
-  if (stepped) position_steps(t, dx, state, change.notes);
+  std::vector<double> momentum(dx);
+  if (stepped) position_steps(t, dx, momentum, change.notes);
   const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   // A step that arrives through a delay is no step of the inputs: these do no work then.
   const bool delayed = take_delayed_steps(t, state, change);
   if (delayed && !driven) stepped = false;
-  change.heat += impact(t, state, change.notes);
+  change.heat += collide(t, momentum, state, change.notes);
   change.heat += halt(t, fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
@@ -192,7 +193,7 @@ double EventTransition::time_ahead(double t, double horizon, const State& state)
     }
   }
   for (std::size_t n = 1; n < nodes; ++n) {
-    const double m = structure_.mass[n];
+    const double m = structure_.inertia[n];
     if (structure_.kind[n] == Kind::known) continue;
     if (m > 0) fastest = std::max({fastest, damping[n] / m, std::sqrt(stiffness[n] / m)});
     if (m == 0 && damping[n] > 0) fastest = std::max(fastest, stiffness[n] / damping[n]);
@@ -207,30 +208,36 @@ double EventTransition::given_velocity(NodeId node) const {
   return structure_.motion[at(node)] < 0 ? 0 : inputs_.velocity[at(structure_.motion[at(node)])];
 }
 
-/// Masses whose relative velocity a law forbids (a freewheel turned backwards, at a start or a step) collide, and go on without
-/// it: a plastic impact. Its impulses are those of least kinetic energy,
-///     minimise 1/2 (v - v0)' M (v - v0)     with     w in the permitted direction, at every law without a bound.
-/// Friction and dashpots take no impulse. Returns the energy that becomes heat [J].
-double EventTransition::impact(double t, State& state, std::vector<std::string>& notes) const {
-  const auto velocity = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known ? given_velocity(n) : state.velocity[at(n)]; };
-  const auto forbidden = [&](std::size_t k) {
-    const auto& [element, a, b] = network_.sliders[k].branch;
-    const double va = velocity(a), vb = velocity(b);
-    if (massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) return false;
-    return std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value) &&
-           std::abs(va - vb) > link_rounding * (std::abs(va) + std::abs(vb));
-  };
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    if (forbidden(k)) names.push_back(network_.name_of(network_.sliders[k].branch));
+/// Velocities after impulses: of dashpots at steps in position (`momentum`, of each mass [N s]), of inerters where a prescribed
+/// velocity jumps, and of laws that forbid a direction (a freewheel turned backwards by a step, or at the start). The latter
+/// are plastic impacts. They are those of least kinetic energy,
+///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
+/// Friction and springs take no impulse. Returns the energy that an impact turns into heat [J].
+double EventTransition::collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes) {
+  const bool from_rest = std::exchange(started_, true);  // afterwards the state has the velocities of prescribed nodes
+  const auto given = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known; };
+  const auto given_change = [&](NodeId n) { return given(n) && from_rest ? given_velocity(n) - state.velocity[at(n)] : 0; };
+  const bool pushed = std::any_of(momentum.begin(), momentum.end(), [](double p) { return p != 0; });
+  const auto jolted = [&](const Network::Inerter& i) { return given_change(i.branch.a) != 0 || given_change(i.branch.b) != 0; };
+  const bool through_inerters = !network_.inerters.empty() && (pushed || std::any_of(network_.inerters.begin(), network_.inerters.end(), jolted));
+  if (pushed && !through_inerters) {
+    for (std::size_t n = 0; n < momentum.size(); ++n) {
+      if (momentum[n] != 0) state.velocity[n] += momentum[n] / structure_.mass[n];
+    }
   }
-  if (names.empty()) return 0;
+  const std::vector<int> forbidden = through_inerters ? std::vector<int>{} : moving_backwards(state);
+  if (forbidden.empty() && !through_inerters) return 0;
   ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
-    problem.start(slot(node), velocity(node));
-    if (structure_.kind[n] == Kind::known) problem.fix(slot(node), 0);
-    if (structure_.kind[n] == Kind::massive) problem.set_inertia(slot(node), structure_.mass[n]);
+    problem.start(slot(node), given(node) ? given_velocity(node) - given_change(node) : state.velocity[n]);
+    if (given(node)) problem.fix(slot(node), given_change(node));
+    if (structure_.kind[n] != Kind::massive) continue;
+    problem.set_inertia(slot(node), structure_.mass[n]);
+    if (through_inerters) problem.load(slot(node), momentum[n]);
+  }
+  for (const auto& [branch, inertance] : network_.inerters) {
+    problem.add(slot(branch.a), slot(branch.b), {.backward = inertance, .forward = inertance, .of_change = true});
   }
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Box& box = inputs_.box(k);
@@ -239,16 +246,42 @@ double EventTransition::impact(double t, State& state, std::vector<std::string>&
     if (law.low < law.high) problem.add(slot(network_.sliders[k].branch.a), slot(network_.sliders[k].branch.b), law);
   }
   if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
-  double lost = 0;
+  const auto energy = [&] {
+    double sum = 0;
+    for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+      if (structure_.kind[n] == Kind::massive) sum += structure_.mass[n] * state.velocity[n] * state.velocity[n] / 2;
+    }
+    for (const auto& [branch, inertance] : network_.inerters) {
+      const double w = state.velocity[at(branch.a)] - state.velocity[at(branch.b)];
+      sum += inertance * w * w / 2;
+    }
+    return sum;
+  };
+  const double before = energy();
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
-    if (structure_.kind[n] != Kind::massive) continue;
-    const double before = state.velocity[n], after = problem.value(slot(static_cast<NodeId>(n)));
-    lost += structure_.mass[n] * (before - after) * (before + after) / 2;
-    state.velocity[n] = after;
+    if (structure_.kind[n] == Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
+  if (forbidden.empty()) return 0;
+  const double lost = std::max(0.0, before - energy());
+  std::vector<std::string> names;
+  for (const int k : forbidden) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
   notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
                               names.size() > 1 ? "their" : "its", lost > 0 ? fmt::format(", which turns {:.6g} J into heat", lost) : ""));
-  return std::max(0.0, lost);
+  return lost;
+}
+
+/// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
+std::vector<int> EventTransition::moving_backwards(const State& state) const {
+  std::vector<int> result;
+  const auto velocity = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known ? given_velocity(n) : state.velocity[at(n)]; };
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const auto& [element, a, b] = network_.sliders[k].branch;
+    if (massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) continue;
+    const double va = velocity(a), vb = velocity(b);
+    const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
+    if (never && std::abs(va - vb) > link_rounding * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
+  }
+  return result;
 }
 
 /// Masses that sliders bring to rest against each other go on with their common momentum: what remains of their relative

@@ -45,9 +45,9 @@ class EventTransition {
   /// For each node: the sum of the forces, the sum of their magnitudes, and their error due to the round-off of velocities [N].
   struct Nodal { std::vector<double> sum, magnitude, rounding; };
   double time_ahead(double t, double horizon, const State& state) const;
-  /// `dx`: steps of known and viscous nodes due to steps of positions. `position_steps` also gives masses their momentum.
+  /// `dx`: steps of known and viscous nodes due to steps of positions. `position_steps` also finds the momentum that dashpots give to masses [N s].
   Structure take_along(double t, std::vector<double>& dx) const;
-  void position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes);
+  void position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, std::vector<std::string>& notes);
   /// An imbalance above this share of the forces is no error of the integrator's steps.
   static constexpr double largest_error = 1e-3;
   /// The displacements at the event until the forces balance under the inputs last evaluated.
@@ -74,7 +74,8 @@ class EventTransition {
   [[noreturn]] void report_unbalanced(double t) const;
   [[noreturn]] void report_hidden_shares(double t) const;
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
-  double impact(double t, State& state, std::vector<std::string>& notes) const;
+  double collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes);
+  std::vector<int> moving_backwards(const State& state) const;
   double given_velocity(NodeId node) const;
   /// Throws SimulationError if rigid links join nodes that move at different velocities.
   void refuse_torn_links(double t) const;
@@ -96,6 +97,7 @@ class EventTransition {
   void add_inputs(ModeSelection& selection);
   void add_deflection_laws(ModeSelection& selection, const State& state) const;
   void add_rate_laws(ModeSelection& selection, const State& state) const;
+  void add_inerters(ModeSelection& selection) const;
   void add_sliders(ModeSelection& selection) const;
   static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest);
@@ -149,6 +151,7 @@ class EventTransition {
   const Network& network_;
   const Structure& structure_;
   Inputs& inputs_;
+  bool started_ = false;      ///< the start has been resolved
   bool stepped_ = false;      ///< the forces of the sliders are those before a step of the inputs
   std::vector<char> broken_;           ///< of each slider: its bounds are its sliding force
   std::vector<char> impulse_told_;     ///< of each element: a message has reported its impulse at a step of position

@@ -109,6 +109,7 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
   add_inputs(selection);
   add_deflection_laws(selection, state);
   add_rate_laws(selection, state);
+  add_inerters(selection);
   add_sliders(selection);
   if (const ConvexNetwork::Outcome outcome = selection.problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, selection.problem.runaways(), state);
@@ -133,7 +134,7 @@ void EventTransition::add_nodes(ModeSelection& selection, const State& state) co
     selection.problem.start(node, state.velocity[n]);
     if (structure_.kind[n] == Kind::massive) {
       selection.problem.set_inertia(node, structure_.mass[n] / selection.h);
-      selection.slope_around[n] = structure_.mass[n] / selection.h;
+      selection.slope_around[n] = structure_.inertia[n] / selection.h;
     }
     const double out = std::abs(selection.now->sum[n]) - slack_[n];
     if (out > onset_rounding * selection.now->magnitude[n] + selection.now->rounding[n]) selection.problem.load(node, -std::copysign(out, selection.now->sum[n]));
@@ -241,6 +242,14 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
     selection.slider[k] = selection.problem.add(slot(b.a), slot(b.b), law);
     if (!fired) selection.problem.was_apart(selection.slider[k], selection.modes->slider[k]);
     selection.bound_side[k] = came_to_rest_[k] != 0 ? came_to_rest_[k] : law.high == forward ? 1 : law.low == -backward ? -1 : 0;
+  }
+}
+
+/// An inerter resists a change of its velocity as a dashpot does a velocity.
+void EventTransition::add_inerters(ModeSelection& selection) const {
+  for (const Network::Inerter& inerter : network_.inerters) {
+    const double slope = inerter.inertance / selection.h;
+    selection.problem.add(slot(inerter.branch.a), slot(inerter.branch.b), {.backward = slope, .forward = slope, .of_change = true});
   }
 }
 

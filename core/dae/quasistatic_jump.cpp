@@ -20,14 +20,20 @@ constexpr double jump_rounding = 1e-12;
 
 }  // namespace
 
-void EventTransition::position_steps(double t, std::vector<double>& dx, State& state, std::vector<std::string>& notes) {
+void EventTransition::position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = inputs_.steps()[m];
   if (std::all_of(dx.begin(), dx.end(), [](double step) { return step == 0; })) return;
   const Structure led = take_along(t, dx);
   if (!go_with_dashpots(network_, led, dx)) report_hidden_shares(t);
-  const std::vector<double> momentum = momentum_through_dashpots(network_, led, dx, t);
-  for (std::size_t n = 0; n < dx.size(); ++n) {
-    if (led.kind[n] == Kind::massive) state.velocity[n] += momentum[n] / led.mass[n];
+  momentum = momentum_through_dashpots(network_, led, dx, t);
+  for (const Network::Inerter& inerter : network_.inerters) {
+    const Branch& b = inerter.branch;
+    if (step_together(dx[at(b.a)], dx[at(b.b)])) continue;
+    throw SimulationError(network_.spot_of(b.element),
+                          fmt::format("{} a step in position stretches inerter `{}` by {} in no time, which takes a force beyond any bound; "
+                                      "give the step a time to rise in",
+                                      at_time(*network_.scene, t), network_.name_of(b),
+                                      with_unit(*network_.scene, dx[at(b.a)] - dx[at(b.b)], Quantity::position)));
   }
   const auto tell = [&](int element, const std::string& what, double by, const char* whose) {
     char& told = impulse_told_[at(element)];

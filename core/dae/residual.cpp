@@ -94,6 +94,14 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   for (std::size_t n = 0; n < iv_.size(); ++n) {
     if (iv_[n] >= 0) r[iv_[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[iv_[n]];
   }
+  for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
+    const Branch& b = structure_->inerters[k];
+    if (b.a == b.b) continue;
+    const auto acceleration = [&](NodeId node) { return iv_[at(node)] >= 0 ? yp[iv_[at(node)]] : a_[at(node)]; };
+    const double f = network_->inerters[k].inertance * (acceleration(b.a) - acceleration(b.b));
+    if (iv_[at(b.a)] >= 0) r[iv_[at(b.a)]] += f;
+    if (iv_[at(b.b)] >= 0) r[iv_[at(b.b)]] -= f;
+  }
   for (std::size_t g = 0; g < group_row_.size(); ++g) {
     double sum = 0;
     for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];

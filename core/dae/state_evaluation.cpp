@@ -27,6 +27,11 @@ void Dae::share_among_joined(double t) {
   for (std::size_t n = 0; n < left.size(); ++n) {
     left[n] = view_.nodal[n] - view_.applied[n] + structure_->own_mass[n] * view_.acceleration[n];
   }
+  for (std::size_t k = 0; k < network_->inerters.size(); ++k) {
+    const Branch& b = network_->inerters[k].branch;
+    left[at(b.a)] += inerter_force(k);
+    left[at(b.b)] -= inerter_force(k);
+  }
   stick_forces_.solve(t, left, view_.slider_force);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
@@ -42,6 +47,10 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     if (structure_->kind[n] == Kind::massive) {
       view_.acceleration[n] = (view_.applied[n] - view_.nodal[n]) / structure_->mass[n];
     }
+  }
+  if (inertia_.coupled()) {
+    for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
+    inertia_.accelerate(work_, view_.acceleration);
   }
   for (const Network::Motion& m : network_->motions) {
     if (m.block >= 0) view_.acceleration[at(m.node)] += acceleration_by(m);
@@ -146,7 +155,18 @@ const std::vector<double>& Dae::slopes() {
 }
 
 double Dae::reaction(NodeId node) const {
-  return view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * view_.acceleration[at(node)];
+  double force = view_.nodal[at(node)] - view_.applied[at(node)] + structure_->own_mass[at(node)] * view_.acceleration[at(node)];
+  for (std::size_t k = 0; k < network_->inerters.size(); ++k) {
+    const Branch& b = network_->inerters[k].branch;
+    if (b.a == node) force += inerter_force(k);
+    if (b.b == node) force -= inerter_force(k);
+  }
+  return force;
+}
+
+double Dae::inerter_force(std::size_t k) const {
+  const auto& [branch, inertance] = network_->inerters[k];
+  return inertance * (view_.acceleration[at(branch.a)] - view_.acceleration[at(branch.b)]);
 }
 
 double Dae::supplied_power() const {
@@ -198,6 +218,10 @@ double Dae::stored_energy() const {
   }
   for (std::size_t n = 0; n < v_.size(); ++n) {
     energy += structure_->own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
+  }
+  for (const Network::Inerter& inerter : network_->inerters) {
+    const double w = view_.velocity[at(inerter.branch.a)] - view_.velocity[at(inerter.branch.b)];
+    energy += inerter.inertance * w * w / 2;
   }
   return energy;
 }

@@ -23,6 +23,7 @@ enum class Role {
   rate,        ///< force from the relative velocity: f = force(w), or w = rate(f). Dashpots
   slip,        ///< sticks under any force up to a bound, otherwise slips at a constant force. Ideal sliders
   mass,        ///< inertia of a node
+  inerter,     ///< f = b w'
   motion,      ///< prescribes a node's motion
   force,       ///< applies a given force
   block,       ///< not part of the network: computes a signal from other signals

@@ -21,7 +21,7 @@ namespace {
 
 Role role_of(const Reduced& law) { return law.component ? law.component->role : Role::nothing; }
 
-bool joins_ends(Role role) { return role == Role::deflection || role == Role::rate || role == Role::slip; }
+bool joins_ends(Role role) { return role == Role::deflection || role == Role::rate || role == Role::slip || role == Role::inerter; }
 
 bool is_given(double start) { return !std::isnan(start) && start != 0; }
 

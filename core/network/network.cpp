@@ -192,6 +192,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       place_in(network.masses);
       network.masses.push_back({index, ends.a, law.values[0]});
       break;
+    case Role::inerter:
+      place_in(network.inerters);
+      network.inerters.push_back({ends, law.values[0]});
+      break;
     case Role::motion:
       place_in(network.motions);
       network.motions.push_back({index, ends.a, element.signals.at(0).seen_from(scene.start), prescribes_position(element)});
@@ -216,6 +220,19 @@ void feed_sources(Network& network) {
       source.sign = feed.sign;
     };
     role == Role::motion ? take(network.motions[static_cast<std::size_t>(index)]) : take(network.forces[static_cast<std::size_t>(index)]);
+  }
+}
+
+/// The acceleration of a node that a block moves is not known beforehand: an inerter there has no force to be computed.
+void refuse_inerters_at_blocks(const Network& network) {
+  for (const Network::Motion& motion : network.motions) {
+    for (const Network::Inerter& inerter : network.inerters) {
+      if (motion.block < 0 || (inerter.branch.a != motion.node && inerter.branch.b != motion.node)) continue;
+      throw SimulationError(network.spot_of(inerter.branch.element),
+                            fmt::format("inerter `{}` ends at node `{}`, which a block moves: its acceleration, and with it the force of the "
+                                        "inerter, is not known; put a stiff spring between",
+                                        network.name_of(inerter.branch), network.node_name(motion.node)));
+    }
   }
 }
 
@@ -266,6 +283,7 @@ Network build_network(const Scene& scene) {
   tie_up_pairs(network);
   feed_sources(network);
   network.blocks = find_blocks(network);
+  refuse_inerters_at_blocks(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;
 }

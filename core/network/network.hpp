@@ -33,6 +33,7 @@ struct Laws {
 /// Time counts from the scene's start.
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
+  struct Inerter { Branch branch; double inertance; };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given.
   struct Motion { int element; NodeId node; Signal signal; bool position; int block = -1; double sign = 1, from = not_given; };
   /// A parameter of a slider that is `sign` times the output of a block.
@@ -46,7 +47,7 @@ struct Network {
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output.
   struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; };
-  /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, motions or forces.
+  /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, motions or forces.
   /// If `paired`, an index into `pairs` for either role.
   struct Place { Role role; int index; bool paired = false; };
 
@@ -57,6 +58,7 @@ struct Network {
   std::vector<Laws<RateBatch>> rate_laws;
   std::vector<Slider> sliders;
   std::vector<Mass> masses;
+  std::vector<Inerter> inerters;
   std::vector<Motion> motions;
   std::vector<Force> forces;
   Blocks blocks;

@@ -5,6 +5,7 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/connected_components.hpp>
 #include <numeric>
+#include <utility>
 
 #include "core/base/index.hpp"
 #include "core/network/forest.hpp"
@@ -42,6 +43,7 @@ void join(const Network& network, const Modes& modes, Structure& s) {
   const auto end = [&](NodeId node) { return s.rigid[at(node)]; };
   for (Branch& b : s.deflections) b = {b.element, end(b.a), end(b.b)};
   for (Branch& b : s.rates) b = {b.element, end(b.a), end(b.b)};
+  for (Branch& b : s.inerters) b = {b.element, end(b.a), end(b.b)};
   for (std::size_t k = 0; k < s.sliders.size(); ++k) {
     Branch& b = s.sliders[k];
     b = {b.element, end(b.a), end(b.b)};
@@ -74,6 +76,32 @@ void assign_known_and_massive(const Network& network, Structure& s) {
     s.motion[at(node)] = static_cast<int>(i);
     s.kind[at(node)] = Kind::known;
     s.of_time[at(node)] = network.motions[i].block < 0;
+  }
+}
+
+/// Massless nodes that inerters join to a mass or to a known node have a momentum too. Throws SimulationError where inerters join
+/// massless nodes alone: their common velocity follows from no equation.
+void assign_inertia(const Network& network, Structure& s) {
+  s.inertia = s.mass;
+  if (s.inerters.empty()) return;
+  const auto firm = [&](NodeId node) { return s.kind[at(node)] == Kind::known || s.kind[at(node)] == Kind::massive; };
+  for (bool again = true; std::exchange(again, false);) {
+    for (const Branch& b : s.inerters) {
+      if (b.a == b.b || firm(b.a) == firm(b.b)) continue;
+      s.kind[at(firm(b.a) ? b.b : b.a)] = Kind::massive;
+      again = true;
+    }
+  }
+  for (std::size_t k = 0; k < s.inerters.size(); ++k) {
+    const Branch& b = s.inerters[k];
+    if (b.a == b.b) continue;
+    if (!firm(b.a)) {
+      throw SimulationError(network.spot_of(b.element),
+                            fmt::format("inerter `{}` and those joined to it end at nodes without a mass alone, whose common velocity nothing "
+                                        "determines; give node `{}` or `{}` a mass",
+                                        network.name_of(b), network.node_name(b.a), network.node_name(b.b)));
+    }
+    for (const NodeId node : {b.a, b.b}) s.inertia[at(node)] += network.inerters[k].inertance;
   }
 }
 
@@ -127,6 +155,7 @@ Structure blank_structure(const Network& network) {
   s.deflections = network.deflections;
   s.rates = network.rates;
   for (const Network::Slider& slider : network.sliders) s.sliders.push_back(slider.branch);
+  for (const Network::Inerter& inerter : network.inerters) s.inerters.push_back(inerter.branch);
   s.stuck.assign(network.sliders.size(), 0);
   for (std::size_t k = 0; k < n; ++k) s.rank[at(network.node_order[k])] = static_cast<int>(k);
   assign_known_and_massive(network, s);
@@ -149,6 +178,7 @@ Structure::Loop closed_loop(const Network& network, const Structure& structure, 
 
 Structure classify(const Network& network) {
   Structure s = blank_structure(network);
+  assign_inertia(network, s);
   assign_viscous_and_floating(network, s);
   return s;
 }
@@ -157,6 +187,7 @@ Structure analyse(const Network& network, const Modes& modes) {
   Structure s = blank_structure(network);
   for (std::size_t k = 0; k < s.stuck.size(); ++k) s.stuck[k] = modes.slider[k] == Modes::stuck;
   join(network, modes, s);
+  assign_inertia(network, s);
   assign_viscous_and_floating(network, s);
   grow_forest(network, s);
 

@@ -31,6 +31,7 @@ std::vector<char> massless_nodes(const Scene& scene) {
   for (const SceneElement& element : scene.elements) {
     const Component* component = law_of(scene, element).component;
     if (component && (component->role == Role::mass || component->role == Role::motion)) massless[at(element.a)] = 0;
+    if (component && component->role == Role::inerter) massless[at(element.a)] = massless[at(element.b)] = 0;
   }
   return massless;
 }

@@ -177,6 +177,8 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
       const Network::Mass& m = network.masses[at(place.index)];
       return m.mass * view.acceleration[at(m.node)];
     }
+    case Role::inerter:
+      return dae_->inerter_force(at(place.index));
     case Role::motion:
       return dae_->reaction(network.motions[at(place.index)].node);
     case Role::force:

@@ -221,6 +221,7 @@ class Divider {
       case Role::motion:
       case Role::force:
       case Role::mass:
+      case Role::inerter:
       case Role::nothing:
         break;
     }

@@ -21,7 +21,7 @@ void BalancedForces::attach(const Structure& structure, std::vector<Branch> forc
   noise_.resize(forces_.size());
   std::vector<Node> nodes(structure.kind.size());
   // A mass or a prescribed motion balances any force.
-  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].any = structure.kind[n] == Kind::known || structure.mass[n] > 0;
+  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[n].any = structure.kind[n] == Kind::known || structure.inertia[n] > 0;
   std::vector<char> found(forces_.size(), 0);
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Branch& b = forces_[k];

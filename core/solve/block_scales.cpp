@@ -49,7 +49,7 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
       if (sensor.what != Blocks::Sensor::What::position) continue;
       const double stiffness = std::abs(blocks.slope(block, blocks.states() + s));
       const NodeId node = dae_->structure().rigid[at(sensor.index)];
-      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae_->structure().mass[at(node)]));
+      const double force = std::max(seen, std::abs(view.velocity[at(node)]) * std::sqrt(stiffness * dae_->structure().inertia[at(node)]));
       if (block_scale_[static_cast<std::size_t>(Sort::position)].empty()) continue;
       double& scale = block_scale_[static_cast<std::size_t>(Sort::position)][at(sensor.index)];
       if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);

@@ -27,7 +27,7 @@ double Tolerances::force_noise(int rate) const {
 double Tolerances::noise_of(bool given, double flow, const Branch& b, double of_difference) const {
   const Structure& structure = dae_->structure();
   // Round-off of forces causes a velocity, through dashpots, only at nodes without mass.
-  const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.mass[at(node)] > 0; };
+  const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.inertia[at(node)] > 0; };
   const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
   const double unresolved =
       given ? given_noise * flow

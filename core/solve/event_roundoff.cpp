@@ -128,7 +128,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
     rounding_[i] = 0;
     drift_[i] = {};
     if (sort == Sort::velocity) {
-      const double impedance = std::sqrt(loads.stiffness[k] * structure.mass[k]) + loads.damping[k];
+      const double impedance = std::sqrt(loads.stiffness[k] * structure.inertia[k]) + loads.damping[k];
       const std::size_t part = at(part_[k]);
       rounding_[i] = eps * (loads.speed[part] + (impedance > 0 ? loads.force[part] / impedance : 0));
       plain_rounding_[part] = std::max(plain_rounding_[part], rounding_[i]);
@@ -186,7 +186,7 @@ void Tolerances::find_block_rounding() {
     }
   }
   for (std::size_t n = 0; n < rounding.size(); ++n) {
-    const double impedance = std::sqrt(stiffness[n] * structure.mass[n]) + damping[n];
+    const double impedance = std::sqrt(stiffness[n] * structure.inertia[n]) + damping[n];
     block_rounding_[n] = impedance > 0 ? rounding[n] / impedance : 0;
   }
 }

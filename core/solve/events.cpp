@@ -199,7 +199,7 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
   const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || change[at(n)] != 0; };
   const auto stop = [&](int k, double velocity) {
     const Branch& b = structure.sliders[at(k)];
-    const bool first = firm(b.b) || (!firm(b.a) && structure.mass[at(b.a)] <= structure.mass[at(b.b)]);
+    const bool first = firm(b.b) || (!firm(b.a) && structure.inertia[at(b.a)] <= structure.inertia[at(b.b)]);
     if (!firm(first ? b.a : b.b)) change[at(first ? b.a : b.b)] = first ? -velocity : velocity;
   };
   for (const int k : stopped) {

@@ -51,7 +51,7 @@ void Regularisation::attach(const Structure& structure) {
     const Ends found = direct ? ends_of(b) : ends[at(chains.find(heavy(b.a) ? b.b : b.a))];
     stops_[r] = found.heavy > 1 && (found.mass || !direct);
   });
-  const auto yields = [&](NodeId n) { return structure.kind[at(n)] == Kind::massive ? 1 / structure.mass[at(n)] : 0; };
+  const auto yields = [&](NodeId n) { return structure.kind[at(n)] == Kind::massive ? 1 / structure.inertia[at(n)] : 0; };
   for (const StopChain& chain : find_stop_chains(network_, structure)) {
     const double yielding = yields(chain.a) + yields(chain.b);
     for (const int r : chain.rates) mass_[at(r)] = yielding > 0 ? 1 / yielding : 0;

@@ -330,7 +330,7 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
     grain_[i] = block_rounding_[q.index];
     tolerance = std::max(tolerance, grain_[i]);
   }
-  if (q.sort == Sort::velocity && dae_->structure().mass[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
+  if (q.sort == Sort::velocity && dae_->structure().inertia[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
   if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
   if (q.sort == Sort::position) {
     // A stop far from 0 may deflect by less than the round-off of its position.
