@@ -32,7 +32,8 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
     const double allowed = block_output_seen_[at(block)] / (together * together * gain);
     const bool state = of == BlockGains::Of::state;
     const auto sort = static_cast<std::size_t>(state ? Sort::block : of == BlockGains::Of::position ? Sort::position : Sort::velocity);
-    const std::size_t k = at(state ? blocks.state_of(index) : dae_->structure().rigid[at(index)]);
+    // Nodes that sticking sliders join have one velocity, but a position each.
+    const std::size_t k = at(state ? blocks.state_of(index) : of == BlockGains::Of::position ? index : dae_->structure().rigid[at(index)]);
     if (k >= block_scale_[sort].size()) return;
     const double least = std::max(least_for_output, output_grains * std::numeric_limits<double>::epsilon() / local()) * seen_[sort][k];
     if (allowed > 0) block_scale_[sort][k] = std::min(block_scale_[sort][k], std::max(allowed, least));
