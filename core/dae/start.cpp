@@ -105,7 +105,7 @@ bool contradicts(const SceneNode& node, double velocity) {
 void follow_block(const Network& network, const Network::Motion& motion, double& x, bool given) {
   const SceneNode& node = network.node(motion.node);
   const std::string& name = network.scene->elements[static_cast<std::size_t>(motion.element)].name;
-  if (!std::isnan(node.velocity))
+  if (!motion.acceleration && !std::isnan(node.velocity))
     refuse_velocity(network, node, fmt::format("motion `{}` gives it that of a block; leave it out", name));
   if (std::isnan(motion.from)) return;
   if (given && std::abs(x - motion.from) > same_value * std::abs(motion.from))

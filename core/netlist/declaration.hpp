@@ -59,7 +59,9 @@ struct Parameter {
   bool takes_signal() const { return kind == Kind::signal || may_vary; }
   /// Whether the parameter prescribes a node's motion: a signal for its position or its velocity.
   bool prescribes(Quantity motion) const { return kind == Kind::signal && quantity == motion; }
-  bool prescribes_motion() const { return prescribes(Quantity::position) || prescribes(Quantity::velocity); }
+  bool prescribes_motion() const {
+    return prescribes(Quantity::position) || prescribes(Quantity::velocity) || prescribes(Quantity::acceleration);
+  }
 };
 
 /// A rule violated by values that are each within their bounds.

@@ -53,6 +53,12 @@ Dimension dimension_of(Quantity quantity, Domain domain, double flow_index) {
       return force * (time / length).power(flow_index);
     case Quantity::mass:
       return mass;
+    case Quantity::acceleration:
+      return length / time.power(2);
+    case Quantity::power:
+      return force * length / time;
+    case Quantity::energy:
+      return force * length;
   }
   return {};
 }
@@ -80,6 +86,12 @@ std::string name_of(Quantity quantity, Domain domain) {
       return rotation ? "torsional damping" : "damping";
     case Quantity::mass:
       return rotation ? "moment of inertia" : "mass";
+    case Quantity::acceleration:
+      return rotation ? "angular acceleration" : "acceleration";
+    case Quantity::power:
+      return "power";
+    case Quantity::energy:
+      return "energy";
   }
   return {};
 }
@@ -107,6 +119,12 @@ std::string unit_of(Quantity quantity, Domain domain, double flow_index) {
       return damping_unit(domain, flow_index);
     case Quantity::mass:
       return rotation ? "kg*m^2" : "kg";
+    case Quantity::acceleration:
+      return rotation ? "rad/s^2" : "m/s^2";
+    case Quantity::power:
+      return "W";
+    case Quantity::energy:
+      return "J";
   }
   return {};
 }

@@ -36,6 +36,9 @@ enum class Quantity {
   stiffness,  ///< N/m | N*m/rad
   damping,    ///< N*(s/m)^n | N*m*(s/rad)^n, n the value of the parameter's flow index
   mass,       ///< kg | kg*m^2
+  acceleration,  ///< m/s^2 | rad/s^2
+  power,         ///< W
+  energy,        ///< J
 };
 
 /// The dimension of `quantity`. `flow_index` is n above; it matters for damping only.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/index.hpp"
@@ -29,8 +30,10 @@ class Finder {
 
   Blocks find() {
     const std::vector<int> rates = number_rates();
+    const std::vector<Blocks::Block> accelerations = integrate_accelerations(scene_.blocks.size() + rates.size());
     for (const SceneBlock& block : scene_.blocks) add(block);
     for (const int block : rates) add_rate(block);
+    result_.blocks.insert(result_.blocks.end(), accelerations.begin(), accelerations.end());
     for (Network::Slider& slider : network_.sliders) {
       for (Network::VaryingParameter& varying : slider.varying) add_parameter(slider, varying);
     }
@@ -72,6 +75,27 @@ class Finder {
       rates.push_back(std::exchange(motion.block, static_cast<int>(scene_.blocks.size() + rates.size())));
     }
     return rates;
+  }
+
+  /// Makes a motion whose acceleration is given follow the integral of that acceleration. Returns the blocks that integrate, each
+  /// after a generator of its signal if no block gives that; the first one gets the number `next`.
+  std::vector<Blocks::Block> integrate_accelerations(std::size_t next) {
+    std::vector<Blocks::Block> added;
+    const auto number = [&] { return static_cast<int>(next + added.size()); };
+    for (Network::Motion& motion : network_.motions) {
+      if (!motion.acceleration) continue;
+      Blocks::Input input{true, motion.block, motion.sign};
+      if (motion.block < 0) {
+        input = {true, number(), 1};
+        added.push_back({.element = motion.element, .law = {}, .generates = true, .signal = motion.signal, .inputs = {}});
+      }
+      const double velocity = network_.node(motion.node).velocity;
+      motion.block = number();
+      motion.sign = 1;
+      added.push_back({.element = motion.element, .law = {.state = true, .initial = std::isnan(velocity) ? 0 : velocity},
+                       .generates = false, .signal = {}, .inputs = {input}});
+    }
+    return added;
   }
 
   void add_rate(int state) {

@@ -140,7 +140,7 @@ class FreeEndSearch {
     for (std::size_t e = 0; e < laws_.size(); ++e) {
       const SceneElement& element = scene_.elements[e];
       if (!element.at && element.a != ground && element.b != ground) together.join(element.a, element.b);
-      const bool moved = laws_[e].component && laws_[e].component->role == Role::motion && prescribes_position(element) &&
+      const bool moved = laws_[e].component && laws_[e].component->role == Role::motion && prescribes(element, Quantity::position) &&
                          (fed(e) || element.signals.at(0).before(scene_.start) != 0);
       const bool hangs = joins_ends(role_of(laws_[e])) && result_.on[at(element.a)] == result_.on[at(element.b)];
       if (!moved && !has_initial_value(element) && !(hangs && stressed(e))) continue;

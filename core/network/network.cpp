@@ -138,10 +138,10 @@ std::string with_unit(const Scene& scene, double value, Quantity quantity) {
   return fmt::format("{:.6g} {}", value, unit_of(quantity, scene.domain));
 }
 
-bool prescribes_position(const SceneElement& motion) {
+bool prescribes(const SceneElement& motion, Quantity quantity) {
   const auto declaration = static_cast<std::size_t>(motion.declaration);
   const auto parameter = static_cast<std::size_t>(motion.signal_parameters.at(0));
-  return components()[declaration]->declaration.parameters[parameter].prescribes(Quantity::position);
+  return components()[declaration]->declaration.parameters[parameter].prescribes(quantity);
 }
 
 namespace {
@@ -198,7 +198,8 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       break;
     case Role::motion:
       place_in(network.motions);
-      network.motions.push_back({index, ends.a, element.signals.at(0).seen_from(scene.start), prescribes_position(element)});
+      network.motions.push_back({index, ends.a, element.signals.at(0).seen_from(scene.start), prescribes(element, Quantity::position),
+                                 prescribes(element, Quantity::acceleration)});
       break;
     case Role::force:
       place_in(network.forces);

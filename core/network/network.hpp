@@ -34,8 +34,16 @@ struct Laws {
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Inerter { Branch branch; double inertance; };
-  /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given.
-  struct Motion { int element; NodeId node; Signal signal; bool position; int block = -1; double sign = 1, from = not_given; };
+  /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given. A given
+  /// acceleration is integrated by such a block.
+  struct Motion {
+    int element;
+    NodeId node;
+    Signal signal;
+    bool position, acceleration;
+    int block = -1;
+    double sign = 1, from = not_given;
+  };
   /// A parameter of a slider that is `sign` times the output of a block.
   struct VaryingParameter { int parameter, block; double sign; };
   struct Slider {
@@ -100,8 +108,8 @@ std::string at_time(const Scene& scene, double t);
 /// "0.3 m" or "0.3 rad": for messages.
 std::string with_unit(const Scene& scene, double value, Quantity quantity);
 
-/// Whether an element of the role `motion` prescribes a position rather than a velocity.
-bool prescribes_position(const SceneElement& motion);
+/// Whether an element of the role `motion` prescribes this quantity: position, velocity or acceleration.
+bool prescribes(const SceneElement& motion, Quantity quantity);
 
 /// Builds the network of a scene, which must outlive it. Throws SimulationError for elements that no network can have.
 Network build_network(const Scene& scene);

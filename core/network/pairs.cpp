@@ -54,7 +54,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
       if (is_spring(laws[e])) t.spring = static_cast<int>(e);
       if (element.signals.empty() && is_plain_slider(laws[e])) t.slider = static_cast<int>(e);
       t.firm = t.firm || role == Role::mass || role == Role::motion;
-      if (role == Role::motion && prescribes_position(element)) {
+      if (role == Role::motion && prescribes(element, Quantity::position)) {
         t.start = {element.signals.at(0).before(scene.start), element.signals.at(0).value(scene.start)};
       }
       if (starts_displaced(scene, e)) t.start = {not_given};

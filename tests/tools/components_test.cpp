@@ -42,7 +42,7 @@ TEST_CASE("components prints bounds, defaults, limits and the unit that goes wit
   const std::string dashpot = folder.shell("rheonet components dashpot").out;
   CHECK(contains(dashpot, "N*(s/m)^n | N*m*(s/rad)^n"));
   CHECK(contains(dashpot, "damping = 0: no force at all"));
-  CHECK(contains(folder.shell("rheonet components motion").out, "one of position, velocity"));
+  CHECK(contains(folder.shell("rheonet components motion").out, "one of position, velocity, acceleration"));
   CHECK(contains(folder.shell("rheonet components mass").out, "mass | inertia"));
   CHECK(contains(folder.shell("rheonet components mass").out, "kg | kg*m^2"));
 }
