@@ -28,19 +28,19 @@ drive = {{ type = "motion", at = "end", acceleration = {} }}
 
 TEST_CASE("a motion by acceleration moves its node, and a mass there takes m a") {
   const double m = 1.73, k = 219.7;
-  const auto check = [&](const std::string& signal, const Response& a) {
+  const auto check = [&](const std::string& signal, const Response& a, const std::string& more = "") {
     CAPTURE(signal);
     const Response v = a.integral(v0), x = v.integral(x0);
     const Expectations expected = {{"end.position", x}, {"end.velocity", v}, {"spring.force", k * x}, {"mass.force", m * a},
                                    {"drive.force", m * a + k * x}};
-    check_at_all_accuracies(scene(signal, fmt::format(R"(mass   = {{ type = "mass", at = "end", mass = {} }}
+    check_at_all_accuracies(scene(signal, more + fmt::format(R"(mass   = {{ type = "mass", at = "end", mass = {} }}
 spring = {{ type = "spring", between = ["end", "ground"], stiffness = {} }}
 )", m, k)) + record(expected), expected);
   };
   check(fmt::format("{{ sine = {}, frequency = {} }}", A, frequency), A * Response::sine(1, omega));
   check(fmt::format("{{ ramp = {} }}", A), Response::ramp(A));
   check("-1.37", Response::constant(-1.37));
-  check(R"({ block = "g" })" "\n" R"(g = { type = "generator", signal = { ramp = "0.83 m/s^3" } })", Response::ramp(0.83));
+  check(R"({ block = "g" })", Response::ramp(0.83), R"(g = { type = "generator", signal = { ramp = "0.83 m/s^3" } })" "\n");
 }
 
 // Seen from the base, the inertia of the mass is a force -m a.
