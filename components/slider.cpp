@@ -9,15 +9,13 @@ namespace {
 Box coulomb(std::span<const Dual> v) {
   const auto given = [](Dual x, Dual otherwise) { return std::isnan(x.value) ? otherwise : x; };
   const Dual normal = given(v[2], 1), sliding = normal * v[0], breakaway = normal * given(v[1], v[0]) * given(v[3], 1);
-  return Box::symmetric({sliding, breakaway});
+  // A breakaway force that varies may fall below that of sliding: then it counts as the same.
+  return Box::symmetric({sliding, breakaway < sliding ? sliding : breakaway});
 }
 
 std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
-  if (v[1] < v[0])
-    return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
-  if (v[3] != 1 && v[1] > v[0])
-    return Misfit{"peak", "and `breakaway` both say at which force the slider breaks away: leave one out"};
-  return {};
+  if (!(v[1] < v[0])) return {};
+  return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
 }
 
 const RegisterComponent register_slider({
@@ -33,7 +31,7 @@ const RegisterComponent register_slider({
                             .description = "force at which it breaks away, at least `coulomb`"},
                            {.name = "normal", .quantity = Quantity::force, .lower_open = false, .may_vary = true, .optional = true,
                             .from_block = true, .symbol = "N", .description = "normal force that presses the surfaces together; it multiplies `coulomb` and `breakaway`"},
-                           {.name = "peak", .fallback = 1.0, .lower = 1, .lower_open = false, .symbol = "Fs/Fc",
+                           {.name = "peak", .fallback = 1.0, .lower = 1, .lower_open = false, .not_with = "breakaway", .symbol = "Fs/Fc",
                             .description = "breakaway as a multiple of `coulomb`"}},
             .check = breakaway_above_coulomb,
             .effects = {{Effect::dry_friction, "coulomb", 0}},
@@ -50,7 +48,7 @@ const RegisterComponent register_slider({
     .limits = {{.when = "breakaway = 0 or normal = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[1] == 0 || v[2] == 0; },
                 .values = {}},
                {.when = "breakaway = inf", .becomes = "slider",
-                .applies = [](std::span<const double> v) { return std::isinf(v[1]) && std::isfinite(v[0]); },
+                .applies = [](std::span<const double> v) { return std::isinf(v[1]) && !std::isinf(v[0]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }}},
     .box = coulomb,
     .drawing = {.outline = "M.24 .34 H.68 V.6 H.24 Z",

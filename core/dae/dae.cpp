@@ -229,7 +229,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   offset_ = state.offset;
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = network_->sliders[k].branch;
-    slip_side_[k] = structure_->stuck[k] ? Modes::stuck : modes.slider[k];
+    slip_side_[k] = structure_->stuck[k] ? static_cast<signed char>(Modes::stuck) : modes.slider[k];
     slip_force_[k] = slip_side_[k] == 0 ? 0 : slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
     slider_shift_[k] = state.position[at(b.a)] - state.position[at(b.b)];
   }

@@ -278,6 +278,11 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     }
   }
   if (given.size() > 1) refuse_both(*given[0], *given[1], article(type.value.text), diagnostics);
+  for (const Parameter& parameter : declaration.parameters) {
+    const TomlEntry* one = parameter.not_with.empty() ? nullptr : plan.source->find(parameter.name);
+    const TomlEntry* other = one ? plan.source->find(parameter.not_with) : nullptr;
+    if (other) refuse_both(*other, *one, article(type.value.text), diagnostics);
+  }
   if (!declaration.one_of.empty() && given.empty()) {
     std::vector<std::string> names;
     for (const std::string& name : declaration.one_of)

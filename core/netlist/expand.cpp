@@ -159,6 +159,7 @@ bool Expander::element_value(const ElementTemplate& plan, const Environment& env
   if (quantity != parameter.quantity) {
     Parameter coefficient = parameter;
     coefficient.quantity = quantity;
+    coefficient.may_be_infinite = false;
     return check_bounds(*value, coefficient, formula, context_.domain, flow_index, context_.diagnostics);
   }
   return check_bounds(*value, parameter, formula, context_.domain, flow_index, context_.diagnostics);

@@ -47,7 +47,8 @@ TEST_CASE("contract: declarations are complete") {
     CHECK(!d.notes.empty());
     CHECK(!component->drawing.empty());
     const bool block = d.ports == Declaration::Ports::block;
-    CHECK((block || !d.parameters.empty()));
+    // A law of motion alone needs no parameter.
+    CHECK((block || component->role == Role::slip || !d.parameters.empty()));
     for (const std::string& name : d.one_of) {
       REQUIRE_MESSAGE(find(d, name), name);
       CHECK_MESSAGE(!find(d, name)->fallback, name);
@@ -63,6 +64,19 @@ TEST_CASE("contract: declarations are complete") {
       } else {
         CHECK(!p.fallback);
         CHECK(!p.may_be_infinite);
+      }
+      if (p.optional || p.may_vary) CHECK(p.kind == Parameter::Kind::value);
+      if (p.optional) CHECK((!p.fallback && p.same_as.empty()));
+      if (p.may_vary) CHECK((component->role == Role::slip && p.unit == Parameter::Unit::quantity));
+      if (!p.coefficient_with.empty()) {
+        REQUIRE(find(d, p.coefficient_with));
+        CHECK(find(d, p.coefficient_with)->optional);
+        CHECK(p.quantity != Quantity::number);
+      }
+      if (!p.not_with.empty()) {
+        REQUIRE(find(d, p.not_with));
+        CHECK((p.fallback || p.optional));
+        CHECK(!find(d, p.not_with)->same_as.empty());
       }
       if (!p.same_as.empty()) {
         REQUIRE(find(d, p.same_as));

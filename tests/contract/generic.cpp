@@ -45,6 +45,8 @@ std::vector<double> draw_values(const Component& component, Domain domain, Choic
   const auto draw = [&](std::size_t k) {
     const Parameter& p = d.parameters[k];
     if (p.kind != Parameter::Kind::value) return;
+    if (p.optional && (choice == Choice::fallbacks || random.below(2) == 0)) return;
+    if (p.may_vary && choice == Choice::random && random.below(2) == 0) return;
     if (choice == Choice::fallbacks && p.fallback) {
       values[k] = p.fallback.value_or(not_given);
     } else if (p.quantity == Quantity::number) {

@@ -24,7 +24,8 @@ enum class Choice {
 inline constexpr Choice choices[] = {Choice::fallbacks, Choice::random, Choice::lowest, Choice::highest};
 
 /// One value for each declared parameter, accepted by the component's own check. Positions of nodes are for the network
-/// to choose, so that initial values that are positions are not given.
+/// to choose, so that initial values that are positions are not given. Some of those that may vary are not given: a signal takes
+/// their place (see Surroundings::add_signals).
 std::vector<double> draw_values(const Component& component, Domain domain, Choice choice, Random& random);
 
 /// A signal of the given quantity: `kind` 0 to 5 chooses its shape. Positions and (if asked) everything else go without

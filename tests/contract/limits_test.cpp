@@ -18,7 +18,11 @@ Scene with_limit_law(Scene scene, int index, const Limit& limit) {
   SceneElement& e = scene.elements[static_cast<std::size_t>(index)];
   if (!limit.becomes.empty()) {
     e.declaration = SceneBuilder::element("", limit.becomes).declaration;
-    e.values = limit.values(e.values);
+    std::vector<double> values = limit.values(e.values);
+    values.resize(declarations()[static_cast<std::size_t>(e.declaration)]->parameters.size(), not_given);
+    e.values = values;
+    e.signals = {};  // those of parameters of the law before
+    e.signal_parameters = {};
     return scene;
   }
   scene.elements.erase(scene.elements.begin() + index);
@@ -35,7 +39,8 @@ std::vector<double> near(const std::vector<double>& limit, const std::vector<dou
   std::vector<double> result = limit;
   for (std::size_t k = 0; k < limit.size(); ++k) {
     if (limit[k] == generic[k] || std::isnan(limit[k])) continue;
-    result[k] = limit[k] == 0 ? small * generic[k] : generic[k] / small;
+    const double usual = std::isnan(generic[k]) ? 1 : generic[k];  // in place of a signal, or of what need not be given
+    result[k] = limit[k] == 0 ? small * usual : usual / small;
   }
   return result;
 }

@@ -150,6 +150,11 @@ class Surroundings {
     const auto alternative = [&](const Parameter& p) {
       return std::find(d.one_of.begin(), d.one_of.end(), p.name) != d.one_of.end();
     };
+    const auto varies = [&](std::size_t k) {
+      const Parameter& p = d.parameters[k];
+      if (!p.may_vary || !std::isnan(e.values[k]) || !p.same_as.empty()) return false;
+      return !p.optional || random_.below(2) == 0;
+    };
     const auto possible = [&](const Parameter& p) {
       return p.kind == Parameter::Kind::signal && !(place_.velocities && p.quantity == Quantity::position);
     };
@@ -158,7 +163,7 @@ class Surroundings {
     int chosen = alternatives > 0 ? random_.below(alternatives) : 0;
     for (std::size_t k = 0; k < d.parameters.size(); ++k) {
       const Parameter& p = d.parameters[k];
-      if (!possible(p) || (alternative(p) && chosen-- != 0)) continue;
+      if (!varies(k) && (!possible(p) || (alternative(p) && chosen-- != 0))) continue;
       e.signal_parameters.own().push_back(static_cast<int>(k));
       e.signals.own().push_back(draw_signal(p.quantity, place_.domain, random_.below(signal_kinds), random_));
     }

@@ -17,7 +17,7 @@ bool ReferenceBundle::steep() const {
 
 bool ReferenceBundle::set_valued() const {
   return std::any_of(members_.begin(), members_.end(),
-                     [](const Member& m) { return m.law.type() == Type::slider || m.law.type() == Type::cfm; });
+                     [](const Member& m) { return m.law.rigid() || m.law.type() == Type::cfm; });
 }
 
 bool ReferenceBundle::relaxing() const {
@@ -36,7 +36,7 @@ bool ReferenceBundle::could_slip_on(const ReferenceBundle& before) const {
 
 bool ReferenceBundle::ambiguous_at_rest() const {
   return std::count_if(members_.begin(), members_.end(),
-                       [](const Member& m) { return m.law.type() == Type::slider; }) > 1;
+                       [](const Member& m) { return m.law.rigid(); }) > 1;
 }
 
 double ReferenceBundle::typical_slope(double h) const {
@@ -132,14 +132,16 @@ void ReferenceBundle::accept(double step, double force, double h) {
 // (Filippov: the same convex combination of the two vector fields for all that flips with this velocity).
 void ReferenceBundle::share_at_rest(double force, double h) {
   Interval relaxing{0, 0};
-  double given = 0, preferred = 0, friction = 0;
-  std::vector<double> room(members_.size(), 0);  // what each slider can carry
+  double given = 0, preferred = 0;
+  std::vector<Interval> rooms(members_.size(), {0, 0});  // what each that sticks can carry
+  Interval stuck{0, 0};
   for (std::size_t k = 0; k < members_.size(); ++k) {
     const Member& m = members_[k];
     const auto [low, high] = m.law.at_rest(h);
-    if (m.law.type() == Type::slider) {
-      room[k] = std::max(high, -low);
-      friction += room[k];
+    if (m.law.rigid()) {
+      rooms[k] = m.sign > 0 ? Interval{low, high} : Interval{-high, -low};
+      stuck.low += rooms[k].low;
+      stuck.high += rooms[k].high;
     } else if (m.law.type() == Type::cfm) {
       relaxing.low += m.sign > 0 ? low : -high;
       relaxing.high += m.sign > 0 ? high : -low;
@@ -149,8 +151,10 @@ void ReferenceBundle::share_at_rest(double force, double h) {
     }
   }
   // Where the motion is given nothing asks for a mixture: s = 0, as with sliders.
-  const bool own = friction > 0 || force == this->preferred(h);
-  friction = std::clamp(force - given - preferred, -friction, friction);
+  const bool own = stuck.high > stuck.low || force == this->preferred(h);
+  const double friction = std::clamp(force - given - preferred, stuck.low, stuck.high);
+  std::vector<double> room;
+  for (const Interval& r : rooms) room.push_back(friction < 0 ? -r.low : r.high);
   // The level up to which every slider is loaded, if it can be.
   double level = 0, low_level = 0, high_level = std::abs(friction);
   for (int iteration = 0; iteration < 200 && low_level < high_level; ++iteration) {
@@ -171,7 +175,7 @@ void ReferenceBundle::share_at_rest(double force, double h) {
     const auto [low, high] = m.law.at_rest(h);
     const double from = m.sign > 0 ? low : high, to = m.sign > 0 ? high : low;
     double f = m.law.preferred(h);
-    if (m.law.type() == Type::slider) {
+    if (m.law.rigid()) {
       f = m.sign * std::copysign(std::min(room[k], level), friction);
     } else if (m.law.type() == Type::cfm) {
       f = own ? f + away * ((combined > preferred ? to : from) - f) : from + up * (to - from);

@@ -9,7 +9,7 @@ namespace rheonet::test {
 
 namespace {
 
-constexpr std::array<const char*, 6> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm"};
+constexpr std::array<const char*, 7> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm", "freewheel"};
 
 constexpr double rounding = 4e-16;
 
@@ -26,20 +26,18 @@ ReferenceLaw::ReferenceLaw(const SceneElement& element, const Declaration& decla
   if (found == type_names.end()) throw std::runtime_error("no law: " + declaration.type);
   type_ = static_cast<Type>(found - type_names.begin());
   double rest = 0, f0 = not_given, d0 = not_given;
-  breakaway_ = not_given;
   for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
     const std::string& name = declaration.parameters[k].name;
     const double value = element.values[k];
     if (name == "stiffness") stiffness_ = value;
     if (name == "damping") damping_ = value;
-    if (name == "coulomb") coulomb_ = value;
-    if (name == "breakaway") breakaway_ = value;
+    if (name == "coulomb" && type_ != Type::slider) coulomb_ = value;
     if (name == "exponent" || name == "flow_index") exponent_ = value;
     if (name == "rest") rest = value;
     if (name == "f0") f0 = value;
     if (name == "d0") d0 = value;
   }
-  if (std::isnan(breakaway_)) breakaway_ = coulomb_;
+  if (type_ == Type::slider) bound(slider_bounds(element, [](const Signal& signal) { return signal.value(0); }));
   if (!std::isnan(f0)) force_ = f0;
   if (type_ == Type::spring) {
     stretch_ = !std::isnan(f0) ? f0 / stiffness_ : (std::isnan(d0) ? displacement : d0) - rest;
@@ -105,6 +103,8 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
     case Type::slider:
       if (step > 0) return {slip_ > 0 ? coulomb_ : breakaway_, 0};
       return {slip_ < 0 ? -coulomb_ : -breakaway_, 0};
+    case Type::freewheel:
+      return {step < 0 ? -INFINITY : 0, 0};
     case Type::sfm:
       return solid_friction(step);
     case Type::vfm: {
@@ -120,13 +120,14 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
 
 ReferenceLaw::Interval ReferenceLaw::at_rest(double h) const {
   if (type_ == Type::slider) return {slip_ < 0 ? -coulomb_ : -breakaway_, slip_ > 0 ? coulomb_ : breakaway_};
+  if (type_ == Type::freewheel) return {-INFINITY, 0};
   if (type_ == Type::cfm) return {-coulomb_ * (1 - relaxing(0, h, -1)), coulomb_ * (1 - relaxing(0, h, 1))};
   const double f = value(0, h).force;
   return {f, f};
 }
 
 double ReferenceLaw::preferred(double h) const {
-  if (type_ == Type::slider) return 0;
+  if (rigid()) return 0;
   if (type_ == Type::cfm) return force_ / (1 + stiffness_ * h / damping_);
   return value(0, h).force;
 }
@@ -138,13 +139,13 @@ void ReferenceLaw::accept(double step, double force, double h) {
   const int sign = step > 0 ? 1 : step < 0 ? -1 : 0;
   if (type_ == Type::slider) slip_ = sign;
   // What moves by no more than rounding has not turned; a slider that sticks does not move at all.
-  const auto tells = [&](double way) { return type_ == Type::slider || stiffness_ * std::abs(way) > 1e-10 * coulomb_; };
+  const auto tells = [&](double way) { return rigid() || stiffness_ * std::abs(way) > 1e-10 * coulomb_; };
   const bool moves = step == 0 || tells(step);
   const int direction = moves ? sign : piece_.direction;
   const double velocity = step / h, leaving = velocity + (velocity - velocity_) * h / (h + h_);
   // A step with its turn in the middle ends near where it began, but not at rest.
   const bool turning = direction != 0 && direction == piece_.direction && direction * leaving < 0 && (moves || tells(leaving * h));
-  piece_ = {direction, turning ? -direction : direction, type_ != Type::slider && std::abs(force) >= coulomb_};
+  piece_ = {direction, turning ? -direction : direction, !rigid() && std::abs(force) >= coulomb_};
   velocity_ = velocity;
   h_ = h;
 }

@@ -5,6 +5,7 @@
 
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/scene.hpp"
+#include "tests/support/slider_bounds.hpp"
 
 namespace rheonet::test {
 
@@ -14,13 +15,14 @@ namespace rheonet::test {
 ///     spring   f = k (d + step - d0)
 ///     dashpot  f = B |step/h|^n sgn
 ///     slider   f = Fc sgn(step), an interval at 0
+///     freewheel  f = 0 for step > 0, all that is not above 0 at 0, and no step below
 ///     sfm      the closed form between two reversals, in the direction of the step
 ///     vfm      (B/sigma) (f - f_before)/h + f = B step/h
 ///     cfm      sfm's closed form along step - h f/B, in the direction of the step. At 0 the graph between the two
 ///              directions is filled in (Filippov's solution)
 class ReferenceLaw {
  public:
-  enum class Type { spring, dashpot, slider, sfm, vfm, cfm };
+  enum class Type { spring, dashpot, slider, sfm, vfm, cfm, freewheel };
   struct Value { double force, slope; };
   struct Interval { double low, high; };
 
@@ -29,12 +31,17 @@ class ReferenceLaw {
   static bool is_law(const std::string& type);
 
   Type type() const { return type_; }
+  /// Sticks at 0.
+  bool rigid() const { return type_ == Type::slider || type_ == Type::freewheel; }
   /// Set-valued at 0, or of infinite slope there.
-  bool steep() const { return type_ == Type::slider || type_ == Type::cfm || (type_ == Type::dashpot && exponent_ < 1); }
+  bool steep() const { return rigid() || type_ == Type::cfm || (type_ == Type::dashpot && exponent_ < 1); }
 
   Value value(double step, double h) const;  ///< step = 0 only where the law is not set-valued
   Interval at_rest(double h) const;          ///< forces at step = 0
-  double preferred(double h) const;          ///< the one of these that E = sigma gives (s = sgn 0 = 0); 0 for a slider
+  double preferred(double h) const;          ///< the one of these that E = sigma gives (s = sgn 0 = 0); 0 if it sticks
+
+  /// The bounds of a slider during the next step, if they vary.
+  void bound(const SliderBounds& bounds) { coulomb_ = bounds.coulomb, breakaway_ = bounds.breakaway; }
 
   /// Ends the step.
   void accept(double step, double force, double h);

@@ -65,6 +65,7 @@ ReferenceNetwork ReferenceRun::build() {
     law_of_[static_cast<int>(k)] = {std::size_t(found - bundles.begin()), found->members().size()};
     found->add({ReferenceLaw(e, *declarations_[at(e.declaration)], displacement), found->a == e.a ? 1.0 : -1.0,
                 static_cast<int>(k)});
+    if (!e.signals.empty()) varying_.push_back({&e, law_of_[static_cast<int>(k)].first, law_of_[static_cast<int>(k)].second, {}});
   }
   acceleration_.assign(nodes.size(), 0);
   applied_.assign(nodes.size(), 0);
@@ -80,6 +81,9 @@ double ReferenceRun::next_break() const {
   double next = scene_.stop;
   for (const Motion& m : motions_) next = std::min(next, m.piece.end);
   for (const Force& f : forces_) next = std::min(next, f.piece.end);
+  for (const Varying& v : varying_) {
+    for (const Piece& piece : v.pieces) next = std::min(next, piece.end);
+  }
   return next;
 }
 
@@ -115,7 +119,18 @@ ReferenceNetwork::Input ReferenceRun::input(double before, double after) const {
     input.applied[at(f.a)] += f.piece.value(after);
     if (f.b >= 0) input.applied[at(f.b)] -= f.piece.value(after);
   }
+  input.bounds = bounds(after);
   return input;
+}
+
+/// Bounds of the sliders whose bounds vary, on the present stretches of the signals.
+std::vector<ReferenceNetwork::Input::Bound> ReferenceRun::bounds(double t) const {
+  std::vector<ReferenceNetwork::Input::Bound> result;
+  for (const Varying& v : varying_) {
+    auto piece = v.pieces.begin();
+    result.push_back({v.bundle, v.member, slider_bounds(*v.element, [&](const Signal&) { return (piece++)->value(t); })});
+  }
+  return result;
 }
 
 /// One step to `after`. Velocities are means over it, those of its middle: a turn in its second half shows in the next
@@ -203,6 +218,7 @@ bool ReferenceRun::jump(const std::vector<double>& steps) {
   ReferenceNetwork::Input input;
   input.h = instant * (scene_.stop - scene_.start) / n;
   input.applied = applied_;
+  input.bounds = bounds(t_);
   input.displacement = steps;
   for (double& x : input.displacement) x /= n;
   input.velocity = input.displacement;
@@ -226,6 +242,10 @@ bool ReferenceRun::enter(double t) {
     if (std::abs(step) > 1e-9 * (std::abs(position) + std::abs(m.piece.value(t)))) steps[at(m.node)] = step;
   }
   for (Force& f : forces_) f.piece = f.signal.piece(t);
+  for (Varying& v : varying_) {
+    v.pieces.clear();
+    for (const Signal& signal : v.element->signals) v.pieces.push_back(signal.piece(t));
+  }
   return jump(steps);
 }
 

@@ -37,6 +37,7 @@ class ReferenceRun {
   struct Motion { Signal signal; bool by_position; NodeId node; int element; Piece piece; };
   struct Force { Signal signal; NodeId a, b; int element; Piece piece; };
   struct Mass { double mass; NodeId node; int element; };
+  struct Varying { const SceneElement* element; std::size_t bundle, member; std::vector<Piece> pieces; };
 
   /// Where a step began, on the present stretches of the signals.
   struct Start { double time; ReferenceNetwork network; };
@@ -51,6 +52,7 @@ class ReferenceRun {
   bool turns_ahead(double ahead) const;
   void note_turn(double from, double to);
   ReferenceNetwork::Input input(double before, double after) const;
+  std::vector<ReferenceNetwork::Input::Bound> bounds(double t) const;
   bool jump(const std::vector<double>& steps);
   double next_break() const;
   double row_time(std::int64_t k) const;
@@ -66,6 +68,7 @@ class ReferenceRun {
   std::vector<Motion> motions_;
   std::vector<Force> forces_;
   std::vector<Mass> masses_;
+  std::vector<Varying> varying_;  ///< sliders whose bounds vary
   std::map<int, std::pair<std::size_t, std::size_t>> law_of_;  ///< element: bundle, member
   std::vector<double> mass_;          ///< of each node
   std::vector<double> acceleration_;  ///< of each node, at the end of the last step

@@ -264,6 +264,7 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
 
 bool ReferenceNetwork::step(const Input& input) {
   typical_step_ = 0;
+  for (const Input::Bound& b : input.bounds) bundles_[b.bundle].law(b.member).bound(b.bounds);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     x_[n] = nodes_[n].prescribed ? input.displacement[n] : nodes_[n].velocity * input.h;
   }
@@ -282,6 +283,7 @@ bool ReferenceNetwork::step(const Input& input) {
         if (std::abs(total) <= rounding) total = 0;
         points_[k] = total == 0 ? ReferenceBundle::Point{0, b.preferred(input.h), 0} : b.at(total, input.h);
         if (b.follow_slips(total) && total != 0) points_[k] = b.at(total, input.h);
+        if (std::isinf(points_[k].force)) return false;
       } else {
         again = b.follow_slips(points_[k].step) || again;
       }
@@ -350,7 +352,7 @@ void ReferenceNetwork::note_ambiguity() {
     if (std::abs(points_[k].step) > little_stretch * typical_step_ || !b.set_valued()) continue;
     const std::size_t i = root(b.a), j = root(b.b);
     const bool cfms = std::none_of(b.members().begin(), b.members().end(), [](const ReferenceBundle::Member& m) {
-      return m.law.type() == ReferenceLaw::Type::slider;
+      return m.law.rigid();
     });
     const bool given = unknown_[at(b.a)] < 0 && unknown_[at(b.b)] < 0;
     if (b.ambiguous_at_rest()) ambiguous_ = true;

@@ -29,6 +29,8 @@ class ReferenceNetwork {
     std::vector<double> displacement;  ///< of prescribed nodes
     std::vector<double> velocity;      ///< of prescribed nodes, at the end of the step
     std::vector<double> applied;       ///< force at each node
+    struct Bound { std::size_t bundle, member; SliderBounds bounds; };
+    std::vector<Bound> bounds;         ///< of sliders whose bounds vary, at the end of the step
   };
 
   ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles);

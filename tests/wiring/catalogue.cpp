@@ -13,7 +13,7 @@ namespace {
 
 using Drive = Wiring::Drive;
 
-constexpr int random_trees = 500, random_graphs = 300;
+constexpr int random_trees = 500, random_graphs = 300, brake_trees = 400, freewheel_trees = 200;
 constexpr unsigned seed = 20260313;
 
 constexpr std::array<std::string_view, 4> drive_names = {"velocity", "position", "force", "force on a mass"};
@@ -52,6 +52,16 @@ class Maker {
       w.graph = random_graph(random);
       w.types = random_types(random, w.graph.branches.size());
       w.name = "graph " + described(w.graph, w.types);
+      add_random(std::move(w), random, k);
+    }
+    for (int k = 0; k < brake_trees + freewheel_trees; ++k) {
+      const std::string special = k < brake_trees ? "brake" : "freewheel";
+      Wiring w;
+      w.tree = random_tree(random, 2 + k % 5);
+      w.graph = wired(*w.tree);
+      w.types = random_types(random, w.graph.branches.size());
+      w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = special;
+      w.name = special + " " + described(*w.tree, w.types);
       add_random(std::move(w), random, k);
     }
     return std::move(wirings_);

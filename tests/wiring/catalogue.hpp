@@ -24,7 +24,8 @@ struct Wiring {
 ///  * every ordered pair and triple of the six laws in series, in parallel, and triples in each tree of three leaves; each
 ///    with masses at the nodes between and without, with each drive;
 ///  * random series-parallel trees of 4 to 8 leaves;
-///  * random graphs that are not series-parallel.
+///  * random graphs that are not series-parallel;
+///  * random trees of 2 to 6 leaves with a slider whose bounds vary, called `brake`, or with a freewheel.
 const std::vector<Wiring>& catalogue();
 
 /// The netlist of a wiring: generic values that follow from its number, no two of them equal. `stop` is about 1 s, forces

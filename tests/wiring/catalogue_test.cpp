@@ -25,7 +25,7 @@ TEST_CASE("the catalogue has every pair and triple, under every drive") {
     CHECK_EQ(all[k].tree.has_value(), !all[k].name.starts_with("graph "));
   }
   // Pairs: in series without and with a mass, in parallel; triples the same, and four mixed trees without and with.
-  CHECK_EQ(all.size(), 4 * (36 * 3 + 216 * 3 + 216 * 4 * 2) + 500 + 300);
+  CHECK_EQ(all.size(), 4 * (36 * 3 + 216 * 3 + 216 * 4 * 2) + 500 + 300 + 400 + 200);
   CHECK_EQ(trees, 500);
   CHECK_EQ(graphs, 300);
   for (const char* name : {"first in parallel with two in series(cfm, slider, cfm), force",
@@ -51,9 +51,9 @@ TEST_CASE("every netlist of a sample is read, and none is like another") {
 }
 
 TEST_CASE("what friction can take is its least cut") {
-  const auto capacity = [](const std::string& elements) {
+  const auto capacity = [](const std::string& elements, int direction = 1) {
     return *capacity_of(scene_of("[elements]\npush = { type = \"force\", at = \"end\", force = { ramp = 1.3 } }\n" + elements +
-                                 "[simulate]\nstop = 3\n"));
+                                 "[simulate]\nstop = 3\n"), 1.1, direction);
   };
   const std::string s1 = "s1 = { type = \"slider\", between = [\"end\", \"mid\"], coulomb = 1.7, breakaway = 2.3 }\n";
   const std::string s2 = "s2 = { type = \"sfm\", between = [\"ground\", \"mid\"], stiffness = 31, coulomb = 2.1 }\n";
@@ -67,10 +67,16 @@ TEST_CASE("what friction can take is its least cut") {
   CHECK_EQ(capacity(s1 + s2 + "k = { type = \"spring\", between = [\"mid\", \"ground\"], stiffness = 7 }\n").sliding,
            doctest::Approx(1.7));
   CHECK(std::isinf(capacity(s1 + s2 + "b = { type = \"dashpot\", between = [\"end\", \"ground\"], damping = 7 }\n").sliding));
+  const std::string brake = "b = { type = \"slider\", between = [\"end\", \"ground\"], coulomb = 0.3, normal = { ramp = 1 }, peak = 1.5 }\n";
+  CHECK_EQ(capacity(s1 + s2 + brake).sliding, doctest::Approx(1.7 + 0.33));
+  CHECK_EQ(capacity(s1 + s2 + brake).sticking, doctest::Approx(2.1 + 0.495));
+  const std::string f1 = "f1 = { type = \"freewheel\", between = [\"end\", \"ground\"] }\n";
+  CHECK_EQ(capacity(s1 + s2 + f1).sliding, doctest::Approx(1.7));
+  CHECK(std::isinf(capacity(s1 + s2 + f1, -1).sliding));
   const Scene scene = scene_of("[elements]\npush = { type = \"force\", at = \"end\", force = { ramp = 1.3 } }\n" + s1 + s2 +
                                "[simulate]\nstop = 3\n");
-  CHECK_EQ(first_above(scene, 1.7).value_or(0), doctest::Approx(1.7 / 1.3).epsilon(1e-3));
-  CHECK_FALSE(first_above(scene, 1.3 * 3.01));
+  CHECK_EQ(first_above(scene, &Capacity::sliding, 1).value_or(0), doctest::Approx(1.7 / 1.3).epsilon(1e-3));
+  CHECK_FALSE(first_above(scene, &Capacity::sliding, 1.3 * 3.01 / 1.7));
 }
 
 }  // namespace rheonet::test

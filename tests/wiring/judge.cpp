@@ -27,10 +27,9 @@ constexpr double told = 1e-5;
 
 /// What the bounds of the forces say against the reference itself; "" if they agree.
 std::string contradiction(const Scene& scene, const ReferenceSolution& reference) {
-  const std::optional<Capacity> capacity = capacity_of(scene);
   const double slack = same_end * (scene.stop - scene.start);
-  const std::optional<double> might = capacity ? first_above(scene, capacity->sliding * (1 - 1e-6)) : std::nullopt;
-  const std::optional<double> must = capacity ? first_above(scene, capacity->sticking * (1 + 1e-6)) : std::nullopt;
+  const std::optional<double> might = first_above(scene, &Capacity::sliding, 1 - 1e-6);
+  const std::optional<double> must = first_above(scene, &Capacity::sticking, 1 + 1e-6);
   if (!reference.complete && !(might && reference.end >= *might - slack)) {
     return fmt::format("the reference stops at {:.6g} s, before the friction is overloaded", reference.end);
   }
@@ -42,8 +41,7 @@ std::string contradiction(const Scene& scene, const ReferenceSolution& reference
 
 /// The bound on the forces alone shows that the scene cannot go on where the run was refused for that.
 bool beyond_bounds(const Scene& scene, const std::string& refusal) {
-  const std::optional<Capacity> capacity = capacity_of(scene);
-  const std::optional<double> must = capacity ? first_above(scene, capacity->sticking * (1 + 1e-6)) : std::nullopt;
+  const std::optional<double> must = first_above(scene, &Capacity::sticking, 1 + 1e-6);
   return must && says(refusal, overload) && std::abs(time_in(refusal) - *must) <= same_end * (scene.stop - scene.start);
 }
 

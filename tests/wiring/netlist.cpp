@@ -70,6 +70,39 @@ std::string signal(Random& random, Wiring::Drive drive, double stop) {
 
 }  // namespace
 
+namespace {
+
+/// A bound that varies, about `size`, and may fall below 0.
+std::string bound(Random& random, double size, double stop) {
+  const double mean = size * random.uniform(0.3, 1.2), swing = size * random.uniform(0.3, 1) * random.sign(), frequency = random.uniform(1, 3) / stop;
+  const int shape = random.below(4);
+  if (shape == 3) return table(random, size, size * random.uniform(0, 1), stop, true);
+  return fmt::format("{{ {} = {}, frequency = {}, offset = {} }}", shape == 0 ? "sine" : shape == 1 ? "triangle" : "square", swing, frequency, mean);
+}
+
+/// Parameters of a slider whose bounds vary.
+std::string brake(Random& random, double stop) {
+  const double coulomb = random.around(1, 2.5), coefficient = random.uniform(0.2, 0.9), peak = random.uniform(1.05, 1.6);
+  std::string text;
+  switch (random.below(4)) {
+    case 0:
+      text = fmt::format(", coulomb = {}", bound(random, coulomb, stop));
+      break;
+    case 1:
+      text = fmt::format(", coulomb = {}, breakaway = {}", coulomb, bound(random, 2 * coulomb, stop));
+      break;
+    case 2:
+      text = fmt::format(", coulomb = {}, normal = {}", coefficient, bound(random, coulomb / coefficient, stop));
+      break;
+    default:
+      text = fmt::format(", coulomb = {}", bound(random, coefficient, stop));
+      text += fmt::format(", normal = {}", bound(random, coulomb / coefficient, stop));
+  }
+  return random.below(3) == 0 && text.find("breakaway") == std::string::npos ? text + fmt::format(", peak = {}", peak) : text;
+}
+
+}  // namespace
+
 std::string netlist_of(const Wiring& wiring) { return netlist_of(wiring, wiring.graph); }
 
 std::string netlist_of(const Wiring& wiring, const Graph& graph) {
@@ -83,10 +116,11 @@ std::string netlist_of(const Wiring& wiring, const Graph& graph) {
                                                                 : "position",
                       signal(random, wiring.drive, stop));
   for (std::size_t k = 0; k < wiring.types.size(); ++k) {
-    const std::string values = parameters(random, wiring.types[k]);
+    const bool varies = wiring.types[k] == "brake";
+    const std::string values = varies ? brake(random, stop) : parameters(random, wiring.types[k]);
     auto [a, b] = graph.branches[k];
     if (random.below(2) == 0) std::swap(a, b);
-    text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"]{} }}\n", k + 1, wiring.types[k],
+    text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"]{} }}\n", k + 1, varies ? "slider" : wiring.types[k],
                         node_name(a), node_name(b), values);
   }
   for (std::size_t n = 1; n < wiring.massive.size(); ++n) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/network/component.hpp"
+#include "tests/support/slider_bounds.hpp"
 
 namespace rheonet::test {
 
@@ -13,12 +14,20 @@ namespace {
 
 const Declaration& declared(const SceneElement& e) { return *declarations()[static_cast<std::size_t>(e.declaration)]; }
 
-double value_of(const SceneElement& e, const std::string& parameter, double otherwise) {
+/// The largest forces that an element takes, either way [N].
+struct Carries { double forward, backward; };
+Carries carries(const SceneElement& e, bool sticking, double t) {
+  if (declared(e).type == "freewheel") return {0, INFINITY};
+  if (declared(e).type == "slider") {
+    const SliderBounds bounds = slider_bounds(e, [t](const Signal& signal) { return signal.value(t); });
+    const double most = sticking ? bounds.breakaway : bounds.coulomb;
+    return {most, most};
+  }
   const std::vector<Parameter>& parameters = declared(e).parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (parameters[k].name == parameter && !std::isnan(e.values[k])) return e.values[k];
+    if (parameters[k].name == "coulomb" && !std::isnan(e.values[k])) return {e.values[k], e.values[k]};
   }
-  return otherwise;
+  return {INFINITY, INFINITY};
 }
 
 const SceneElement* push_of(const Scene& scene) {
@@ -28,12 +37,14 @@ const SceneElement* push_of(const Scene& scene) {
 }
 
 /// The least sum, over all sets of nodes that the push may move alone, of what the elements that leave the set carry.
-double least_cut(const Scene& scene, NodeId pushed, const char* level) {
+double least_cut(const Scene& scene, NodeId pushed, bool sticking, double t, int direction) {
   const std::size_t nodes = scene.nodes.size();
   std::vector<char> held(nodes, 0);
   held[0] = 1;
+  std::vector<Carries> most;
   for (const SceneElement& e : scene.elements) {
     if (declared(e).type == "mass") held[static_cast<std::size_t>(e.a)] = 1;
+    most.push_back(e.at ? Carries{0, 0} : carries(e, sticking, t));
   }
   double least = INFINITY;
   for (std::size_t set = 0; set < std::size_t{1} << nodes; ++set) {
@@ -43,8 +54,9 @@ double least_cut(const Scene& scene, NodeId pushed, const char* level) {
     for (std::size_t n = 0; n < nodes; ++n) free = free && !(held[n] && inside(static_cast<NodeId>(n)));
     if (!free) continue;
     double sum = 0;
-    for (const SceneElement& e : scene.elements) {
-      if (!e.at && inside(e.a) != inside(e.b)) sum += value_of(e, level, value_of(e, "coulomb", INFINITY));
+    for (std::size_t k = 0; k < most.size(); ++k) {
+      const SceneElement& e = scene.elements[k];
+      if (!e.at && inside(e.a) != inside(e.b)) sum += inside(e.a) == (direction > 0) ? most[k].forward : most[k].backward;
     }
     least = std::min(least, sum);
   }
@@ -53,19 +65,24 @@ double least_cut(const Scene& scene, NodeId pushed, const char* level) {
 
 }  // namespace
 
-std::optional<Capacity> capacity_of(const Scene& scene) {
+std::optional<Capacity> capacity_of(const Scene& scene, double t, int direction) {
   const SceneElement* push = push_of(scene);
   if (!push) return std::nullopt;
-  return Capacity{least_cut(scene, push->a, "coulomb"), least_cut(scene, push->a, "breakaway")};
+  return Capacity{least_cut(scene, push->a, false, t, direction), least_cut(scene, push->a, true, t, direction)};
 }
 
-std::optional<double> first_above(const Scene& scene, double capacity) {
+std::optional<double> first_above(const Scene& scene, double Capacity::* level, double factor) {
   const SceneElement* push = push_of(scene);
-  if (!push || !std::isfinite(capacity)) return std::nullopt;
+  if (!push) return std::nullopt;
+  const bool varies = std::any_of(scene.elements.begin(), scene.elements.end(),
+                                  [&](const SceneElement& e) { return &e != push && !e.signals.empty(); });
   constexpr int samples = 20000;
+  std::optional<Capacity> up, down;
   for (int k = 0; k <= samples; ++k) {
-    const double t = scene.start + (scene.stop - scene.start) * k / samples;
-    if (std::abs(push->signals.at(0).value(t)) > capacity) return t;
+    const double t = scene.start + (scene.stop - scene.start) * k / samples, force = push->signals.at(0).value(t);
+    std::optional<Capacity>& capacity = force < 0 ? down : up;
+    if (!capacity || varies) capacity = capacity_of(scene, t, force < 0 ? -1 : 1);
+    if (std::abs(force) > factor * (*capacity).*level) return t;
   }
   return std::nullopt;
 }

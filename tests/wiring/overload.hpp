@@ -13,10 +13,10 @@ struct Capacity {
   double sliding;   ///< least cut [N] with every slider at `coulomb`: up to there the load is certainly carried
   double sticking;  ///< with every slider at `breakaway`: beyond, it is certainly not
 };
-/// Absent without an applied force.
-std::optional<Capacity> capacity_of(const Scene& scene);
+/// At time t, for a force in the positive (1) or the negative direction (-1). Absent without an applied force.
+std::optional<Capacity> capacity_of(const Scene& scene, double t, int direction = 1);
 
-/// The first time within the run at which the force applied exceeds `capacity`; absent if it never does.
-std::optional<double> first_above(const Scene& scene, double capacity);
+/// The first time within the run at which the force applied exceeds `factor` times its capacity; absent if it never does.
+std::optional<double> first_above(const Scene& scene, double Capacity::* level, double factor);
 
 }  // namespace rheonet::test

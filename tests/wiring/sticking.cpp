@@ -8,6 +8,7 @@
 
 #include "core/network/component.hpp"
 #include "tests/support/least_norm.hpp"
+#include "tests/support/slider_bounds.hpp"
 
 namespace rheonet::test {
 
@@ -22,16 +23,18 @@ struct Force {
   const SceneElement* element;
   const std::vector<double>* column;
   bool applied;  ///< by the element to the node, which is counted the other way
-  double coulomb = 0, breakaway = 0;
-  const std::vector<double>* velocity = nullptr;  ///< of a slider
+  const std::vector<double>* velocity = nullptr;  ///< of one that sticks
 };
 
-double value_of(const SceneElement& e, const std::string& name) {
-  const std::vector<Parameter>& parameters = declarations()[static_cast<std::size_t>(e.declaration)]->parameters;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (parameters[k].name == name) return e.values[k];
-  }
-  return NAN;
+/// What a force may be.
+struct Range { double low, high; };
+/// While it sticks, and while it slips one way and the other.
+struct Ranges { Range sticking, sliding; };
+
+Ranges ranges_of(const SceneElement& e, double t) {
+  if (declarations()[static_cast<std::size_t>(e.declaration)]->type == "freewheel") return {{-INFINITY, 0}, {-INFINITY, 0}};
+  const SliderBounds bounds = slider_bounds(e, [t](const Signal& signal) { return signal.value(t); });
+  return {{-bounds.breakaway, bounds.breakaway}, {-bounds.coulomb, bounds.coulomb}};
 }
 
 std::vector<Force> forces_of(const Scene& scene, const RunTable& rows) {
@@ -39,12 +42,7 @@ std::vector<Force> forces_of(const Scene& scene, const RunTable& rows) {
   for (const SceneElement& e : scene.elements) {
     const std::string& type = declarations()[static_cast<std::size_t>(e.declaration)]->type;
     Force force{.element = &e, .column = &rows[e.name + ".force"], .applied = type == "force" || type == "motion"};
-    if (type == "slider") {
-      force.velocity = &rows[e.name + ".velocity"];
-      force.coulomb = value_of(e, "coulomb");
-      const double given = value_of(e, "breakaway");
-      force.breakaway = std::isnan(given) ? force.coulomb : given;
-    }
+    if (type == "slider" || type == "freewheel") force.velocity = &rows[e.name + ".velocity"];
     forces.push_back(force);
   }
   return forces;
@@ -77,16 +75,21 @@ std::string wrong_sticking(const Scene& scene, const RunTable& rows) {
       if (!e.at) sum[static_cast<std::size_t>(e.b)] -= counted;
       // One that begins to slip under its force of sliding has no velocity yet.
       const double next = !force.velocity || row + 1 == rows.time().size() ? 0 : (*force.velocity)[row + 1];
-      const bool begins = std::abs(f) == force.coulomb && (force.breakaway > force.coulomb || next * f > 0);
-      const bool slips = !force.velocity || (*force.velocity)[row] != 0 || begins;
-      if (slips) continue;
+      if (!force.velocity || (*force.velocity)[row] != 0) continue;
+      const auto [sticking, sliding] = ranges_of(e, rows.time()[row]);
+      // Bounds that vary are computed once here and once there.
+      const double rounding = e.signals.empty() ? 0 : 1e-12 * std::max(std::abs(sliding.low), sliding.high);
+      const bool forward = std::abs(f - sliding.high) <= rounding && (sticking.high > sliding.high || next > 0);
+      const bool backward = std::abs(f - sliding.low) <= rounding && (sticking.low < sliding.low || next < 0);
+      if (forward || backward) continue;
       joined[static_cast<std::size_t>(e.a)] = joined[static_cast<std::size_t>(e.b)] = 1;
-      if (!(std::abs(f) <= force.breakaway * (1 + of_accuracy * scene.accuracy))) {
-        return fmt::format("{} of {:.17g} at t = {:.6g} sticks beyond its bound of {:.17g}", e.name, f, rows.time()[row], force.breakaway);
+      const double beyond = std::max(f - sticking.high, sticking.low - f), scale = e.signals.empty() && std::isfinite(sticking.low) ? sticking.high : largest;
+      if (!(beyond <= scale * of_accuracy * scene.accuracy)) {
+        return fmt::format("{} of {:.17g} at t = {:.6g} sticks beyond its bounds of {:.17g} and {:.17g}", e.name, f, rows.time()[row],
+                           sticking.low, sticking.high);
       }
       // One that is about to slip may be beyond its bound by what finds the event.
-      const double bound = std::max(force.breakaway, std::abs(f));
-      branches.push_back({free(e.a), free(e.b), -bound, bound});
+      branches.push_back({free(e.a), free(e.b), std::min(sticking.low, f), std::max(sticking.high, f)});
       least.push_back(f);
     }
     for (int n = 1; n < nodes; ++n) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <functional>
+
+#include "core/netlist/scene.hpp"
+
+namespace rheonet::test {
+
+/// Forces of a slider [N]: while it slips, and at which it breaks away.
+struct SliderBounds { double coulomb, breakaway; };
+
+/// Of a slider with its `normal`, `peak` and signals; `value` gives the present value of each of its signals, in their order.
+SliderBounds slider_bounds(const SceneElement& slider, const std::function<double(const Signal&)>& value);
+
+}  // namespace rheonet::test
