@@ -15,6 +15,9 @@ constexpr double flat_share = 1e-9;
 constexpr double bound_rounding = 1e-12;
 // Share of a force that a regularising slope may carry: if it carries more, nothing else carries the force.
 constexpr double weak_limit = 1e-6;
+// A massless node that goes with others is no faster than them: relative velocity, compared with the largest of those that are given.
+// A node that runs away is faster by the inverse of `weak_share`.
+constexpr double most_with_others = 2;
 
 }  // namespace
 
@@ -120,11 +123,16 @@ bool ConvexNetwork::run_away() {
   }
   // A node with inertia does not run away.
   std::vector<char> heavy(u_.size(), 0);
+  double farthest = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (fixed_[k] || inertia_[k] > 0) heavy[at(cluster_[k])] = 1;
+    if (!fixed_[k] && inertia_[k] == 0) continue;
+    heavy[at(cluster_[k])] = 1;
+    farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
     if (b.stuck || std::abs(b.weak * b.w) <= weak_limit * scale) continue;
+    // Nor does one that goes with others: where there is no force at all, the regularising slope has the largest share of it.
+    if (std::abs(b.w) <= most_with_others * farthest) continue;
     for (int node : {b.a, b.b}) {
       if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);
     }

@@ -230,11 +230,12 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
     const double forward = selection.h * bound_rate(k, 1), backward = selection.h * bound_rate(k, -1);
     ConvexNetwork::Law law{.low = -bound(k, -1) - force - backward, .high = bound(k, 1) - force + forward};
     // At its bound the rate alone decides, not the round-off of the event.
-    const double limit = bound(k, force > 0 ? 1 : -1);
+    const int side = bound(k, 1) - force < bound(k, -1) + force ? 1 : -1;
+    const double limit = bound(k, side);
     const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
     const bool fired = contains(selection.fired->sliders, static_cast<int>(k));
     if (selection.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
-      (force > 0 ? law.high : law.low) = force > 0 ? forward : -backward;
+      (side > 0 ? law.high : law.low) = side > 0 ? forward : -backward;
     } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
       // How the velocity of a massless node continues, this first-order problem does not see: the event decides.
       (came_to_rest_[k] > 0 ? law.high : law.low) = came_to_rest_[k] * std::numeric_limits<double>::infinity();

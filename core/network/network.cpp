@@ -152,10 +152,8 @@ struct Gathered { ByComponent deflections, rates; };
 /// The parameters of a law for which the element has signals, unless a limit or an effect left out has replaced its law.
 std::vector<int> varying_parameters(const SceneElement& element, const Reduced& law) {
   std::vector<int> result;
-  if (law.component != components()[static_cast<std::size_t>(element.declaration)]) return result;
-  for (const int parameter : element.signal_parameters) {
-    if (std::isnan(law.values[static_cast<std::size_t>(parameter)])) result.push_back(parameter);
-  }
+  const bool own = law.component == components()[static_cast<std::size_t>(element.declaration)] && same_values(law.values, element.values);
+  if (own) result.assign(element.signal_parameters.begin(), element.signal_parameters.end());
   return result;
 }
 

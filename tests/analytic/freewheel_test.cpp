@@ -11,6 +11,7 @@
 #include "tests/analytic/slider_checks.hpp"
 #include "tests/support/random.hpp"
 
+using namespace rheonet;
 using namespace rheonet::test;
 
 namespace {

@@ -129,7 +129,8 @@ std::vector<double> values_at_limit(const Component& component, std::size_t limi
     for (std::size_t t = begin; t < end; ++t) {
       for (std::size_t k = 0; k < parameters.size(); ++k) {
         const Parameter& p = parameters[k];
-        if (p.kind != Parameter::Kind::value || tried[t][k] != generic[k]) continue;
+        const bool changed = tried[t][k] != generic[k] && !(std::isnan(tried[t][k]) && std::isnan(generic[k]));
+        if (p.kind != Parameter::Kind::value || changed) continue;
         for (const double end_value : {0.0, infinity}) {
           if (end_value == 0 ? p.lower > 0 || (p.lower == 0 && p.lower_open) : !p.may_be_infinite) continue;
           tried.push_back(tried[t]);

@@ -64,6 +64,9 @@ void negate_oriented(SceneElement& element) {
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (oriented(parameters[k])) element.values.own()[k] = -element.values[k];
   }
+  for (std::size_t k = 0; k < element.signals.size(); ++k) {
+    if (oriented(parameters[at(element.signal_parameters[k])])) element.signals.own()[k] = transformed(element.signals[k], -1);
+  }
 }
 
 }  // namespace
@@ -93,6 +96,14 @@ bool oriented(const Parameter& parameter) {
   const bool directed = parameter.quantity == Quantity::position || parameter.quantity == Quantity::velocity ||
                         parameter.quantity == Quantity::force;
   return parameter.kind == Parameter::Kind::signal || (directed && parameter.lower < 0);
+}
+
+bool one_way(const SceneElement& element) {
+  const Component& component = *components()[at(element.declaration)];
+  if (!component.box || !element.signals.empty()) return false;
+  const std::vector<double> values = element.values;
+  const Box box = constant_box(component, values);
+  return box.forward.sliding.value != box.backward.sliding.value;
 }
 
 double flow_index(const Declaration& declaration, const Parameter& parameter, const std::vector<double>& values) {
@@ -133,8 +144,8 @@ Scene negated(Scene scene) {
     n.velocity = -n.velocity;
   }
   for (SceneElement& e : scene.elements) {
+    if (one_way(e)) std::swap(e.a, e.b);
     negate_oriented(e);
-    for (Signal& s : e.signals.own()) s = transformed(s, -1);
   }
   return scene;
 }
@@ -162,9 +173,8 @@ Scene exchanged(Scene scene, int element) {
   SceneElement& e = scene.elements[at(element)];
   REQUIRE(!e.at);
   std::swap(e.a, e.b);
-  negate_oriented(e);
   // A signal belongs to the first end: for the same effect it is negated with the rest.
-  for (Signal& s : e.signals.own()) s = transformed(s, -1);
+  negate_oriented(e);
   return scene;
 }
 

@@ -18,7 +18,7 @@ struct Scaling {
 double factor(const Scene& scene, const Record& record, const Scaling& scaling);
 Scene rescaled(Scene scene, const Scaling& scaling);
 
-/// All drives and initial values negated.
+/// All drives and initial values negated, and elements that turn one way only turned round.
 Scene negated(Scene scene);
 
 /// Everything moved by dx: initial positions and position signals. No element may end at ground.
@@ -37,6 +37,9 @@ Signal transformed(const Signal& signal, double value, double time = 1, double a
 /// Whether a parameter changes its sign with the direction that counts as positive: a position, velocity or force that
 /// may have either sign, a signal.
 bool oriented(const Parameter& parameter);
+
+/// Whether an element takes other forces one way than the other, as a freewheel does: turned round it is another one.
+bool one_way(const SceneElement& element);
 
 /// The flow index that goes with a parameter: the value of another one, or 1.
 double flow_index(const Declaration& declaration, const Parameter& parameter, const std::vector<double>& values);

@@ -43,7 +43,7 @@ View renamed(const Scene& scene) {
 View swapped(const Scene& scene) {
   View view{.name = "ends swapped", .scene = scene, .columns = same_columns(scene)};
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-    if (scene.elements[e].at) continue;
+    if (scene.elements[e].at || one_way(scene.elements[e])) continue;
     view.scene = exchanged(std::move(view.scene), static_cast<int>(e));
     for (std::size_t k = 0; k < scene.records.size(); ++k) {
       const Record& r = scene.records[k];
