@@ -266,7 +266,8 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, S
   std::vector<std::string> names;
   for (const int k : forbidden) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
   notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
-                              names.size() > 1 ? "their" : "its", lost > 0 ? fmt::format(", which turns {:.6g} J into heat", lost) : ""));
+                              names.size() > 1 ? "their" : "its",
+                              lost > 0 ? fmt::format(", which turns {:.6g} J into heat{}", lost, t > 0 ? "" : ", before the energy account begins") : ""));
   return lost;
 }
 

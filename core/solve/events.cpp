@@ -118,9 +118,10 @@ bool NetworkEvents::moved_apart(int k) const {
   return ends.a != ends.b && !(structure.of_time[at(ends.a)] && structure.of_time[at(ends.b)]);
 }
 
-/// Dead band of the guard of a sticking slider [N].
+/// Dead band of the guard of a sticking slider [N]. A bound of 0, or one that falls, says nothing of the forces that balance there.
 double NetworkEvents::force_band(int k) const {
-  return dae_.inputs().box(at(k)).largest() * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
+  const double largest = std::max(dae_.inputs().box(at(k)).largest(), tolerances_.held_seen(k));
+  return largest * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
 }
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {

@@ -52,6 +52,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   force_seen_.assign(deflections, 0);
   flow_seen_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
+  held_seen_ = slide_seen_;
   dashpot_seen_.assign(network.rates.size(), 0);
   carried_seen_ = dashpot_seen_;
   relative_seen_.assign(nodes, 0);
@@ -168,6 +169,7 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   std::fill(least_slide_.begin(), least_slide_.end(), std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
     slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
+    held_seen_[k] = std::max(held_seen_[k], std::abs(view.slider_force[k]));
     meet(structure.sliders[k], view.slider_velocity[k]);
     see_rest(k, view.slider_velocity[k]);
     if (!(slide_seen_[k] > 0)) continue;

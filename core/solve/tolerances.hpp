@@ -66,6 +66,8 @@ class Tolerances {
   /// Dead band of the force of a rate branch that is solved for its force [N].
   double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
+  /// Largest force that a slider has had [N].
+  double held_seen(int slider) const { return held_seen_[static_cast<std::size_t>(slider)]; }
   /// Force by which a sticking slider may exceed its bound because of the errors that steps are allowed [N].
   double slip_noise(int slider) const { return slip_noise_[static_cast<std::size_t>(slider)]; }
 
@@ -166,6 +168,7 @@ class Tolerances {
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
   std::vector<double> dashpot_seen_;                  ///< of each rate branch: largest force [N]
   std::vector<double> slide_seen_;                    ///< of each slider: largest velocity [m/s]
+  std::vector<double> held_seen_;                     ///< of each slider: largest force [N]
   std::vector<double> relative_seen_;                 ///< of each node: largest velocity relative to a neighbour [m/s]
   /// Of each node: least of the largest velocities of the sliders there that have slipped [m/s].
   std::vector<double> least_slide_;

@@ -241,7 +241,8 @@ void check_impact(const Row& row) {
     CHECK(std::abs(found.rows[fmt::format("n{}.position", k)].back() - 0.7 * after[k]) <= 1e-9);
   }
   const double lost = before_energy - after_energy;
-  CHECK(std::abs(found.summary.dissipated - lost) <= 1e-9 * before_energy);
+  // The account begins after the impact, which a note tells.
+  CHECK(std::abs(found.summary.dissipated) <= 1e-9 * before_energy);
   CHECK(std::abs(found.summary.missing) <= 1e-9 * before_energy);
   const bool collides = lost > 1e-9 * before_energy;
   const auto tells = std::count_if(found.summary.notes.begin(), found.summary.notes.end(),
@@ -303,9 +304,8 @@ output = {{ points = 231 }}
                                    {"b.velocity", velocity},
                                    {"f1.force", [=](double t) { return std::min(0.0, passed(t)); }},
                                    {"f2.force", [=](double t) { return -std::max(0.0, passed(t)); }}});
-    const double lost = (m1 * v0 * v0 - (m1 + m2) * start * start) / 2;
-    const double stored = (m1 + m2) * std::pow(velocity(stop), 2) / 2 - m1 * v0 * v0 / 2;
-    check_account(toml, {stored + lost, stored, lost});
+    const double stored = (m1 + m2) * (std::pow(velocity(stop), 2) - start * start) / 2;
+    check_account(toml, {stored, stored, 0});
   }
 }
 
@@ -359,12 +359,13 @@ stop = {:.17g}
 output = {{ points = 212 }}
 )",
                                            d, at, B, m1, m2, grounded ? "ground" : "b", stop);
-      const double inertia = d > 0 ? m1 : m1 + m2, v0 = d < 0 && grounded ? 0 : B * d / inertia, rate = B / inertia;
+      // Then the dashpot slows the first one down, and the second one goes on.
+      const double inertia = d > 0 ? m1 : m1 + m2, v0 = d < 0 && grounded ? 0 : B * d / inertia, rate = B / m1;
       const Exact velocity = from(at, [=](double t) { return v0 * std::exp(-rate * t); });
       const double scale = B * std::abs(d) / m1;
       check_between(toml, {{"a.velocity", velocity, scale},
                            {"a.position", from(at, [=](double t) { return -v0 / rate * std::expm1(-rate * t); }), std::abs(d)},
-                           {"b.velocity", [=](double t) { return d > 0 || grounded ? 0 : velocity(t); }, scale}}, {at});
+                           {"b.velocity", [=](double t) { return t < at || d > 0 || grounded ? 0 : v0; }, scale}}, {at});
     }
   }
 }
