@@ -140,18 +140,13 @@ void ConvexNetwork::stick_at_first() {
       if (b.jumps && (std::isinf(b.law.low) || std::isinf(b.law.high)) == strict) order.push_back(&b);
     }
   }
-  for (Branch* branch : order) {
-    Branch& b = *branch;
+  // A force without a bound holds a branch, or ends a motion that the law forbids.
+  const auto apart = [&](const Branch& b) { return difference(head[at(sets.find(b.a))], head[at(sets.find(b.b))]); };
+  const auto forbids = [](const Branch& b, double w) { return std::isinf(w < 0 ? b.law.low : b.law.high); };
+  const auto stick = [&](Branch& b) {
     const int sa = sets.find(b.a), sb = sets.find(b.b);
-    // A force without a bound holds it, or ends a motion that the law forbids.
-    const double w = difference(head[at(sa)], head[at(sb)]);
-    const bool rigid = (std::isinf(b.law.low) && std::isinf(b.law.high)) || std::isinf(w < 0 ? b.law.low : b.law.high);
-    if (!rigid && heavy[at(sa)] && heavy[at(sb)] && w != 0) {
-      b.side = w > 0 ? 1 : -1;
-      continue;
-    }
     b.stuck = true;
-    if (sa == sb) continue;
+    if (sa == sb) return;
     const bool given = heavy[at(sa)] || heavy[at(sb)];
     const bool first = fixed[at(sa)] || (!fixed[at(sb)] && heavy[at(sa)]);
     const int common = head[at(first ? sa : sb)];
@@ -160,6 +155,25 @@ void ConvexNetwork::stick_at_first() {
     fixed[at(sets.find(sa))] = firm;
     heavy[at(sets.find(sa))] = given;
     head[at(sets.find(sa))] = common;
+  };
+  for (Branch* b : order) {
+    const double w = apart(*b);
+    const bool rigid = (std::isinf(b->law.low) && std::isinf(b->law.high)) || forbids(*b, w);
+    if (!rigid && w != 0 && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
+      b->side = w > 0 ? 1 : -1;
+    } else {
+      stick(*b);
+    }
+  }
+  // A node that takes the value of others may then move the way that a branch looked at before forbids.
+  for (bool again = true; again;) {
+    again = false;
+    for (Branch* b : order) {
+      const double w = b->stuck ? 0 : apart(*b);
+      if (w == 0 || !forbids(*b, w)) continue;
+      stick(*b);
+      again = true;
+    }
   }
   for (std::size_t k = 0; k < n; ++k) follow(static_cast<int>(k), head[at(sets.find(static_cast<int>(k)))]);
 }
