@@ -3,13 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
 
-/// Resolution of time near t [s]: times that differ by no more are taken as equal. 64 units in the last place.
-inline double time_roundoff(double t) { return 64 * std::numeric_limits<double>::epsilon() * std::abs(t); }
-
-/// Relative difference below which velocities are equal. Events from smaller differences would be round-off: a motion that
-/// seems to begin there would be found at rest.
-inline constexpr double velocity_roundoff = 1e-14;
+/// Resolution of time near t [s]: times that differ by no more are taken as equal.
+inline double time_roundoff(double t) { return numerics::equal_time_ulps * std::numeric_limits<double>::epsilon() * std::abs(t); }
 
 }  // namespace rheonet

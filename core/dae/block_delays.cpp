@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/block_signals.hpp"
 
@@ -85,14 +86,13 @@ void BlockSignals::find_longest_step(const Network& network, const Structure& cl
     const int block = static_cast<int>(k);
     const double delay = blocks_->blocks[k].law.delay;
     if (feeds_motion(block) && !of_time_alone(block)) longest_step_ = std::min(longest_step_, delay);
-    if (std::any_of(pairs_.begin(), pairs_.end(), takes_in_loose)) longest_step_ = std::min(longest_step_, delay / DelayHistory::steps_in_delay);
+    if (std::any_of(pairs_.begin(), pairs_.end(), takes_in_loose)) longest_step_ = std::min(longest_step_, delay / numerics::steps_in_delay);
   }
 }
 
 bool BlockSignals::breaks(double t, const DelayHistory& history) const {
-  constexpr double rounding = 1e-12;  // relative difference of equal values
   const double side = time_roundoff(t);
-  const auto differ = [](double a, double b) { return std::abs(a - b) > rounding * (std::abs(a) + std::abs(b)); };
+  const auto differ = [](double a, double b) { return std::abs(a - b) > numerics::equal_values * (std::abs(a) + std::abs(b)); };
   for (std::size_t k = 0; k < out_.size(); ++k) {
     const int block = static_cast<int>(k);
     if (blocks_->blocks[k].law.delay == 0 || !of_time_alone(block)) continue;

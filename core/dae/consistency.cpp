@@ -9,19 +9,10 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Relative perturbation of a difference quotient: small enough to stay on the branch of every law, and about the square root of
-// round-off, so that the two errors of the quotient are alike.
-constexpr double probing_share = 1e-7;
-// An unknown below this share of the largest of its kind derives from that one: its growth says nothing of a rate.
-constexpr double share_that_tells = 1e-3;
-
-}  // namespace
 
 Consistency::Consistency(Dae& dae) : dae_(dae), elimination_(dae.pattern()) {
   const std::size_t n = at(dae.size());
@@ -62,14 +53,10 @@ void Consistency::eliminate(double t) {
 
 double Consistency::collocate(double t, double rate, std::vector<double>& y, std::vector<double>& yp) {
   wake();
-  // Power laws at rest take more iterations than smooth laws. With smooth laws a change this small, or above half of the one
-  // before, is round-off.
-  constexpr int most_iterations = 30;
-  constexpr double rounding = 1e-13;
   const std::size_t n = y.size();
   std::vector<double> change(n), scale(n, 0);
   double last = 0;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < numerics::collocation_iterations; ++iteration) {
     dae_.jacobian(t, rate, y.data(), yp.data(), values_.data());
     // Too close to singular for a better state: the interpolated one stands.
     if (!elimination_.factorise(values_)) break;
@@ -81,9 +68,9 @@ double Consistency::collocate(double t, double rate, std::vector<double>& y, std
       scale[i] = std::max({scale[i], std::abs(y[i]), std::abs(change[i])});
       if (scale[i] > 0) size = std::max(size, std::abs(change[i]) / scale[i]);
     }
-    const double damping = iteration > 0 && size > 0.9 * last ? 0.5 : 1;
-    const bool done = size <= 4 * std::numeric_limits<double>::epsilon() ||
-                      (iteration > 0 && !dae_.rough() && (size <= rounding || size > last / 2));
+    const double damping = iteration > 0 && size > numerics::collocation_slow * last ? numerics::collocation_damping : 1;
+    const bool done = size <= numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() ||
+                      (iteration > 0 && !dae_.rough() && (size <= numerics::collocation_change || size > last / 2));
     last = size;
     for (std::size_t i = 0; i < n; ++i) {
       y[i] += damping * change[i];
@@ -167,7 +154,6 @@ void Consistency::second_derivative(double t, double dt, const std::vector<doubl
 /// A few steps of power iteration with y' as a function of y. The growth of each unknown over two steps is free of units (an
 /// oscillator turns displacement into velocity and back) and gives the square of a rate. Sizes are compared within each kind.
 double Consistency::fastest_rate(double t, double within, const std::vector<double>& y, const std::vector<double>& yp) {
-  constexpr int steps = 6;
   const std::size_t n = y.size();
   std::vector<double> u(yp), next, moved(n), before(n, 0);
   using Sizes = std::array<double, kinds>;
@@ -183,11 +169,11 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
   constexpr std::size_t velocity = 0, deflection = 1, position = 3;
   if (there[velocity] == 0) there[velocity] = std::max(soon[deflection], soon[position]);
   double rate = 0;
-  for (int k = 0; k < steps; ++k) {
+  for (int k = 0; k < numerics::power_iterations; ++k) {
     double step = std::numeric_limits<double>::infinity();
     const Sizes size = largest(u);
     for (std::size_t kind = 0; kind < kinds; ++kind) {
-      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, probing_share * there[kind] / size[kind]);
+      if (size[kind] > 0 && there[kind] > 0) step = std::min(step, numerics::rate_probe * there[kind] / size[kind]);
     }
     if (!std::isfinite(step)) break;
     for (std::size_t i = 0; i < n; ++i) moved[i] = y[i] + step * u[i];
@@ -195,7 +181,7 @@ double Consistency::fastest_rate(double t, double within, const std::vector<doub
     for (std::size_t i = 0; i < n; ++i) next[i] = (next[i] - yp[i]) / step;
     const Sizes most = largest(before);
     for (std::size_t i = 0; i < n && k > 0; ++i) {
-      if (std::abs(before[i]) <= share_that_tells * most[kind_[i]]) continue;
+      if (std::abs(before[i]) <= numerics::rate_probe_floor * most[kind_[i]]) continue;
       rate = std::max(rate, std::sqrt(std::abs(next[i] / before[i])));
     }
     before = u;

@@ -5,31 +5,14 @@
 #include <limits>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
 namespace {
 
-// Relative tolerance of a balance of forces.
-constexpr double equilibrium_rounding = 1e-13;
-// Least gain of a Newton step, as a share of the power: round-off squared, as the gain is of second order.
-constexpr double power_rounding = 1e-24;
-constexpr double value_rounding = 8 * std::numeric_limits<double>::epsilon();
-constexpr double difference_rounding = 4 * std::numeric_limits<double>::epsilon();
-// After this many full Newton steps in a row, all of them linear, the imbalance is round-off.
-constexpr int enough_full_steps = 3;
-// Branches may release one after the other, each because of the one before it: after this many releases all branches that
-// slipped before are released. A smaller number would change how small problems are solved, without benefit.
-constexpr int short_cascade = 6;
-// After this many rounds that do not halve the imbalance, it is round-off, or exceeds what the laws can take.
-constexpr int most_stagnant = 60;
-// Regularising slope, relative to the smallest slope around: it makes the answer unique.
-constexpr double weak_share = 1e-9;
-// Largest force of such a slope, relative to the bounds of its branch: above the round-off of a balance, and below the
-// difference of two bounds that decides which of them gives way.
-constexpr double weak_force = 1e-11;
-// A slope below this share of the law's other slope counts as flat.
-constexpr double flat_law_share = 1e-14;
+constexpr double value_rounding = numerics::law_value_ulps * std::numeric_limits<double>::epsilon();
+constexpr double difference_rounding = numerics::sum_ulps * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -111,14 +94,14 @@ void ConvexNetwork::choose_weak() {
   for (Branch& b : branches_) {
     if (heavy(b.a) && heavy(b.b)) continue;  // no regularisation needed
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
-    if (!b.jumps && flatter > flat_law_share * steeper) continue;
+    if (!b.jumps && flatter > numerics::flat_law * steeper) continue;
     const double around = std::min(least[at(b.a)], least[at(b.b)]);
     double bounds = 0;
     for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
     const bool by_bounds = farthest > 0 && bounds > 0;
     // The slope of a mass is its inertia over the time step: 1e-9 of it is a large force at the mass's present velocity.
-    b.weak = std::min(weak_share * around, by_bounds ? weak_force * bounds / farthest : none);
-    if (b.weak == none) b.weak = weak_share * (least_of_all < none ? least_of_all : 1);
+    b.weak = std::min(numerics::regularising_slope * around, by_bounds ? numerics::regularising_force * bounds / farthest : none);
+    if (b.weak == none) b.weak = numerics::regularising_slope * (least_of_all < none ? least_of_all : 1);
   }
 }
 
@@ -214,7 +197,7 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     const int column = column_[at(cluster_[at(node)])];
     if (column < 0) return;
     gradient[at(column)] += f;
-    rounding[at(column)] += equilibrium_rounding * std::abs(f);
+    rounding[at(column)] += numerics::convex_balance_roundoff * std::abs(f);
   };
   // Round-off of the values themselves.
   const auto blur = [&](int node, double slope, double x) {
@@ -276,11 +259,11 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   int stagnant = 0;
   bool looked_again = false;  // since the last step
   int releases = 0;
-  const std::size_t rounds = 200 + 20 * branches_.size();
+  const std::size_t rounds = numerics::least_rounds + numerics::rounds_a_branch * branches_.size();
   for (rounds_ = 0; rounds_ < rounds; ++rounds_) {
     merge();
     while (stick_where_met()) merge();  // several may come together in one step
-    bool settled = balanced(gradient) || full_steps_ >= enough_full_steps || idle >= enough_full_steps;
+    bool settled = balanced(gradient) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d, false)) {
         if (flattened(gradient)) return Outcome::unbounded;
@@ -297,12 +280,12 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         continue;
       }
       settled = !(descent < 0);
-      idle = -descent <= power_rounding * power() ? idle + 1 : 0;
+      idle = -descent <= numerics::least_newton_gain * power() ? idle + 1 : 0;
       double left = 0;
       for (double g : gradient) left = std::max(left, std::abs(g));
       stagnant = left < least / 2 ? 0 : stagnant + 1;
       least = std::min(least, left);
-      if (stagnant >= most_stagnant) {
+      if (stagnant >= numerics::stagnant_rounds) {
         if (flattened(gradient)) return Outcome::unbounded;
         settled = true;
       }
@@ -311,7 +294,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
       full_steps_ = idle = stagnant = 0;
       least = std::numeric_limits<double>::infinity();
       if (!release()) return run_away() ? Outcome::unbounded : Outcome::solved;
-      if (++releases == short_cascade) release_as_before();
+      if (++releases == numerics::single_releases) release_as_before();
       continue;
     }
     released_.clear();

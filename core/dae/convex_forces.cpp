@@ -2,24 +2,11 @@
 #include <cmath>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Share of the forces around. Where no law has a slope any more, nothing takes up a larger imbalance.
-constexpr double flat_share = 1e-9;
-// A force may exceed its bound by this share of it.
-constexpr double bound_rounding = 1e-12;
-// Share of a force that a regularising slope may carry: if it carries more, nothing else carries the force.
-constexpr double weak_limit = 1e-6;
-// A massless node that goes with others is no faster than them: relative velocity, compared with the largest of those that are given.
-// A node that runs away is faster by the inverse of `weak_share`.
-constexpr double most_with_others = 2;
-
-}  // namespace
 
 /// Forces of least norm in the branches that stick: see stick_forces.cpp.
 void ConvexNetwork::find_bond_forces() {
@@ -74,7 +61,7 @@ bool ConvexNetwork::release() {
     if (!b.stuck) continue;
     const bool above = f[k] > b.law.high;
     const double over = above ? f[k] - b.law.high : b.law.low - f[k];
-    if (over > bound_rounding * std::abs(above ? b.law.high : b.law.low)) beyond.push_back({over, static_cast<int>(k)});
+    if (over > numerics::balance_roundoff * std::abs(above ? b.law.high : b.law.low)) beyond.push_back({over, static_cast<int>(k)});
   }
   std::sort(beyond.begin(), beyond.end(), std::greater<>());
   released_.clear();
@@ -130,9 +117,9 @@ bool ConvexNetwork::run_away() {
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
-    if (b.stuck || std::abs(b.weak * b.w) <= weak_limit * scale) continue;
+    if (b.stuck || std::abs(b.weak * b.w) <= numerics::regularising_load * scale) continue;
     // Nor does one that goes with others: where there is no force at all, the regularising slope has the largest share of it.
-    if (std::abs(b.w) <= most_with_others * farthest) continue;
+    if (std::abs(b.w) <= numerics::carried_along * farthest) continue;
     for (int node : {b.a, b.b}) {
       if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);
     }
@@ -146,7 +133,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   DisjointSets parts(u_.size());
   for (const Branch& b : branches_) {
     const double w = b.w;
-    if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > flat_share * std::abs(force(b, w, b.side)) || w == 0) {
+    if (cluster_[at(b.a)] == cluster_[at(b.b)] || slope(b, w) * std::abs(w) > numerics::runaway_imbalance * std::abs(force(b, w, b.side)) || w == 0) {
       parts.join(b.a, b.b);
     }
   }
@@ -169,7 +156,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
     const std::size_t part = at(parts.find(static_cast<int>(k)));
     // A lack of force counts, an excess does not: a step may have gone too far.
     const bool too_little = left[part] * flat[part] <= 0;
-    if (!held[part] && too_little && std::abs(left[part]) > flat_share * forces[part]) runaways_.push_back(static_cast<int>(k));
+    if (!held[part] && too_little && std::abs(left[part]) > numerics::runaway_imbalance * forces[part]) runaways_.push_back(static_cast<int>(k));
   }
   return !runaways_.empty();
 }

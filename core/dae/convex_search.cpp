@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/nonsmooth/conductances.hpp"
 
@@ -11,20 +12,7 @@ namespace rheonet {
 
 namespace {
 
-// A slope below this share of the law's other slope counts as flat.
-constexpr double flat_step_share = 1e-6;
-// Line search: relative round-off of the step to a breakpoint, and of its product: half a unit each, doubled.
-constexpr double break_rounding = 4e-16;
-constexpr double meeting_rounding = 4 * std::numeric_limits<double>::epsilon();
-// Distance before a breakpoint, as a share of the step that leads to it: above the round-off of that step.
-constexpr double short_of_break = 1e-14;
-// Share of the slope at the beginning of an interval: a smaller slope at its end may be the round-off of cancelling terms.
-constexpr double slope_rounding = 1e-12;
-// Share of the slope at the start of the search: a smaller slope counts as the minimum, as the next direction removes the rest.
-constexpr double flat_enough = 1e-10;
-// A breakpoint this many steps away is too far to begin a search from.
-constexpr double far_off = 1e3;
-constexpr int most_sections = 100;  // of an interval; every third halves it: ten digits at least
+constexpr double meeting_rounding = numerics::sum_ulps * std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
@@ -39,7 +27,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
     if (secants) {
       if (w != 0) s = std::max(s, std::abs(force(b, w, b.side) / w));
       const double steeper = std::max(b.law.forward, b.law.backward);
-      if (s <= flat_step_share * steeper) s = steeper;
+      if (s <= numerics::flat_slope * steeper) s = steeper;
     }
     slopes.push_back({a, c, s});
   }
@@ -66,7 +54,7 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
     if (dw == 0) continue;
     double w = b.w + step * dw;
     // The breakpoint of this branch itself, to round-off.
-    if (std::abs(w) <= break_rounding * std::abs(step * dw)) w = 0;
+    if (std::abs(w) <= numerics::break_roundoff * std::abs(step * dw)) w = 0;
     sum += force(b, w, dw > 0 ? 1 : -1) * dw;
   }
   for (std::size_t k = 0; k < u_.size(); ++k) {
@@ -106,32 +94,32 @@ ConvexNetwork::Outcome ConvexNetwork::search(const std::vector<double>& d) {
   if (first != breaks.end()) {
     high = first->step;
     // Slope before the jump: the slope beyond it says nothing of the interval.
-    const double before = slope_along(d, high * (1 - short_of_break));
+    const double before = slope_along(d, high * (1 - numerics::distance_before_break));
     if (before < 0 || high == low) {
       move(high);
       branches_[at(first->branch)].stuck = true;
       return Outcome::solved;
     }
-    high *= 1 - short_of_break;
+    high *= 1 - numerics::distance_before_break;
     // A distant breakpoint, where two ends move almost alike, is no good end of an interval.
-    for (double near = std::max(1.0, 2 * low); high > far_off * near; near *= 2) {
+    for (double near = std::max(1.0, 2 * low); high > numerics::distant_break * near; near *= 2) {
       if (!(slope_along(d, near) < 0)) high = near;
     }
   } else {
     for (high = std::max(1.0, 2 * low); slope_along(d, high) < 0; high *= 2) {
       // The last digits of a full step may be round-off.
-      if (high == 1 && slope_along(d, 1) > -slope_rounding * std::abs(slope_along(d, low))) break;
-      if (high > 1e200) return Outcome::unbounded;
+      if (high == 1 && slope_along(d, 1) > -numerics::cancelling_slope * std::abs(slope_along(d, low))) break;
+      if (high > numerics::unbounded_step) return Outcome::unbounded;
     }
   }
   // Search within one smooth interval: exact at once where all laws are linear.
   const double descent = -slope_along(d, 0);
   double slope_low = slope_along(d, low), slope_high = slope_along(d, high), step = high;
-  for (int k = 0; k < most_sections && slope_high > 0; ++k) {
+  for (int k = 0; k < numerics::line_search_sections && slope_high > 0; ++k) {
     const double secant = low + (high - low) * slope_low / (slope_low - slope_high);
     step = k % 3 == 2 ? (low + high) / 2 : std::min(std::max(secant, low), high);
     const double slope = slope_along(d, step);
-    if (std::abs(slope) <= flat_enough * descent || step == low || step == high) break;
+    if (std::abs(slope) <= numerics::line_search_slope * descent || step == low || step == high) break;
     (slope < 0 ? low : high) = step;
     (slope < 0 ? slope_low : slope_high) = slope;
   }

@@ -68,8 +68,6 @@ class Dae {
   /// Sums of the magnitudes of the terms of each algebraic equation at the last `residual`: of forces (or a share of slope
   /// times deflection, if larger) and of velocities. The round-off of a residual is proportional to its sum.
   void magnitudes(double* r) const;
-  /// Round-off of a residual, as a share of that sum.
-  static constexpr double rounding_share = 1e-14;
   /// dF/dt at constant y for algebraic equations, 0 for differential ones. Call after `consistency_matrix`.
   void time_derivative(double* r) const;
 

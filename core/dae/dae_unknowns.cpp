@@ -6,20 +6,10 @@
 #include <set>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// A linear dashpot at a massless node has its force among the unknowns if it is this much stiffer than another one there: its
-// velocity, small beside the velocity of the other one, is solved to fewer digits.
-constexpr double stiff_in_series = 1e3;
-// The same for a dashpot between masses or motions whose velocities it equalises this many times faster than the run is long:
-// the difference of the velocities is lost in round-off, which the damping multiplies.
-constexpr double stiff_for_mass = 1e6;
-
-}  // namespace
 
 void Dae::number_unknowns() {
   const Network& network = *network_;
@@ -75,9 +65,9 @@ void Dae::number_unknowns() {
       // A linear dashpot much stiffer than its neighbours in series needs it too: the difference of the velocities of its ends
       // would have lost its digits. At ground that difference is a velocity itself.
       const bool moving = b.a != ground && b.b != ground;
-      const auto stiff = [&](NodeId node) { return massless(node) && impulse > stiff_in_series * softest[at(node)]; };
+      const auto stiff = [&](NodeId node) { return massless(node) && impulse > numerics::series_stiffness_ratio * softest[at(node)]; };
       const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
-      const bool stiff_between = moving && least_mass > 0 && impulse * length > stiff_for_mass * least_mass;
+      const bool stiff_between = moving && least_mass > 0 && impulse * length > numerics::equalising_ratio * least_mass;
       const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between : needed && at_massless;
       by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;

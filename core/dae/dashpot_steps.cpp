@@ -9,6 +9,7 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 
 namespace rheonet {
@@ -137,8 +138,7 @@ bool go_with_dashpots(const Network& network, const Structure& structure, std::v
 }
 
 bool step_together(double a, double b) {
-  constexpr double rounding = 1e-12;
-  return std::abs(a - b) <= rounding * (std::abs(a) + std::abs(b));
+  return std::abs(a - b) <= numerics::equal_values * (std::abs(a) + std::abs(b));
 }
 
 namespace {

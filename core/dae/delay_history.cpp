@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/polynomial.hpp"
 
@@ -12,8 +13,6 @@ namespace rheonet {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-// After this many delays a discontinuity is smooth enough: no order of the integrator sees the derivative that jumps.
-constexpr int most_delays = 6;
 
 /// The last item that has begun by t; nullptr if none has (before the run).
 template <class Items>
@@ -64,7 +63,7 @@ DelayHistory::DelayHistory(const Network& network, const std::vector<double>& de
     for (const auto& [node, free] : {std::pair{d.a, &d.free_a}, std::pair{d.b, &d.free_b}}) {
       *free = node != ground && track(node)->motion < 0;
       if (*free) shortest_ = std::min(shortest_, d.delay);
-      if (*free && !firm[static_cast<std::size_t>(node)]) longest_step_ = std::min(longest_step_, d.delay / steps_in_delay);
+      if (*free && !firm[static_cast<std::size_t>(node)]) longest_step_ = std::min(longest_step_, d.delay / numerics::steps_in_delay);
     }
   }
 }
@@ -80,7 +79,7 @@ void DelayHistory::begin(const std::vector<double>& velocity) {
 
 void DelayHistory::mark(double t, bool fresh) {
   if (delays_.empty()) return;
-  int level = fresh ? 0 : most_delays;
+  int level = fresh ? 0 : numerics::smoothing_delays;
   for (const double delay : delays_) {
     const auto early = [&](const Break& b) { return b.t + delay - t < -time_roundoff(t); };
     auto b = std::partition_point(breaks_.begin(), breaks_.end(), early);
@@ -192,7 +191,7 @@ void DelayHistory::find_next_break() {
   for (const double delay : delays_) {
     const auto over = [&](const Break& b) { return b.t + delay <= since_ + time_roundoff(since_); };
     const auto ahead = std::partition_point(breaks_.begin(), breaks_.end(), over);
-    const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < most_delays; });
+    const auto next = std::find_if(ahead, breaks_.end(), [](const Break& b) { return b.level + 1 < numerics::smoothing_delays; });
     if (next != breaks_.end()) next_break_ = std::min(next_break_, next->t + delay);
   }
 }
@@ -200,15 +199,14 @@ void DelayHistory::find_next_break() {
 /// Points around t, half of them on each side if there are enough. Neighbours are no nearer than a share of the interval that t
 /// is in: between distant points, a polynomial through close ones amplifies their errors.
 DelayHistory::Stencil DelayHistory::stencil(const std::vector<Point>& points, double t, double now, bool beyond) {
-  constexpr double near = 8;  // least distance: this fraction of the interval
   const auto after = std::lower_bound(points.begin(), points.end(), t, [](const Point& p, double x) { return p.t < x; });
   const auto middle = static_cast<std::size_t>(after - points.begin());
   const std::size_t wanted = beyond ? step_points - 1 : step_points;
   double gap = 0;
   if (beyond) {
-    gap = (now - points.back().t) / near;
+    gap = (now - points.back().t) / numerics::history_point_spacing;
   } else if (middle > 0 && middle < points.size()) {
-    gap = (points[middle].t - points[middle - 1].t) / near;
+    gap = (points[middle].t - points[middle - 1].t) / numerics::history_point_spacing;
   }
   Stencil left, right;
   const auto take = [&](Stencil& side, std::size_t i) {

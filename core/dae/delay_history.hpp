@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/polynomial.hpp"
 #include "core/network/dual.hpp"
 #include "core/network/network.hpp"
@@ -37,9 +38,6 @@ class DelayHistory {
   /// The longest step that needs no present values [s]; infinite if present values may always be used. A massless node would
   /// depend on itself at one time, which no error test sees: steps are then limited to a share of the delay, as below.
   double longest_step() const { return longest_step_; }
-  /// With so many steps in a delay the interpolation has three points on either side. In their middle it amplifies no
-  /// oscillation from step to step; near their end it would, and feedback through the delay would repeat that.
-  static constexpr double steps_in_delay = 3;
   /// The shortest delay of a quantity that is no function of time alone [s]; infinite if there is none.
   double shortest() const { return shortest_; }
 
@@ -109,7 +107,7 @@ class DelayHistory {
   std::vector<int> track_of_motion_;  ///< of each, -1
   std::deque<Break> breaks_;
   std::vector<double> taken_;  ///< of each delayed branch: time until which steps have been taken [s]
-  double longest_step_, shortest_, longest_ = 0, least_jump_ = 1e-12;
+  double longest_step_, shortest_, longest_ = 0, least_jump_ = numerics::equal_values;
   double since_ = 0;           ///< the last discontinuity [s]
   double next_break_ = std::numeric_limits<double>::infinity();
 };

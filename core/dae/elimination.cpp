@@ -6,18 +6,13 @@
 #include <vector>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/sparse_factors.hpp"
 
 namespace rheonet {
 
-namespace {
-
-constexpr int dense_limit = 40;  // above this many unknowns sparse elimination wins
-
-}  // namespace
-
 struct Elimination::Factor {
-  explicit Factor(const Pattern& pattern) : dense(pattern.size <= dense_limit), sparse(pattern), row_scale(pattern.size), column_scale(pattern.size) {}
+  explicit Factor(const Pattern& pattern) : dense(pattern.size <= numerics::dense_elimination_limit), sparse(pattern), row_scale(pattern.size), column_scale(pattern.size) {}
   bool dense;
   Eigen::MatrixXd matrix;
   Eigen::FullPivLU<Eigen::MatrixXd> lu;
@@ -64,7 +59,7 @@ bool Elimination::factorise_dense(const std::vector<double>& values) {
       f.matrix(r, c) = values[at(e)] * f.row_scale[r] * f.column_scale[c];
     }
   }
-  f.lu.setThreshold(1e-290);  // only an exact zero is singular: stiffness ratios of 1e12 are not
+  f.lu.setThreshold(numerics::zero_pivot);
   f.lu.compute(f.matrix);
   return f.lu.isInvertible();
 }

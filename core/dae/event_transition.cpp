@@ -10,25 +10,13 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/dae.hpp"
 #include "core/network/overload_report.hpp"
 #include "core/network/rigid_links.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Step h of the mode-selection problem, as a share of the time to the next known discontinuity, and of the network's own times.
-constexpr double share_of_horizon = 1e-7;
-constexpr double least_of_network = 1e-12;
-constexpr double share_of_network = 1e-3;
-// Relative difference of equal energies.
-constexpr double link_rounding = 1e-9;
-// Jumps in a row, each of which refines the one before.
-constexpr int most_jumps = 3;
-
-}  // namespace
 
 EventTransition::EventTransition(const Network& network, const Structure& classified, Inputs& inputs)
     : network_(network),
@@ -81,8 +69,8 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
   for (bool again = true; again;) {
     // A large displacement leaves its own round-off: a second jump removes it.
     inputs_.sense(t, state);
-    for (int k = 0; smooth && k < most_jumps && settle_errors(t, state, force); ++k) inputs_.sense(t, state);
-    for (int k = 0; k < most_jumps && jump(t, stepped, dx, state, force, change); ++k) {
+    for (int k = 0; smooth && k < numerics::jumps_in_a_row && settle_errors(t, state, force); ++k) inputs_.sense(t, state);
+    for (int k = 0; k < numerics::jumps_in_a_row && jump(t, stepped, dx, state, force, change); ++k) {
       std::fill(dx.begin(), dx.end(), 0.0);
       inputs_.sense(t, state);
     }
@@ -127,7 +115,7 @@ void EventTransition::take_back_excess(const Modes& modes, std::vector<double>& 
 void EventTransition::keep_slipping(std::vector<double>& force) {
   for (std::size_t k = 0; k < force.size(); ++k) {
     const double full = slipping_[k] * inputs_.box(k).at(slipping_[k]).sliding.value, lack = slipping_[k] * (full - force[k]);
-    if (!(lack > 0) || lack > largest_error * std::abs(full)) continue;
+    if (!(lack > 0) || lack > numerics::step_error_of_balance * std::abs(full)) continue;
     force[k] = full;
     for (const NodeId node : {network_.sliders[k].branch.a, network_.sliders[k].branch.b}) slack_[at(node)] += lack;
   }
@@ -198,9 +186,9 @@ double EventTransition::time_ahead(double t, double horizon, const State& state)
     if (m > 0) fastest = std::max({fastest, damping[n] / m, std::sqrt(stiffness[n] / m)});
     if (m == 0 && damping[n] > 0) fastest = std::max(fastest, stiffness[n] / damping[n]);
   }
-  double ahead = share_of_horizon * horizon;
+  double ahead = numerics::horizon_step * horizon;
   // In a shorter time the round-off of the dashpots' forces would hide the changes of the springs' forces.
-  if (fastest > 0) ahead = std::clamp(ahead, least_of_network / fastest, share_of_network / fastest);
+  if (fastest > 0) ahead = std::clamp(ahead, numerics::least_network_step / fastest, numerics::largest_network_step / fastest);
   return std::max(std::min(ahead, inputs_.history().shortest() / 2), time_roundoff(t));
 }
 
@@ -280,7 +268,7 @@ std::vector<int> EventTransition::moving_backwards(const State& state) const {
     if (massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) continue;
     const double va = velocity(a), vb = velocity(b);
     const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
-    if (never && std::abs(va - vb) > link_rounding * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
+    if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
   }
   return result;
 }
@@ -333,7 +321,7 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
       state.velocity[at(node)] = after;
     }
     heat += lost;
-    if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > link_rounding * had) {
+    if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > numerics::equal_energies * had) {
       notes.push_back(fmt::format(
           "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
           "at once, before the energy account begins",
@@ -368,7 +356,7 @@ EventTransition::Nodal EventTransition::nodal(const State& state, const std::vec
       const std::size_t j = at(laws.first) + i;
       const Branch& b = network_.deflections[j];
       add_branch(b, f[j]);
-      const double more = deflection_share * force_of_deflection(*laws.batch, i, state.p[j]) - std::abs(f[j]);
+      const double more = numerics::deflection_force_share * force_of_deflection(*laws.batch, i, state.p[j]) - std::abs(f[j]);
       for (const NodeId node : {b.a, b.b}) result.magnitude[at(node)] += std::max(0.0, more);
     }
   }
@@ -381,7 +369,7 @@ EventTransition::Nodal EventTransition::nodal(const State& state, const std::vec
       add_branch(b, va < vb ? -force : force);
       if (!(laws.batch->growth(i).exponent < 1)) continue;
       // This law is solved for its force, to the round-off of velocities: near rest that round-off changes the force.
-      const double left = Dae::rounding_share * (std::abs(va) + std::abs(vb));
+      const double left = numerics::equation_roundoff * (std::abs(va) + std::abs(vb));
       const double rounding = std::max(laws.batch->force_at(i, w + left) - force, force - laws.batch->force_at(i, w - left));
       for (const NodeId node : {b.a, b.b}) result.rounding[at(node)] += rounding;
     }

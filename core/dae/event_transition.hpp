@@ -48,8 +48,6 @@ class EventTransition {
   /// `dx`: steps of known and viscous nodes due to steps of positions. `position_steps` also finds the momentum that dashpots give to masses [N s].
   Structure take_along(double t, std::vector<double>& dx) const;
   void position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, std::vector<std::string>& notes);
-  /// An imbalance above this share of the forces is no error of the integrator's steps.
-  static constexpr double largest_error = 1e-3;
   /// The displacements at the event until the forces balance under the inputs last evaluated.
   struct Jump {
     ConvexNetwork problem;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -97,14 +99,13 @@ void Inputs::mark(double t, bool fresh) {
 }
 
 std::vector<Inputs::Break> Inputs::breaks(double t) const {
-  constexpr double slope_rounding = 1e-12;
   std::vector<Break> result;
   const auto look = [&](int element, const Signal& signal, const Piece& before) {
     if (before.end > t) return;
     const Piece after = signal.piece(t);
     const double step = after.value(t) - before.value(t), bend = after.rate(t) - before.rate(t);
     const bool jumps = std::abs(step) > before.rounding(t) + after.rounding(t);
-    const bool bends = std::abs(bend) > slope_rounding * (std::abs(after.rate(t)) + std::abs(before.rate(t)));
+    const bool bends = std::abs(bend) > numerics::equal_values * (std::abs(after.rate(t)) + std::abs(before.rate(t)));
     const double change = jumps ? step : bends ? bend : 0;
     result.push_back({element, jumps, change < 0 ? -1 : change > 0 ? 1 : 0});
   };
@@ -259,7 +260,7 @@ Inputs::Flow Inputs::flow(int a, int b, double t, double limit) const {
 double Inputs::next_reversal(int a, int b, double t, double limit) {
   constexpr double never = std::numeric_limits<double>::infinity();
   if (!std::isfinite(limit) || limit <= t) return never;
-  const double grain = 1e-14 * (std::abs(t) + std::abs(limit)) + 1e-13 * (limit - t);
+  const double grain = numerics::reversal_time_roundoff * (std::abs(t) + std::abs(limit)) + numerics::reversal_time_share * (limit - t);
   const auto [search, is_new] = searches_.try_emplace({a, b});
   Search& last = search->second;
   const bool still_ahead = !is_new && last.limit == limit && t >= last.from && last.found - t > 2 * grain;

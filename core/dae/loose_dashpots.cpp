@@ -5,17 +5,11 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
 #include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Round-off of a velocity from Newton's iteration, and of the sum of the forces at a node, in units of the last place.
-constexpr double velocity_places = 16, sum_places = 4;
-
-}  // namespace
 
 void Dae::find_loose_dashpots() {
   std::vector<int> place(structure_->kind.size(), -1);
@@ -63,7 +57,7 @@ void Dae::balance_loose_dashpots() {
   for (std::size_t k = 0; k < loose_nodes_.size(); ++k) {
     const std::size_t n = at(loose_nodes_[k]);
     const double imbalance = view_.nodal[n] - view_.applied[n];
-    const double rounding = sum_places * unit * (magnitude[n] + std::abs(view_.applied[n]));
+    const double rounding = numerics::sum_ulps * unit * (magnitude[n] + std::abs(view_.applied[n]));
     potential[static_cast<Eigen::Index>(k)] = -imbalance;
     conductances.push_back({static_cast<int>(k), -1, rounding * rounding});
     balanced = balanced && std::abs(imbalance) <= rounding;
@@ -71,7 +65,7 @@ void Dae::balance_loose_dashpots() {
   if (balanced) return;
   const auto rounding_of = [&](const Loose& one) {
     const Branch& b = structure_->rates[one.rate];
-    return velocity_places * unit * one.damping * (std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]));
+    return numerics::newton_velocity_ulps * unit * one.damping * (std::abs(v_[at(b.a)]) + std::abs(v_[at(b.b)]));
   };
   for (const Loose& one : loose_) {
     const double rounding = rounding_of(one);

@@ -6,31 +6,13 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/dae/rate_law.hpp"
 #include "core/network/overload_report.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Relative tolerance of a balance of forces.
-constexpr double onset_rounding = 1e-12;
-// A slope below this share of the law's other slope counts as 0.
-constexpr double flat = 1e-6;
-// A change below this share of a value is lost in the difference of two values: rate times time replaces the difference.
-constexpr double difference_limit = 1e-6;
-// Slopes above `rigid_ratio` times those around are treated as rigid, as long as the force is no more than `rigid_share` of the
-// other forces.
-constexpr double rigid_ratio = 1e12;
-constexpr double rigid_share = 1e-6;
-// A slider may slip within the look-ahead time although it still sticks at the event itself: its force reaches the bound only
-// later. A second solution, at the share `at_once` of the time, distinguishes both cases. If the slider sticks there, the
-// look-ahead time shrinks by `nearer` until it sticks within all of it.
-constexpr double at_once = 1e-15, nearer = 1e-3;
-
-}  // namespace
 
 // Over a short time h, with velocities v at its end, all forces counted from those at its beginning, and E, c the slope and
 // creep of a law in the direction of w, the network satisfies
@@ -66,9 +48,9 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   const Nodal now = nodal(state, force, true);
   stop_at_turns(fired, modes, state);
   ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now);
-  const double least = std::max(time_roundoff(t), at_once * h);
+  const double least = std::max(time_roundoff(t), numerics::present_step * h);
   if (breaks_loose(selection) && h > least && !breaks_loose(look_ahead(t, least, fired, state, modes, force, now))) {
-    while (breaks_loose(selection)) selection = look_ahead(t, h = std::max(least, nearer * h), fired, state, modes, force, now);
+    while (breaks_loose(selection)) selection = look_ahead(t, h = std::max(least, numerics::onset_step_ratio * h), fired, state, modes, force, now);
   }
   const ConvexNetwork& problem = selection.problem;
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -137,7 +119,7 @@ void EventTransition::add_nodes(ModeSelection& selection, const State& state) co
       selection.slope_around[n] = structure_.inertia[n] / selection.h;
     }
     const double out = std::abs(selection.now->sum[n]) - slack_[n];
-    if (out > onset_rounding * selection.now->magnitude[n] + selection.now->rounding[n]) selection.problem.load(node, -std::copysign(out, selection.now->sum[n]));
+    if (out > numerics::balance_roundoff * selection.now->magnitude[n] + selection.now->rounding[n]) selection.problem.load(node, -std::copysign(out, selection.now->sum[n]));
   }
   selection.problem.fix(slot(ground), 0);
 }
@@ -153,7 +135,7 @@ void EventTransition::add_inputs(ModeSelection& selection) {
     selection.problem.fix(slot(network_.motions[m].node), h * inputs_.acceleration[m]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
-    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < difference_limit * std::abs(load[k])
+    const double change_of_load = std::abs(load_rate[k] * h) > 0 && std::abs(load_rate[k] * h) < numerics::load_difference * std::abs(load[k])
                                       ? load_rate[k] * h
                                       : inputs_.force[k] - load[k];
     selection.problem.load(slot(network_.forces[k].a), change_of_load);
@@ -215,8 +197,8 @@ void EventTransition::add_rate_laws(ModeSelection& selection, const State& state
       const Branch& b = network_.rates[at(laws.first) + i];
       const double around = std::max(selection.slope_around[at(b.a)], selection.slope_around[at(b.b)]);
       const double w = state.velocity[at(b.a)] - state.velocity[at(b.b)];
-      const double scale = largest > 0 ? largest : coming_force(*laws.batch, i, reach), least_force = rigid_share * scale;
-      const double steepest = around > 0 ? std::max(rigid_ratio * around, least_force / laws.batch->velocity_at(i, least_force))
+      const double scale = largest > 0 ? largest : coming_force(*laws.batch, i, reach), least_force = numerics::rigid_force_share * scale;
+      const double steepest = around > 0 ? std::max(numerics::rigid_slope_ratio * around, least_force / laws.batch->velocity_at(i, least_force))
                                          : std::numeric_limits<double>::infinity();
       selection.problem.add(slot(b.a), slot(b.b), law_of(*laws.batch, i, w, scale, steepest));
     }
@@ -232,7 +214,7 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
     // At its bound the rate alone decides, not the round-off of the event.
     const int side = bound(k, 1) - force < bound(k, -1) + force ? 1 : -1;
     const double limit = bound(k, side);
-    const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= onset_rounding * limit;
+    const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= numerics::balance_roundoff * limit;
     const bool fired = contains(selection.fired->sliders, static_cast<int>(k));
     if (selection.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
       (side > 0 ? law.high : law.low) = side > 0 ? forward : -backward;
@@ -338,7 +320,7 @@ void EventTransition::take_directions(const ModeSelection& selection, const Stat
 
 bool EventTransition::same_velocity(const ConvexNetwork& problem, NodeId a, NodeId b) const {
   const double speeds = std::abs(problem.value(slot(a))) + std::abs(problem.value(slot(b)));
-  return std::abs(problem.difference(slot(a), slot(b))) <= velocity_roundoff * speeds;
+  return std::abs(problem.difference(slot(a), slot(b))) <= numerics::equal_velocities * speeds;
 }
 
 /// For each set, at the index of the node that represents it: a known node of the set, or -1.
@@ -354,9 +336,9 @@ std::vector<NodeId> EventTransition::given_in(DisjointSets& sets) const {
 /// but the least disturbance would end that. In parallel with a sticking slider it rests instead.
 bool EventTransition::relaxes_from_bound(const ConvexNetwork& problem, int branch, const DeflectionBatch& batch, std::size_t i, double p) {
   const int direction = batch.direction(i);
-  if (direction == 0 || !(batch.slope(i, p, direction) <= flat * batch.slope(i, p, -direction))) return false;
+  if (direction == 0 || !(batch.slope(i, p, direction) <= numerics::flat_slope * batch.slope(i, p, -direction))) return false;
   const auto [low, high] = problem.bounds(branch);
-  return std::abs(problem.force(branch) - (direction > 0 ? high : low)) <= flat * (high - low);
+  return std::abs(problem.force(branch) - (direction > 0 ? high : low)) <= numerics::flat_slope * (high - low);
 }
 
 bool EventTransition::reversed(const Fired& fired, int branch) const {

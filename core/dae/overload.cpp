@@ -9,18 +9,13 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/network/overload_report.hpp"
 
 namespace rheonet {
 
 namespace {
-
-// A load within such a share of the elements' largest forces is an overload; the least share that shows an overload applies.
-// Friction reaches its bound in the limit only, and the integrator gives up before.
-constexpr std::array shares = {1e-9, 1e-6, 1e-4, 1e-2};
-// Residual capacity of a saturated edge, as a share of the largest capacity.
-constexpr double flow_rounding = 1e-12;
 
 /// Flow of forces through a network, from where loads push to where nodes are held. Nodes are numbered from 0.
 class ForceFlow {
@@ -43,7 +38,7 @@ class ForceFlow {
       open.pop_back();
       for (auto [e, end] = boost::out_edges(from, graph_); e != end; ++e) {
         const std::size_t to = boost::target(*e, graph_);
-        if (reached[to] || !(boost::get(boost::edge_residual_capacity, graph_, *e) > flow_rounding * largest_)) continue;
+        if (reached[to] || !(boost::get(boost::edge_residual_capacity, graph_, *e) > numerics::balance_roundoff * largest_)) continue;
         reached[to] = 1;
         open.push_back(to);
       }
@@ -161,8 +156,8 @@ void EventTransition::report_runaway(double t, const std::vector<int>& runaways,
   const std::vector<double> push = pushes(state);
   std::array<std::vector<char>, 2> sides;
   const auto found = [](const std::vector<char>& set) { return std::find(set.begin(), set.end(), 1) != set.end(); };
-  for (std::size_t k = 0; k < shares.size() && !found(sides[0]) && !found(sides[1]); ++k) {
-    sides = {pushed_away(push, 1, shares[k]), pushed_away(push, -1, shares[k])};
+  for (std::size_t k = 0; k < numerics::overload_margins.size() && !found(sides[0]) && !found(sides[1]); ++k) {
+    sides = {pushed_away(push, 1, numerics::overload_margins[k]), pushed_away(push, -1, numerics::overload_margins[k])};
   }
   if (!found(sides[0]) && !found(sides[1])) sides[0] = carried(runaways);
   const auto leaves = [](const std::vector<char>& set, const Branch& b) { return set[at(b.a)] != set[at(b.b)]; };

@@ -5,31 +5,13 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/consistency.hpp"
 
 namespace rheonet {
 
 namespace {
-
-// Least scale of an unknown, as a share of the largest of its kind.
-constexpr double share_of_kind = 1e-6;
-// Relative imbalance that is accepted where Newton's method makes no progress.
-constexpr double loose_balance = 1e-10;
-constexpr int most_whole_steps = 20;
-constexpr int most_idle = 3;  // steps in a row that do not halve the imbalance
-// With secants the error of an unknown falls by a power law: slowly at first.
-constexpr int most_secant_steps = 300;
-constexpr int most_idle_secants = 40;
-// Damped steps: a relative change of an unknown this small is the round-off of some tens of terms.
-constexpr double change_rounding = 1e-14;
-// After a full step, a relative change below this is lost in the last digits of the unknown.
-constexpr double last_digits = 1e-15;
-// If no step damped down to this share reduces Newton's correction, its slopes are round-off or there is no solution.
-constexpr double least_damping = 1e-6;
-// Relative change that is accepted then, as derivatives of round-off leave it.
-constexpr double loose_change = 1e-9;
-constexpr int most_damped_steps = 500;
 
 /// While it exists, slopes are secants.
 struct Secants {
@@ -69,11 +51,11 @@ class Consistency::Projection {
 
   void solve() {
     if (rests()) return;
-    if (whole_steps(most_whole_steps, most_idle)) return finish();
+    if (whole_steps(numerics::projection_steps, numerics::projection_idle_steps)) return finish();
     if (dae_.rough()) {
       y_ = before_;
       const Secants secants(dae_);
-      if (whole_steps(most_secant_steps, most_idle_secants)) return finish();
+      if (whole_steps(numerics::secant_steps, numerics::secant_idle_steps)) return finish();
     }
     y_ = before_;
     damped_steps();
@@ -105,7 +87,7 @@ class Consistency::Projection {
     dae_.magnitudes(magnitude_.data());
     add_unknown_velocities();
     for (std::size_t i = 0; i < n_; ++i) {
-      if (!differential(i) && std::abs(defect_[i]) > Dae::rounding_share * magnitude_[i]) return false;
+      if (!differential(i) && std::abs(defect_[i]) > numerics::equation_roundoff * magnitude_[i]) return false;
     }
     return true;
   }
@@ -170,21 +152,21 @@ class Consistency::Projection {
       for (std::size_t i = 0; i < n_; ++i) y_[i] += change_[i];
     }
     y_ = best;
-    return least <= loose_balance;
+    return least <= numerics::stalled_projection_balance;
   }
 
   /// Newton's method, damped by the natural monotonicity test (Deuflhard, Newton Methods for Nonlinear Problems, 2004, 3.3),
   /// which does not depend on the units of the equations.
   void damped_steps() {
     double damping = 1;
-    for (int iteration = 0; iteration < most_damped_steps; ++iteration) {
+    for (int iteration = 0; iteration < numerics::damped_steps; ++iteration) {
       c_.factorise(t_, y_);
       if (within_rounding(y_)) return;
       find_change(change_);
       find_scales();
       const double size = norm(change_);
       if (!std::isfinite(size)) c_.report_unsolved(t_);
-      if (size <= change_rounding) return;
+      if (size <= numerics::damped_change) return;
       for (;; damping /= 2) {
         for (std::size_t i = 0; i < n_; ++i) trial_[i] = y_[i] + damping * change_[i];
         if (within_rounding(trial_)) {
@@ -192,14 +174,14 @@ class Consistency::Projection {
           return;
         }
         find_change(next_);
-        if (norm(next_) <= (1 - damping / 4) * size || norm(next_) <= change_rounding) break;
-        if (damping < least_damping) {
-          if (size <= loose_change || within_rounding(y_) || lost_in_rounding()) return;
+        if (norm(next_) <= (1 - damping / 4) * size || norm(next_) <= numerics::damped_change) break;
+        if (damping < numerics::least_damping) {
+          if (size <= numerics::stalled_projection_change || within_rounding(y_) || lost_in_rounding()) return;
           c_.report_unsolved(t_);
         }
       }
       y_ = trial_;
-      if (damping == 1 && norm(next_) <= last_digits) return;
+      if (damping == 1 && norm(next_) <= numerics::full_step_change) return;
       damping = std::min(1.0, 2 * damping);
     }
     c_.report_unsolved(t_);
@@ -208,8 +190,7 @@ class Consistency::Projection {
   /// Whether Newton's step is within the effect of round-off of the equations' terms. The round-off of a large force may reach
   /// far: through the deflection of its spring to another deflection, and from there to a velocity with hardly any force.
   bool lost_in_rounding() {
-    constexpr double grains = 4 * std::numeric_limits<double>::epsilon(), several = 4;
-    constexpr unsigned patterns = 8;  // of signs, as contributions may cancel
+    constexpr double grains = numerics::sum_ulps * std::numeric_limits<double>::epsilon();
     within_rounding(y_);
     const Pattern& pattern = dae_.pattern();
     std::vector<double> lost = magnitude_, reach(n_, 0), moved(n_);
@@ -219,14 +200,14 @@ class Consistency::Projection {
         if (differential(row)) lost[row] += std::abs(c_.values_[at(e)] * y_[column]);
       }
     }
-    for (unsigned p = 0; p < patterns; ++p) {
+    for (unsigned p = 0; p < numerics::roundoff_patterns; ++p) {
       // Rows of a Hadamard matrix: of any few rows the signs come in every combination.
       for (std::size_t i = 0; i < n_; ++i) moved[i] = std::popcount(static_cast<unsigned>(i) & p) % 2 ? -grains * lost[i] : grains * lost[i];
       c_.elimination_.solve(moved);
       for (std::size_t i = 0; i < n_; ++i) reach[i] = std::max(reach[i], std::abs(moved[i]));
     }
     for (std::size_t i = 0; i < n_; ++i) {
-      if (!(std::abs(change_[i]) <= std::max(several * reach[i], change_rounding * scale_[i]))) return false;
+      if (!(std::abs(change_[i]) <= std::max(numerics::roundoff_reach * reach[i], numerics::damped_change * scale_[i]))) return false;
     }
     return true;
   }
@@ -243,10 +224,10 @@ class Consistency::Projection {
       if (c_.kind_[i] >= position) return std::max(std::abs(before_[i]), std::abs(y_[i]));
       if (c_.kind_[i] != deflection) return std::max({scale_[i], std::abs(y_[i]), std::abs(change_[i])});
       const double stiffness = std::abs(slope[at(c_.branch_[i])]);
-      return std::max(std::abs(before_[i]), stiffness > 0 ? share_of_kind * largest_force / stiffness : 0);
+      return std::max(std::abs(before_[i]), stiffness > 0 ? numerics::projection_scale_floor * largest_force / stiffness : 0);
     };
     for (std::size_t i = 0; i < n_; ++i) largest[c_.kind_[i]] = std::max(largest[c_.kind_[i]], size_of(i));
-    for (std::size_t i = 0; i < n_; ++i) scale_[i] = std::max(size_of(i), share_of_kind * largest[c_.kind_[i]]);
+    for (std::size_t i = 0; i < n_; ++i) scale_[i] = std::max(size_of(i), numerics::projection_scale_floor * largest[c_.kind_[i]]);
   }
 
   double norm(const std::vector<double>& x) const {
@@ -261,7 +242,7 @@ class Consistency::Projection {
   void finish() {
     // A velocity that is round-off becomes 0. A mass keeps the smallest velocity.
     for (std::size_t i = 0; i < n_; ++i) {
-      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= velocity_roundoff * fastest_) y_[i] = 0;
+      if (c_.kind_[i] == velocity && !differential(i) && std::abs(y_[i]) <= numerics::equal_velocities * fastest_) y_[i] = 0;
     }
     // Integrals that nothing changes keep their last digit.
     trial_ = y_;

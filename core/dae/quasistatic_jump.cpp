@@ -7,18 +7,12 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Relative tolerance of a balance of forces.
-constexpr double jump_rounding = 1e-12;
-
-}  // namespace
 
 void EventTransition::position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = inputs_.steps()[m];
@@ -86,7 +80,7 @@ std::optional<EventTransition::Jump> EventTransition::find_jump(const std::vecto
       problem.fix(slot(node), dx[n]);
     } else if (speaker(node) != node) {
       problem.fix(slot(node), 0);
-    } else if (const double out = std::abs(sum[n]) - slack[n]; out > jump_rounding * magnitude[n] + rounding[n]) {
+    } else if (const double out = std::abs(sum[n]) - slack[n]; out > numerics::balance_roundoff * magnitude[n] + rounding[n]) {
       problem.load(slot(node), -std::copysign(out, sum[n]));
       needed = true;
     }
@@ -94,7 +88,7 @@ std::optional<EventTransition::Jump> EventTransition::find_jump(const std::vecto
   const auto light = [&](const Branch& b) { return structure_.group[at(b.a)] >= 0 || structure_.group[at(b.b)] >= 0; };
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    needed = needed || (light(b) && std::abs(force[k]) > bound(k, force[k] > 0 ? 1 : -1) * (1 + jump_rounding));
+    needed = needed || (light(b) && std::abs(force[k]) > bound(k, force[k] > 0 ? 1 : -1) * (1 + numerics::balance_roundoff));
   }
   if (!needed) return std::nullopt;
 
@@ -179,14 +173,12 @@ bool EventTransition::settle_errors(double t, State& state, std::vector<double>&
   if (structure_.groups.empty()) return false;
   const Nodal now = together(nodal(state, force, false));
   for (std::size_t n = 0; n < now.sum.size(); ++n) {
-    if (structure_.group[n] >= 0 && std::abs(now.sum[n]) > largest_error * now.magnitude[n]) return false;
+    if (structure_.group[n] >= 0 && std::abs(now.sum[n]) > numerics::step_error_of_balance * now.magnitude[n]) return false;
   }
   const std::vector<double> still(structure_.kind.size(), 0);
   const std::optional<Jump> back = find_jump(still, state, force), along = find_jump(still, state, force, true);
   if (!along || along->outcome != ConvexNetwork::Outcome::solved || back->outcome != ConvexNetwork::Outcome::solved) return false;
-  // A law with almost no slope in its present direction would move far for nothing.
-  constexpr double far = 1e3;
-  if (farthest(*along) > far * farthest(*back)) return false;
+  if (farthest(*along) > numerics::distant_balance * farthest(*back)) return false;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t j = at(laws.first) + i;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
 #include "core/dae/rate_law.hpp"
 
@@ -137,7 +138,7 @@ void Dae::magnitudes(double* r) const {
   };
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     // Friction that has slid far and reversed has a small force at a large deflection.
-    add_branch(structure_->deflections[j], std::max(std::abs(view_.f[j]), deflection_share * std::abs(df_[j] * view_.p[j])));
+    add_branch(structure_->deflections[j], std::max(std::abs(view_.f[j]), numerics::deflection_force_share * std::abs(df_[j] * view_.p[j])));
   }
   for (std::size_t k = 0; k < if_.size(); ++k) {
     const Branch& b = structure_->rates[k];
@@ -165,8 +166,8 @@ void Dae::magnitudes(double* r) const {
           if (row >= 0) forces = std::max(forces, r[row]);
         }
       }
-      const double f = std::abs(rate_in_[k]), lost = rounding_share * forces;
-      r[if_[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / rounding_share;
+      const double f = std::abs(rate_in_[k]), lost = numerics::equation_roundoff * forces;
+      r[if_[k]] += (laws.batch->velocity_at(i, f + lost) - laws.batch->velocity_at(i, f)) / numerics::equation_roundoff;
     }
   }
   for (const Row& row : rows_) {

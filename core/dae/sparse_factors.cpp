@@ -3,20 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
-
-namespace {
-
-// A pivot off the diagonal is taken if the diagonal entry is below this share of the largest entry of its column. (KLU's 1e-3
-// costs stiff elements three digits.)
-constexpr double pivot_share = 0.1;
-
-}  // namespace
 
 SparseFactors::SparseFactors(const Pattern& pattern) : pattern_(pattern) {
   klu_defaults(&common_);
   common_.scale = 0;
-  common_.tol = pivot_share;
+  common_.tol = numerics::diagonal_pivot_share;
 }
 
 SparseFactors::~SparseFactors() {
@@ -36,7 +30,7 @@ bool SparseFactors::factorise(double* values) {
 bool SparseFactors::refactorise(double* values) {
   if (!numeric_ || !klu_refactor(columns(), rows(), values, symbolic_, numeric_, &common_)) return false;
   // A pivot may be small for its place alone, by its units: the estimated condition number decides.
-  static const double small = std::pow(std::numeric_limits<double>::epsilon(), 2.0 / 3);
+  static const double small = std::pow(std::numeric_limits<double>::epsilon(), numerics::refactor_condition_exponent);
   klu_rcond(symbolic_, numeric_, &common_);
   if (common_.rcond >= small) return true;
   klu_condest(columns(), values, symbolic_, numeric_, &common_);

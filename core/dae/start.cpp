@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/pair_start.hpp"
 #include "core/dae/start_balance.hpp"
 #include "core/network/rigid_links.hpp"
@@ -13,9 +14,6 @@
 namespace rheonet {
 
 namespace {
-
-// Relative difference of equal initial values: a user may give one of them in another unit, with fewer digits.
-constexpr double same_value = 1e-9;
 
 /// The initial displacement (`d0`) that an element was given; NaN if none.
 double initial_displacement(const Network& network, const Branch& branch) {
@@ -59,7 +57,7 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
       const auto a = static_cast<std::size_t>(b->a), c = static_cast<std::size_t>(b->b);
       const double d0 = initial_displacement(network, *b);
       if (fixed[a] && fixed[c]) {
-        if (std::abs(x[a] - x[c] - d0) > same_value * (std::abs(x[a]) + std::abs(x[c]) + std::abs(d0))) {
+        if (std::abs(x[a] - x[c] - d0) > numerics::equal_given_values * (std::abs(x[a]) + std::abs(x[c]) + std::abs(d0))) {
           throw SimulationError(
               network.spot_of(b->element),
               fmt::format("element `{}` cannot start with the displacement d0 = {}: nodes `{}` and `{}` start {} "
@@ -98,7 +96,7 @@ double initial_velocity(const Network::Motion& motion) {
 }
 
 bool contradicts(const SceneNode& node, double velocity) {
-  return !std::isnan(node.velocity) && std::abs(node.velocity - velocity) > same_value * std::abs(velocity);
+  return !std::isnan(node.velocity) && std::abs(node.velocity - velocity) > numerics::equal_given_values * std::abs(velocity);
 }
 
 /// A node moved by a block has no velocity of its own, and starts where the block does.
@@ -108,7 +106,7 @@ void follow_block(const Network& network, const Network::Motion& motion, double&
   if (!motion.acceleration && !std::isnan(node.velocity))
     refuse_velocity(network, node, fmt::format("motion `{}` gives it that of a block; leave it out", name));
   if (std::isnan(motion.from)) return;
-  if (given && std::abs(x - motion.from) > same_value * std::abs(motion.from))
+  if (given && std::abs(x - motion.from) > numerics::equal_given_values * std::abs(motion.from))
     throw SimulationError(node.spot, fmt::format("node `{}` cannot start at position {}: the block of motion `{}` begins at {}; leave out "
                                                  "one of them",
                                                  node.name, with_unit(*network.scene, x, Quantity::position), name,
@@ -143,7 +141,7 @@ void follow_motion(const Network& network, const Network::Motion& motion, Places
   if (motion.block >= 0) return follow_block(network, motion, x, given);
   if (motion.position) {
     const double before = motion.signal.before(0), after = motion.signal.value(0);
-    const double tolerance = same_value * (std::abs(before) + std::abs(after));
+    const double tolerance = numerics::equal_given_values * (std::abs(before) + std::abs(after));
     const bool there_already = given && std::abs(x - after) <= tolerance;
     if (given && !there_already && std::abs(x - before) > tolerance) {
       throw SimulationError(
@@ -237,7 +235,7 @@ StartWords describe_start(const Start& start, const Network& network, const Stru
                       node.name, with_unit(scene, velocity[n], Quantity::velocity), node.velocity));
     }
     const double x = start.state.position[n];
-    if (floating && std::abs(x - node.position) > same_value * (std::abs(x) + std::abs(node.position))) {
+    if (floating && std::abs(x - node.position) > numerics::equal_given_values * (std::abs(x) + std::abs(node.position))) {
       words.notes.push_back(fmt::format("node `{}` starts at position {}, not at {}, which is given: it has no mass, and there the forces balance",
                                         node.name, with_unit(scene, x, Quantity::position), with_unit(scene, node.position, Quantity::position)));
     }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
@@ -34,7 +35,7 @@ class StartBalance {
         structure_(structure),
         state_(state),
         fixed_(std::move(fixed)),
-        tolerance_(std::max(1e-9, network.scene->accuracy)),
+        tolerance_(std::max(numerics::equal_given_values, network.scene->accuracy)),
         around_(structure.groups.size()),
         lets_go_(structure.groups.size(), 0),
         before_(structure.groups.size(), 0),
@@ -289,12 +290,11 @@ class StartBalance {
 
   /// Shift of each group of the region [m]; the first one stays if nothing anchors the region.
   Eigen::VectorXd balanced_shifts(const Region& region) {
-    constexpr int most_iterations = 50;
     const auto size = static_cast<Eigen::Index>(region.groups.size());
     Eigen::VectorXd left(size), shift = Eigen::VectorXd::Zero(size);
     for (Eigen::Index k = 0; k < size; ++k) left[k] = left_to_others(region.groups[static_cast<std::size_t>(k)]);
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
-    for (int n = 0; n < most_iterations; ++n) {
+    for (int n = 0; n < numerics::start_balance_iterations; ++n) {
       Eigen::VectorXd missing = left;
       std::vector<Eigen::Triplet<double>> stiffness;
       for (const Side& side : region.places) {
@@ -322,7 +322,7 @@ class StartBalance {
       if (factors.info() != Eigen::Success) return Eigen::VectorXd::Constant(size, not_given);
       const Eigen::VectorXd change = factors.solve(missing);
       shift += change;
-      if (!(change.cwiseAbs().maxCoeff() > 4 * std::numeric_limits<double>::epsilon() * shift.cwiseAbs().maxCoeff())) break;
+      if (!(change.cwiseAbs().maxCoeff() > numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * shift.cwiseAbs().maxCoeff())) break;
     }
     return shift;
   }

@@ -4,10 +4,6 @@
 
 namespace rheonet {
 
-/// Share of slope times deflection that counts as a force in estimates of round-off: a small force at a large deflection has
-/// the round-off of that product. Below 1, as a deflection is rounded less often than a sum of forces.
-constexpr double deflection_share = 0.1;
-
 /// The state of a network independent of its modes: it passes from the equations of one mode to those of the next.
 struct State {
   std::vector<double> velocity;  ///< of each node [m/s]; a guess at massless nodes

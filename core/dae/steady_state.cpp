@@ -1,5 +1,6 @@
 #include "core/dae/steady_state.hpp"
 
+#include "core/base/numerics.hpp"
 #include "core/dae/pair_start.hpp"
 #include "core/dae/steady_state_solver.hpp"
 
@@ -137,7 +138,7 @@ void SteadyStateSolver::hold_what_is_free() {
   }
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     if (held[n] || sets.find(static_cast<NodeId>(n)) != static_cast<NodeId>(n)) continue;
-    if (std::abs(load[n]) > rounding * magnitude[n]) {
+    if (std::abs(load[n]) > numerics::balance_roundoff * magnitude[n]) {
       std::vector<NodeId> nodes;
       for (std::size_t m = 0; m < velocity_.size(); ++m) {
         if (at(sets.find(static_cast<NodeId>(m))) == n) nodes.push_back(static_cast<NodeId>(m));
@@ -170,7 +171,7 @@ void SteadyStateSolver::note_what_gave_way() {
     const SceneNode& node = network_.node(static_cast<NodeId>(n));
     state_.velocity[n] = velocity_[n];
     if (n == 0 || std::isnan(node.velocity) || known(static_cast<NodeId>(n))) continue;
-    if (std::abs(node.velocity - velocity_[n]) <= rounding * std::abs(node.velocity)) continue;
+    if (std::abs(node.velocity - velocity_[n]) <= numerics::equal_values * std::abs(node.velocity)) continue;
     note(fmt::format("node `{}` moves at {}, not at its start value, {}", node.name,
                      with_unit(velocity_[n], Quantity::velocity), with_unit(node.velocity, Quantity::velocity)));
   }
@@ -183,7 +184,7 @@ void SteadyStateSolver::note_what_gave_way() {
       const double f0 = element.values[k];
       if (parameters[k].kind != Parameter::Kind::initial || parameters[k].quantity != Quantity::force) continue;
       // The initial force of a spring says where it is free of force.
-      if (std::isnan(f0) || laws_[j].rigid() || std::abs(f - f0) <= rounding * std::abs(f0)) continue;
+      if (std::isnan(f0) || laws_[j].rigid() || std::abs(f - f0) <= numerics::balance_roundoff * std::abs(f0)) continue;
       note(fmt::format("`{}` has the force {}, not its start value, {}", element.name, with_unit(f, Quantity::force),
                        with_unit(f0, Quantity::force)));
     }

@@ -10,6 +10,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/dae/steady_state.hpp"
 #include "core/network/rigid_links.hpp"
@@ -25,9 +26,6 @@ class SteadyStateSolver {
   SteadyStart go();
 
  private:
-  /// Forces balance, and values agree, if they differ by no more than this share of their magnitudes.
-  static constexpr double rounding = 1e-12;
-
   struct Law {
     DeflectionBatch* batch;
     std::size_t i;
@@ -53,7 +51,7 @@ class SteadyStateSolver {
   bool known(NodeId node) const { return structure_.kind[at(node)] == Kind::known; }
   double difference(const Branch& b) const {
     const double va = velocity_[at(b.a)], vb = velocity_[at(b.b)], w = va - vb;
-    return std::abs(w) <= rounding * std::max(std::abs(va), std::abs(vb)) ? 0 : w;
+    return std::abs(w) <= numerics::equal_values * std::max(std::abs(va), std::abs(vb)) ? 0 : w;
   }
   int slot(NodeId node) const { return structure_.rank[at(node)]; }
   /// Slot of the node that represents all nodes that move with this one.

@@ -1,17 +1,9 @@
+#include "core/base/numerics.hpp"
 #include "core/dae/rate_law.hpp"
 #include "core/dae/steady_state_solver.hpp"
 #include "core/network/overload_report.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Slope of a law at its bound, as a share of its slope below: the law then moves on in the direction that keeps its force.
-constexpr double slope_at_bound = 1e-6;
-// A node this many times faster than the forces would move any resisting element meets no resistance.
-constexpr double far_share = 1e5;
-
-}  // namespace
 
 /// Chooses the node that represents each set: one whose velocity is given if there is one.
 void SteadyStateSolver::lead(DisjointSets& sets) {
@@ -47,7 +39,7 @@ bool SteadyStateSolver::find_velocities() {
     if (s.slope > 0 && std::isfinite(s.bound)) {
       law.beyond = [s](double w, double& slope) {
         const double f = s.slope * w;
-        slope = std::abs(f) < s.bound ? s.slope : slope_at_bound * s.slope;
+        slope = std::abs(f) < s.bound ? s.slope : numerics::steady_bound_slope * s.slope;
         return std::clamp(f, -s.bound, s.bound);
       };
     }
@@ -60,7 +52,7 @@ bool SteadyStateSolver::find_velocities() {
     }
   }
   add_rates(problem, scale);
-  solve(problem, far_share * natural_speed(scale));
+  solve(problem, numerics::unresisted_speed * natural_speed(scale));
 
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {

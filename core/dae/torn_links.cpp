@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/network/rigid_links.hpp"
@@ -14,17 +15,16 @@ namespace rheonet {
 /// The time at which two known nodes have different velocities, if any: now, or, for functions of time, until the next
 /// discontinuity of one.
 std::optional<EventTransition::Parting> EventTransition::parting(double t, NodeId a, NodeId b) const {
-  constexpr double rounding = 1e-12;  // of the largest velocity: one may be given by its position
   const double fast = inputs_.reach().velocity;
   const auto apart = [&](double then) -> std::optional<Parting> {
     const double va = given_velocity(a), vb = given_velocity(b);
-    if (std::abs(va - vb) <= rounding * (fast + std::abs(va) + std::abs(vb))) return {};
+    if (std::abs(va - vb) <= numerics::equal_values * (fast + std::abs(va) + std::abs(vb))) return {};
     return Parting{then, va, vb};
   };
   std::optional<Parting> found = apart(t);
   if (found || !structure_.of_time[at(a)] || !structure_.of_time[at(b)]) return found;
   const double end = std::min(inputs_.next_break(), network_.scene->stop - network_.scene->start);
-  for (const double share : {0.37, 0.83}) {
+  for (const double share : numerics::torn_link_times) {
     const double then = t + share * std::max(0.0, end - t);
     inputs_.evaluate(then);
     if (!found) found = apart(then);

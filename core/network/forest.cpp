@@ -9,6 +9,7 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
@@ -186,13 +187,12 @@ struct Sum {
   }
 
   Structure::Loop loop(const Structure& s, int branch) const {
-    constexpr double rounding = 1e-12;  // relative to coefficients of order 1: shares of the nodes around a tie
     Structure::Loop result{.branch = branch, .flows = {}, .velocities = {}};
     for (auto [j, sign] : flows) {
-      if (std::abs(sign) > rounding) result.flows.push_back({j, sign});
+      if (std::abs(sign) > numerics::equal_values) result.flows.push_back({j, sign});
     }
     for (auto [node, sign] : velocities) {
-      if (std::abs(sign) > rounding && node != ground) result.velocities.push_back({node, sign});
+      if (std::abs(sign) > numerics::equal_values && node != ground) result.velocities.push_back({node, sign});
     }
     std::sort(result.velocities.begin(), result.velocities.end(), [&](const Structure::Term& x, const Structure::Term& y) {
       return s.rank[at(x.index)] < s.rank[at(y.index)];

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/component.hpp"
 #include "core/network/linear_law.hpp"
 #include "core/network/reductions.hpp"
@@ -13,15 +14,6 @@
 namespace rheonet {
 
 namespace {
-
-// The share e (see the header): e^2, the share of the reaction, is far below round-off and far above underflow.
-constexpr double share = 1e-12;
-// Smallest share of nodes out of reach for which a scene is cut.
-constexpr double worth_a_cut = 0.1;
-// Trial values of w - 1, a geometric series. The best w is near 1 if motion spreads by diffusion, and large if it has hardly
-// begun before the stop.
-constexpr std::size_t weights_tried = 48;
-constexpr double first_excess = 1e-3, excess_ratio = 1.6;
 
 constexpr int unreached = std::numeric_limits<int>::max();
 
@@ -173,8 +165,8 @@ class InfluenceSearch {
   }
 
   int farthest() const {
-    std::array<double, weights_tried> weight, a, b;
-    for (std::size_t k = 0; k < weights_tried; ++k) weight[k] = 1 + first_excess * std::pow(excess_ratio, static_cast<double>(k));
+    std::array<double, numerics::cone_weights> weight, a, b;
+    for (std::size_t k = 0; k < numerics::cone_weights; ++k) weight[k] = 1 + numerics::cone_first_weight * std::pow(numerics::cone_weight_ratio, static_cast<double>(k));
     a.fill(0);  // a >= 0: a negative growth rate, from damping, is not relied upon
     b.fill(0);
     for (std::size_t n = 1; n < distance_.size(); ++n) {
@@ -189,16 +181,16 @@ class InfluenceSearch {
         add(c, branch.damping);
         add(k, branch.stiffness);
       });
-      for (std::size_t i = 0; i < weights_tried; ++i) {
+      for (std::size_t i = 0; i < numerics::cone_weights; ++i) {
         const double w = weight[i];
         a[i] = std::max(a[i], c.nearer * (w - 1) + c.farther * (1 / w - 1) - c.ground);
         b[i] = std::max(b[i], k.nearer * (w + 1) + k.farther * (1 / w + 1) + 2 * k.equal + k.ground);
       }
     }
     double least = unreached;
-    for (std::size_t i = 0; i < weights_tried; ++i) {
+    for (std::size_t i = 0; i < numerics::cone_weights; ++i) {
       const double rate = (a[i] + std::sqrt(a[i] * a[i] + 4 * b[i])) / 2;
-      least = std::min(least, std::ceil((rate * (scene_.stop - scene_.start) - std::log(share)) / std::log(weight[i])));
+      least = std::min(least, std::ceil((rate * (scene_.stop - scene_.start) - std::log(numerics::cone_share)) / std::log(weight[i])));
     }
     return least < unreached ? static_cast<int>(least) : unreached - 1;
   }
@@ -213,7 +205,7 @@ class InfluenceSearch {
       reach.node[n] = near(static_cast<NodeId>(n));
       nodes_beyond += reach.node[n] ? 0 : 1;
     }
-    if (nodes_beyond == 0 || static_cast<double>(nodes_beyond) < worth_a_cut * static_cast<double>(scene_.nodes.size())) return {};
+    if (nodes_beyond == 0 || static_cast<double>(nodes_beyond) < numerics::cone_worth * static_cast<double>(scene_.nodes.size())) return {};
     for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
       const SceneElement& element = scene_.elements[e];
       const bool block = components()[at(element.declaration)]->role == Role::block;

@@ -5,15 +5,9 @@
 #include <limits>
 #include <numeric>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
-
-namespace {
-
-// Yield points closer than this, relative to their distance from the reversal, are one kink: more than their round-off, and
-// too close to affect the force.
-constexpr double same_kink = 1e-13;
-
-}  // namespace
 
 /// The bundle after a reversal at p.
 struct Iwan::Back {
@@ -108,7 +102,7 @@ void Iwan::find_kink() {
   next_end_ = passed_;
   while (next_end_ < size()) {
     next_ = next_end_;
-    const double limit = y_[next_] * (1 + same_kink) + same_kink * std::abs(p_ref_);
+    const double limit = y_[next_] * (1 + numerics::yield_point_distance) + numerics::yield_point_distance * std::abs(p_ref_);
     double stiffness = 0;
     for (; next_end_ < size() && y_[next_end_] <= limit; ++next_end_) {
       stiffness += pairs_[order_[next_end_]].stiffness;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/netlist/scene.hpp"
 
 namespace rheonet {
@@ -34,7 +35,7 @@ bool same(const Reduced& x, const Reduced& y) { return x.component == y.componen
 /// Two values within the bounds of a parameter at which no law has a limit.
 std::array<double, 2> ordinary_values(const Parameter& p) {
   const double low = std::max(p.lower, 0.0), length = std::isfinite(p.upper) ? p.upper - low : 1;
-  return {low + 0.37 * length, low + 0.71 * length};
+  return {low + numerics::ordinary_places[0] * length, low + numerics::ordinary_places[1] * length};
 }
 
 }  // namespace

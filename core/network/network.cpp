@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/linear_law.hpp"
@@ -15,11 +16,6 @@
 namespace rheonet {
 
 namespace {
-
-// Share of a bundle's stiffness above which a kink is an event. Measured on a mass that N equal springs hold
-// (tests/analytic/iwan_test.cpp) at accuracies from 1e-3 to 1e-9. The error is within the accuracy either way. Compared with
-// the error test alone, events cost no more steps up to about 30 pairs, and up to twice as many from 50 pairs on.
-constexpr double kink_worth_an_event = 0.03;
 
 std::string describe(const std::string& what, const std::string& element, const std::string& rule) {
   return fmt::format("{} `{}`: {}", what, element, rule);
@@ -101,7 +97,7 @@ void tie_up_pairs(Network& network) {
   }
   auto batch = std::make_unique<IwanBatch>();
   // A scene with rows at every event needs an event at every yield.
-  const double kink_share = network.scene->output_events ? 0 : kink_worth_an_event;
+  const double kink_share = network.scene->output_events ? 0 : numerics::kink_event_share;
   for (std::vector<Iwan::Pair>& bundle : bundles) batch->add(Iwan(std::move(bundle), kink_share));
   network.bundles = batch.get();
   network.deflection_laws.push_back({nullptr, network.first_bundle, std::move(batch)});
@@ -129,9 +125,9 @@ RateBatch& Network::rate_of(int branch, std::size_t& i) const { return batch_wit
 
 std::string at_time(const Scene& scene, double t) {
   // After a late start the same resolution of elapsed time takes more digits.
-  const double elapsed = std::max(std::abs(t), 1e-3 * (scene.stop - scene.start));
-  const int digits = 9 + static_cast<int>(std::ceil(std::max(0.0, std::log10(std::abs(scene.start) / elapsed))));
-  return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, 16));
+  const double elapsed = std::max(std::abs(t), numerics::time_resolution * (scene.stop - scene.start));
+  const int digits = numerics::time_digits + static_cast<int>(std::ceil(std::max(0.0, std::log10(std::abs(scene.start) / elapsed))));
+  return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, numerics::most_time_digits));
 }
 
 std::string with_unit(const Scene& scene, double value, Quantity quantity) {

@@ -7,6 +7,7 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/nonsmooth/conductances.hpp"
 
 namespace rheonet {
@@ -14,14 +15,6 @@ namespace rheonet {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-// Narrowest gap in a direction that is searched for an overloaded cut while the dual is bounded along that direction, as a
-// share of the whole range. The nodes of an overloaded cut run ahead of all other nodes.
-constexpr double wide_gap = 0.1;
-// Limit of Newton's steps: for each branch, and for the smallest graphs. A grid of 2,500 nodes took 0.001 to 0.02 steps per
-// branch with bounds of one magnitude, and 0.2 with bounds that differ by 12 decades.
-constexpr std::size_t steps_a_branch = 4, least_steps = 100;
-// Refinements of a direct solution. Each one gains the digits of the factors.
-constexpr int refinements = 3;
 
 }  // namespace
 
@@ -79,7 +72,7 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
   std::fill(open_.begin(), open_.end(), 1);
   difference_ = force;
   std::vector<double> open_load = load;  // minus the forces of the branches of overloaded cuts
-  const std::size_t most = least_steps + steps_a_branch * branches_.size();
+  const std::size_t most = numerics::least_norm_steps + numerics::least_norm_steps_a_branch * branches_.size();
   for (std::size_t step = 0; step < most; ++step) {
     for (std::size_t k = 0; k < branches_.size(); ++k) {
       if (open_[k]) force[k] = force_at(k, 0);
@@ -89,7 +82,7 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
     const double least = minimum_along();
     // Without a minimum along the direction, some cut's load reaches the capacity of the cut, except for round-off.
     const bool bounded = std::isfinite(least);
-    if (const auto cut = CutSearch(branches_, open_, held_, open_load).along(direction_, bounded ? wide_gap : 0)) {
+    if (const auto cut = CutSearch(branches_, open_, held_, open_load).along(direction_, bounded ? numerics::overloaded_cut_gap : 0)) {
       give_way(*cut, open_load, force);
     } else if (bounded) {
       move(least);
@@ -110,7 +103,7 @@ bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<do
   if (!factors_) return false;
   std::copy(load.begin(), load.end(), left_.begin());
   const auto nodes = static_cast<Eigen::Index>(load.size());
-  for (int solved = 0; solved <= refinements; ++solved) {
+  for (int solved = 0; solved <= numerics::least_norm_refinements; ++solved) {
     Eigen::Map<Eigen::VectorXd>(direction_.data(), nodes) = factors_->solve(Eigen::Map<const Eigen::VectorXd>(left_.data(), nodes));
     for (std::size_t n = 0; n < load.size(); ++n) {
       phi_[n] += direction_[n];

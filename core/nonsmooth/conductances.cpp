@@ -7,18 +7,17 @@
 #include <utility>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
 namespace {
 
-constexpr Eigen::Index largest_unordered = 8;  // a fill-reducing order gains nothing for fewer unknowns
-
 /// The place of each unknown in an order of elimination with little fill-in.
 std::vector<int> places(const std::vector<Conductance>& conductances, Eigen::Index unknowns) {
   std::vector<int> place(at(static_cast<int>(unknowns)));
   std::iota(place.begin(), place.end(), 0);
-  if (unknowns <= largest_unordered) return place;
+  if (unknowns <= numerics::unordered_factorisation_limit) return place;
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& [a, b, value] : conductances) {
     if (a < 0 || b < 0) continue;

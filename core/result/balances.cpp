@@ -10,6 +10,7 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/component.hpp"
 #include "core/network/linear_law.hpp"
 #include "core/network/network.hpp"
@@ -17,9 +18,6 @@
 namespace rheonet {
 
 namespace {
-
-// Round-off allowed in the sum of forces at a node, in units of the last place of the largest force there.
-constexpr double sum_grains = 16;
 
 /// Both ends of an element. An `at` element has its node twice.
 std::pair<NodeId, NodeId> nodes_of(const SceneElement& element) { return {element.a, element.at ? element.a : element.b}; }
@@ -114,7 +112,7 @@ std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double al
     for (const std::vector<double>& row : trajectory.rows) {
       for (const Term& term : node.terms) largest = std::max(largest, std::abs(row[term.record]));
     }
-    const double rounding = sum_grains * std::numeric_limits<double>::epsilon() * largest;
+    const double rounding = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon() * largest;
     // The largest imbalance, and the first time at which it exceeds the limit of each record.
     std::vector<double> first(node.forces.size() + node.movements.size(), not_given);
     const auto allows = [&](std::size_t i) {
@@ -137,7 +135,7 @@ std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double al
       const bool force = k < node.forces.size();
       RecordError& error = errors[force ? node.forces[k] : node.movements[k - node.forces.size()]];
       const double off = force ? sum : sum / largest * error.scale;
-      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= RecordError::share_of_kind * allowed * largest;
+      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= numerics::sizeless_record * allowed * largest;
       if (off <= error.largest || (force && sizeless)) continue;
       error.beyond = std::fmin(error.beyond, first[k]);
       error.largest = off;

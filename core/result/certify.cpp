@@ -17,18 +17,13 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/network/network.hpp"
 #include "core/result/csv.hpp"
 
 namespace rheonet {
 
 namespace {
-
-constexpr double factor = Certificate::factor;
-// The tightest tolerance above round-off, as for Scene::accuracy.
-constexpr double tightest = 1e-12;
-// Relative round-off of ratios of tolerances.
-constexpr double rounding = 1e-9;
 
 /// An output stream into memory.
 class Spool {
@@ -108,16 +103,16 @@ class Certification {
       : scene_(scene), settings_(settings), balances_(scene), shift_(scene.accuracy * (scene.stop - scene.start)) {}
 
   Certificate go() {
-    auto [measured, tighter] = both(std::max(scene_.accuracy, factor * tightest));
+    auto [measured, tighter] = both(std::max(scene_.accuracy, numerics::certificate_ratio * numerics::tightest_tolerance));
     while (!tighter->failure) {
       if (!measured->failure && measure(measured, *tighter)) break;
-      const double next = tighter->tolerance / factor;
-      if (next > (1 - rounding) * tightest) {
+      const double next = tighter->tolerance / numerics::certificate_ratio;
+      if (next > (1 - numerics::equal_tolerances) * numerics::tightest_tolerance) {
         measured = std::exchange(tighter, measuring_run(next));
         count(*tighter);
-      } else if (tighter->tolerance > (1 + rounding) * tightest) {
-        // No tolerance left that is `factor` times tighter: measure a looser run by the tightest one.
-        std::tie(measured, tighter) = both(factor * tightest);
+      } else if (tighter->tolerance > (1 + numerics::equal_tolerances) * numerics::tightest_tolerance) {
+        // No tolerance left that is `certificate_ratio` times tighter: measure a looser run by the tightest one.
+        std::tie(measured, tighter) = both(numerics::certificate_ratio * numerics::tightest_tolerance);
       } else {
         break;
       }
@@ -149,7 +144,7 @@ class Certification {
 
   /// A run that measures another one.
   std::shared_ptr<Attempt> measuring_run(double tolerance) const {
-    if (tolerance > Certificate::rounding_shows * (1 + rounding)) return attempt(settings_, tolerance);
+    if (tolerance > numerics::certificate_roundoff * (1 + numerics::equal_tolerances)) return attempt(settings_, tolerance);
     auto beside = std::async(std::launch::async, [&] {
       const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
       return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order, .account = false});
@@ -168,7 +163,7 @@ class Certification {
     RunSettings silent = settings_;
     silent.progress = {};
     auto beside = std::async(std::launch::async, [&] { return attempt(silent, tolerance); });
-    std::shared_ptr<Attempt> tighter = measuring_run(tolerance / factor), measured = beside.get();
+    std::shared_ptr<Attempt> tighter = measuring_run(tolerance / numerics::certificate_ratio), measured = beside.get();
     count(*measured);
     count(*tighter);
     return {measured, tighter};
@@ -183,7 +178,7 @@ class Certification {
   /// Measures a run. Returns true if it is accurate enough.
   bool measure(const std::shared_ptr<Attempt>& measured, const Attempt& tighter) {
     const ErrorMeasure as_promised{
-        .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - Certificate::own_error)};
+        .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - numerics::certificate_own_error)};
     const Trajectory& trajectory = measured->reference.trajectory;
     std::vector<RecordError> errors = record_errors(scene_, trajectory, tighter.reference, as_promised);
     if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised));
@@ -204,12 +199,14 @@ class Certification {
     return result_.holds;
   }
 
-  /// Raises errors to the estimate from a third run, which is at the distances `others`.
+  /// Raises errors to the estimate from a third run, which is at the distances `others`. If the errors of three runs a, b, c
+  /// are independent, the mean of (a - b)(a - c) is the mean square error of a (J. E. Gray and D. W. Allan, 28th Symposium on
+  /// Frequency Control (1974) 243). The error is not estimated below that.
   void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others) const {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       RecordError& error = errors[k];
       const RecordError& other = others[k];
-      const double independent = (1 - Certificate::own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
+      const double independent = (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
       if (independent <= error.largest) continue;
       error.largest = independent;
       error.time = other.time;

@@ -13,18 +13,6 @@ namespace rheonet {
 
 /// Estimated errors of a run.
 struct Certificate {
-  /// Ratio of the tolerances of a run and of the run that measures it. Runs with similar tolerances share their error. Over
-  /// the scenes in netlists/ at accuracies from 1e-3 to 1e-8, a ratio of 10 leaves between 0.02 and 2.0 of the error (median
-  /// 0.14). A ratio of 100 leaves between 0.002 and 0.23 (median 0.02), for about twice the steps.
-  static constexpr double factor = 100;
-  /// Bound of the measuring run's own error, as a share of the error that it measures: 0.23 at worst (see `factor`).
-  static constexpr double own_error = 0.25;
-  /// At tolerances up to this one, round-off may dominate the error of a measuring run, and a tighter tolerance does not
-  /// reduce it. A third run then measures too, to the same tolerance but with another order: other steps, formulas and
-  /// round-off. If the errors of three runs a, b, c are independent, the mean of (a - b)(a - c) is the mean square error of
-  /// a (J. E. Gray and D. W. Allan, 28th Symposium on Frequency Control (1974) 243). The error is not estimated below that.
-  static constexpr double rounding_shows = 1e-9;
-
   /// A run to one tolerance, measured by a run to a hundredth of it.
   struct Round {
     double tolerance;  ///< of the run that was measured

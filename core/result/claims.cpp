@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
@@ -45,19 +46,6 @@ struct Cubic {
     return points;
   }
 };
-
-// Where the cubic is compared with the record: where a quartic is farthest from it, and beyond an inner node. A deviation
-// that vanishes at one of the two places, such as an odd one at 0, shows at the other.
-constexpr std::array<double, 2> probes{0, 0.75};
-
-// Number of halvings of an inaccurate piece without further conditions, or more while an input turns in it. After that a
-// piece is halved only if the last halving at least halved the deviation: a smooth record keeps a 16th of it, round-off all.
-constexpr int free_halvings = 4;
-
-// A record leaves the range of the samples of a piece by at most this multiple of the range, if the piece is no longer than
-// half a period of the fastest input. (Integrated unknowns are smooth within a step.)
-constexpr double much_farther = 4;
-constexpr double longest_turn = 3.14;
 
 bool is_over_time(Figure figure) { return figure != Figure::at && figure != Figure::final; }
 bool is_over_points(Figure figure) {
@@ -152,14 +140,14 @@ void Claims::piece(double from, double to, const Read& read, int halvings, doubl
   rows[0] = values_;
   for (std::size_t i = 1; i < nodes.size(); ++i) rows[i] = read(times[i]);
   for (const auto& row : rows) see(row);
-  const bool turns = (to - from) * fastest_ > longest_turn;
+  const bool turns = (to - from) * fastest_ > numerics::claim_phase;
   const bool matters = turns || may_matter(middle, rows);
   double off = 0;
-  for (const double x : probes) {
+  for (const double x : numerics::claim_probes) {
     if (!matters) break;
     off = std::max(off, off_cubic(middle, rows, x, read(middle + x * half)));
   }
-  if (off > 1 && (halvings < free_halvings || off < parent / 2 || turns) && from < middle && middle < to) {
+  if (off > 1 && (halvings < numerics::claim_halvings || off < parent / 2 || turns) && from < middle && middle < to) {
     piece(from, middle, read, halvings + 1, off);
     piece(middle, to, read, halvings + 1, off);
     return;
@@ -201,7 +189,7 @@ bool Claims::may_matter(double middle, const Rows& rows) const {
     const auto near = [&](const Statistics& statistics, int record) {
       const Samples f = of_record(rows, record);
       const auto [least, most] = std::minmax_element(f.begin(), f.end());
-      const double range = much_farther * (*most - *least);
+      const double range = numerics::claim_range * (*most - *least);
       switch (claim.figure) {
         case Figure::max:
         case Figure::time_of_max:

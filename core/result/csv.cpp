@@ -5,6 +5,8 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -44,9 +46,8 @@ void CsvWriter::begin_row(double time) {
 
 void CsvWriter::end_row() {
   constexpr std::size_t full = 1 << 16;  // bytes
-  constexpr double patience = 0.25;      // s
   put_row();
-  if (waiting_ >= full || now() - last_flush_ > patience) flush();
+  if (waiting_ >= full || now() - last_flush_ > numerics::flush_time) flush();
 }
 
 void CsvWriter::put_row() {

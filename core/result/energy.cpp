@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 
 namespace rheonet {
@@ -132,9 +133,8 @@ EnergyAccount::Power EnergyAccount::lobatto(const Integrator& integrator, double
   const double error =
       std::max(std::abs(better.supplied - result.supplied), std::abs(better.dissipated - result.dissipated));
   largest_ = std::max({largest_, std::abs(sum_.supplied + better.supplied), std::abs(sum_.dissipated + better.dissipated)});
-  constexpr int deepest = 14;
   // The difference of the two rules far exceeds the error of the better one.
-  if (error <= tolerance_ * largest_ || depth >= deepest || half <= time_roundoff(b)) return better;
+  if (error <= tolerance_ * largest_ || depth >= numerics::energy_halvings || half <= time_roundoff(b)) return better;
   const Power left = lobatto(integrator, a, middle, pa, pm, depth + 1);
   const Power right = lobatto(integrator, middle, b, pm, pb, depth + 1);
   return {left.supplied + right.supplied, left.dissipated + right.dissipated};

@@ -11,6 +11,7 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/limits.hpp"
@@ -31,10 +32,6 @@
 namespace rheonet {
 
 namespace {
-
-// Duration of the trial run [s CPU time], and its least number of steps.
-constexpr double tried_seconds = 0.1;
-constexpr std::size_t least_steps = 4;
 
 class Explainer {
  public:
@@ -336,7 +333,7 @@ class Explainer {
     Explanation::Cost& cost = result_.cost;
     cost.unknowns = dae.unknowns();
     cost.entries = dae.unknowns() > 0 ? dae.pattern().entries() : 0;
-    cost.sparse = dae.unknowns() > Integrator::dense_limit;
+    cost.sparse = dae.unknowns() > numerics::dense_integration_limit;
     const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;
     cost.fastest_rate = std::isfinite(rate) ? rate : 0;
     cost.fastest_drive = dae.inputs().fastest();
@@ -352,7 +349,7 @@ class Explainer {
     const auto tried = [&](double fraction) {
       fractions.push_back(fraction);
       spent = cpu_seconds() - begin;
-      enough = spent > tried_seconds && fractions.size() >= least_steps;
+      enough = spent > numerics::trial_run_time && fractions.size() >= numerics::trial_run_steps;
     };
     try {
       run(near_, {.interrupt = &enough, .progress = tried});

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/numerics.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
 
 namespace {
-
-// A model that takes more than this multiple of the full model's CPU time is run once: its exact time is of no interest.
-constexpr double too_slow = 10;
 
 std::size_t furthest(const std::vector<Difference>& differences) {
   const auto worst = std::max_element(differences.begin(), differences.end(),
@@ -93,7 +91,7 @@ class Climber {
         if (rung.failure.empty()) rungs.push_back(&rung);
       }
     }
-    const double slow = too_slow * ladder_.full.cpu_seconds.front();
+    const double slow = numerics::slow_model_ratio * ladder_.full.cpu_seconds.front();
     for (int k = 1; k < settings_.runs; ++k) {
       for (Rung* rung : rungs) {
         if (rung->cpu_seconds.front() > slow) continue;

@@ -5,15 +5,13 @@
 #include <string>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/rigid_links.hpp"
 #include "core/result/grouped.hpp"
 
 namespace rheonet {
 
 namespace {
-
-// Counting of known discontinuities stops here.
-constexpr long most_instants = 1000000;
 
 class EventSearch {
  public:
@@ -60,7 +58,7 @@ class EventSearch {
     if (block >= 0) return;
     long count = 0;
     const double length = network_.scene->stop - network_.scene->start;
-    for (double t = signal.piece(0).end; t < length && count < most_instants; t = signal.piece(t).end) ++count;
+    for (double t = signal.piece(0).end; t < length && count < numerics::counted_discontinuities; t = signal.piece(t).end) ++count;
     result_.known_instants += count;
     if (count > 0) add("jumps or corners at known times", e);
   }

@@ -7,18 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
 
 namespace {
 
 using Instants = std::vector<ReferenceSolution::Instant>;
-
-// A jump explains a distance up to this multiple of its size, because the record may have moved on after it.
-constexpr double explained = 2;
-// Round-off of a record, in units of the last place of the largest one with its unit: it may be a difference of two such.
-constexpr double record_grains = 16;
-// An interval shorter than this share of the intervals before and after it is treated as a jump.
-constexpr double share_of_stretches = 1e-2;
 
 /// Collects the yardstick during a run.
 class Watch {
@@ -50,13 +45,13 @@ class Watch {
   void pass(double t) {
     const double stretch = t - event_;
     take_passage(stretch);
-    if (stretch <= near_ && stretch <= share_of_stretches * before_event_ && near_a_row(t)) passage_ = {{t, at_event_, last_, stretch}};
+    if (stretch <= near_ && stretch <= numerics::brief_interval * before_event_ && near_a_row(t)) passage_ = {{t, at_event_, last_, stretch}};
     before_event_ = stretch;
     event_ = t;
   }
   /// Accepts the candidate interval if it is also short compared with the interval that followed.
   void take_passage(double next) {
-    if (!passage_.empty() && passage_.front().lasts <= share_of_stretches * next) result_.instants.push_back(std::move(passage_.front()));
+    if (!passage_.empty() && passage_.front().lasts <= numerics::brief_interval * next) result_.instants.push_back(std::move(passage_.front()));
     passage_.clear();
   }
   void see(const std::vector<double>& values) {
@@ -87,7 +82,7 @@ double distance(double value, double truth, std::size_t column, double t, const 
                                       [](const ReferenceSolution::Instant& i, double time) { return i.time < time; });
   for (auto i = first; i != instants.end() && i->time <= t + shift; ++i) {
     const double before = i->before[column], after = i->after[column];
-    if (i->lasts > shift || explained * std::abs(after - before) < result) continue;
+    if (i->lasts > shift || numerics::jump_explains * std::abs(after - before) < result) continue;
     if (i->lasts > 0 && std::min(before, after) <= value && value <= std::max(before, after)) return 0;
     result = std::min({result, std::abs(value - before), std::abs(value - after)});
   }
@@ -142,7 +137,7 @@ std::vector<RecordError> record_errors(const Scene& scene, const Trajectory& tra
   for (std::size_t k = 0; k < errors.size(); ++k) {
     RecordError& error = errors[k];
     error.scale = truth.largest[k];
-    const double rounding = record_grains * std::numeric_limits<double>::epsilon() * kind[k];
+    const double rounding = numerics::record_ulps * std::numeric_limits<double>::epsilon() * kind[k];
     visit_common(trajectory, truth.trajectory, [&](std::size_t row, std::size_t true_row) {
       const double t = trajectory.times[row];
       double off = distance(trajectory.rows[row][k], truth.trajectory.rows[true_row][k], k, t, truth.instants, measure.shift);
@@ -152,7 +147,7 @@ std::vector<RecordError> record_errors(const Scene& scene, const Trajectory& tra
       error.largest = off;
       error.time = t;
     });
-    const double dead_band = RecordError::share_of_kind * measure.allowed * kind[k];
+    const double dead_band = numerics::sizeless_record * measure.allowed * kind[k];
     if (error.largest > error.scale / 2 && std::max(error.largest, error.scale) <= dead_band) {
       error.scale = kind[k];
       error.beyond = not_given;

@@ -27,10 +27,6 @@ ReferenceSolution run_as_reference(const Scene& scene, double near, RunSettings 
 /// jump, within `shift` [s] of the row, the value on either side of the jump counts as true. During a steep change within
 /// that time, every value on the way counts as true.
 struct RecordError {
-  /// A record has no size of its own if its error exceeds half its size, and both are below this share of (accuracy x the
-  /// largest record with its unit): it consists of errors of the others. The error is then relative to that largest record.
-  static constexpr double share_of_kind = 1e-4;
-
   double largest = 0;    ///< SI
   double time = 0;       ///< time of the largest error [s]
   double scale = 0;      ///< largest magnitude of the record in the run, SI

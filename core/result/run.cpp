@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/network.hpp"
 #include "core/result/certify.hpp"
@@ -47,7 +48,7 @@ class Recorder final : public Observer {
         account_(settings.energy),
         tells_(settings.events != nullptr),
         switched_(scene_.elements.size(), 0) {
-    if (settings.account || account_) energy_.emplace(scene_.accuracy * 0.01, length_);
+    if (settings.account || account_) energy_.emplace(scene_.accuracy * numerics::energy_error_share, length_);
     for (const Record& record : scene_.records) names_.push_back(record.path);
   }
 
@@ -211,11 +212,6 @@ class Recorder final : public Observer {
   std::vector<double> y_, yp_, before_;
 };
 
-// Largest number of values in rows held in memory: half a gigabyte.
-constexpr double most_held = 6e7;
-// Defect of the energy account, in units of the requested accuracy, above which a note reports it.
-constexpr double loose_account = 10;
-
 /// The profile by names of the scene's nodes and elements.
 std::vector<Summary::Profiled> named(const Profile& profile, const Scene& scene, const std::vector<Summary::Switched>& switched) {
   std::map<std::pair<bool, std::string>, Summary::Profiled> lines;
@@ -274,7 +270,7 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
   // Callbacks between rows, and rows at events, need the whole scene in one integration. Rows of parts are held in memory.
   const bool whole = scene.output_events || settings.state || settings.event || settings.profile ||
-                     static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > most_held;
+                     static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > numerics::values_in_memory;
   const Partition partition = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
   if (partition.subscenes.empty()) return run_whole(scene, settings);
   Summary summary = run_in_parts(scene, partition, settings);
@@ -326,7 +322,7 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   summary.findings = recorder.findings();
   summary.notes = network.notes;
   summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());
-  if (std::abs(summary.missing) > loose_account * scene.accuracy * summary.largest) {
+  if (std::abs(summary.missing) > numerics::noted_energy_defect * scene.accuracy * summary.largest) {
     summary.notes.push_back(fmt::format(
         "the energy account misses {:.2g} of the largest energy in the run, more than the accuracy of {:g} that was asked for: "
         "rows may be off by as much; a tighter accuracy costs time and tells",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/component.hpp"
 #include "core/network/reductions.hpp"
 #include "core/network/resolved.hpp"
@@ -18,13 +19,6 @@
 namespace rheonet {
 
 namespace {
-
-// Transition velocities, as shares of an element's largest velocity: the customary value, and one regarded as exact.
-constexpr double regular_shares[] = {1e-2, 1e-4};
-// Accuracy of the preliminary run that finds the largest velocities.
-constexpr double glance = 1e-3;
-// Small displacement, as a share of the path at the transition velocity over the whole run.
-constexpr double share_of_way = 1e-4;
 
 const std::string& type_of(const SceneElement& element) { return components()[at(element.declaration)]->declaration.type; }
 
@@ -57,7 +51,7 @@ Glance look(const Scene& scene) {
   const auto see = [&](double, const std::vector<double>& values) {
     for (std::size_t k = 0; k < elements.size(); ++k) result.fastest[elements[k]] = std::max(result.fastest[elements[k]], std::abs(values[k]));
   };
-  result.switches = run(some, {.state = see, .tolerance = glance}).restarts > 1;
+  result.switches = run(some, {.state = see, .tolerance = numerics::preview_accuracy}).restarts > 1;
   return result;
 }
 
@@ -68,7 +62,7 @@ Scene with(const Scene& scene, const SurrogateLaw& alternative, double share, co
     SceneElement& element = result.elements[at(e)];
     if (type_of(element) != alternative.type || speed == 0) continue;
     const double small = share * speed;
-    element.values = alternative.values(resolved_values(scene, element), small, small * share_of_way * (scene.stop - scene.start));
+    element.values = alternative.values(resolved_values(scene, element), small, small * numerics::regularised_distance * (scene.stop - scene.start));
     element.declaration = index_of_type(alternative.becomes);
   }
   return result;
@@ -107,7 +101,7 @@ std::vector<SimulationMethod> methods(const Scene& scene) {
       return element.second > 0 && type_of(scene.elements[at(element.first)]) == alternative.type;
     };
     if (std::none_of(glance_at.fastest.begin(), glance_at.fastest.end(), moves)) continue;
-    for (const double share : regular_shares) {
+    for (const double share : numerics::regularised_velocities) {
       result.push_back({.name = fmt::format("every {} {} below {:g} of its fastest motion", alternative.type, alternative.name, share),
                         .scene = {with(scene, alternative, share, glance_at.fastest)}});
     }

@@ -9,16 +9,12 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/network/error.hpp"
 
 namespace rheonet {
 
 namespace {
-
-// The tightest tolerances above round-off: that of Scene::accuracy first, then fallbacks if it fails.
-constexpr double reference_tolerances[] = {1e-12, 1e-11, 1e-10};
-// Differs from the order of the reference, at most 5. Order 3 would take about four times the steps.
-constexpr int check_order = 4;
 
 RunSettings settings_of(const Setting& setting, const PriceListSettings& settings) {
   return {.interrupt = settings.interrupt, .tolerance = setting.tolerance, .order = setting.order, .account = false};
@@ -52,9 +48,9 @@ class Pricing {
   double shift(double tolerance) const { return tolerance * length(); }
 
   void find_reference() {
-    for (const double tolerance : reference_tolerances) {
+    for (const double tolerance : numerics::reference_tolerances) {
       list_.reference = {tolerance, RunSettings{}.order};
-      list_.check = {tolerance, check_order};
+      list_.check = {tolerance, numerics::reference_check_order};
       auto beside = std::async(std::launch::async, [&] { return run_to_memory(scene_, settings_of(list_.check, settings_)); });
       try {
         const double loosest = std::max(tolerances_.front(), scene_.accuracy);
@@ -65,7 +61,7 @@ class Pricing {
         return;
       } catch (const SimulationError&) {
         const bool interrupted = settings_.interrupt && *settings_.interrupt;
-        if (interrupted || tolerance == *std::rbegin(reference_tolerances)) throw;
+        if (interrupted || tolerance == *std::rbegin(numerics::reference_tolerances)) throw;
       }
     }
   }

@@ -7,13 +7,12 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
 
 namespace {
 
-// Round-off of forces that balance, in ulps (a sum of a few terms); that of a deflection is one ulp.
-constexpr double sum_grains = 4;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace
@@ -55,11 +54,11 @@ void BalanceRounding::find_forces(const Dae::View& view, const std::vector<doubl
   };
   for (const Held& h : branches_) {
     const std::size_t j = at(h.branch);
-    const double rounding = epsilon * std::max(sum_grains * std::abs(view.f[j]), std::abs(slope[j] * view.p[j]));
+    const double rounding = epsilon * std::max(numerics::sum_ulps * std::abs(view.f[j]), std::abs(slope[j] * view.p[j]));
     meet(h.a, rounding);
     meet(h.b, rounding);
   }
-  const auto of_force = [](double f) { return sum_grains * epsilon * std::abs(f); };
+  const auto of_force = [](double f) { return numerics::sum_ulps * epsilon * std::abs(f); };
   for (std::size_t r = 0; r < view.rate_force.size(); ++r) meet_branch(structure_->rates[r], of_force(view.rate_force[r]));
   for (std::size_t k = 0; k < view.slider_force.size(); ++k) meet_branch(structure_->sliders[k], of_force(view.slider_force[k]));
   for (std::size_t n = 0; n < view.applied.size(); ++n) meet(place_[n], of_force(view.applied[n]));

@@ -3,19 +3,10 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Least share of its own magnitude to which a quantity is resolved for the output of a block: an output that is still small
-// may grow. (A servo with a gain of 40 needs 0.05.)
-constexpr double least_for_output = 1e-2;
-// Its tolerance is at least this many ulps.
-constexpr double output_grains = 64;
-
-}  // namespace
 
 /// Scales from blocks. A gain turns a small error of its input into a large error of its output: the quantities behind a
 /// recorded output share its allowed error equally. A position behind a force may be off by the allowed error of the force
@@ -35,7 +26,7 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
     // Nodes that sticking sliders join have one velocity, but a position each.
     const std::size_t k = at(state ? blocks.state_of(index) : of == BlockGains::Of::position ? index : dae_->structure().rigid[at(index)]);
     if (k >= block_scale_[sort].size()) return;
-    const double least = std::max(least_for_output, output_grains * std::numeric_limits<double>::epsilon() / local()) * seen_[sort][k];
+    const double least = std::max(numerics::block_input_share, numerics::block_input_ulps * std::numeric_limits<double>::epsilon() / local()) * seen_[sort][k];
     if (allowed > 0) block_scale_[sort][k] = std::min(block_scale_[sort][k], std::max(allowed, least));
   });
   if (network_.blocks.sensors.empty()) return;
@@ -44,7 +35,7 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
     const int block = network_.forces[f].block;
     if (block < 0) continue;
     block_force_seen_[f] = std::max(block_force_seen_[f], std::abs(dae_->inputs().force[f]));
-    const double seen = std::max(block_force_seen_[f], floor_of_kind * largest_force);
+    const double seen = std::max(block_force_seen_[f], numerics::scale_floor * largest_force);
     for (std::size_t s = 0; s < network_.blocks.sensors.size(); ++s) {
       const Blocks::Sensor& sensor = network_.blocks.sensors[s];
       if (sensor.what != Blocks::Sensor::What::position) continue;

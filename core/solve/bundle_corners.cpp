@@ -3,22 +3,9 @@
 #include <algorithm>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Length of the moving average, in steps.
-constexpr double memory = 32;
-// At the strict tolerance kinks make steps short, and most steps cross no kink. So the larger tolerance is tried for `trial`
-// steps once the share of steps with kinks exceeds `promising`, which a single kink does not reach. It is kept while that
-// share exceeds `largest_pace`.
-constexpr double promising = 0.05, largest_pace = 1.0 / 3;
-constexpr long trial = 64;
-// Longest wait between trials, in steps: each failed trial doubles the wait.
-constexpr long longest_wait = 1 << 16;
-
-}  // namespace
 
 bool BundleCorners::crossed(const Dae& dae, const Dae::View& view) {
   bool any = false;
@@ -41,15 +28,15 @@ bool BundleCorners::crossed(const Dae& dae, const Dae::View& view) {
 void BundleCorners::follow(const Dae& dae, const Dae::View& view) {
   if (!network_.bundles) return;
   yielded_.resize(network_.bundles->size());
-  pace_ += ((crossed(dae, view) ? 1 : 0) - pace_) / memory;
+  pace_ += ((crossed(dae, view) ? 1 : 0) - pace_) / numerics::kink_average_steps;
   ++since_;
   if (dense_) {
-    if (pace_ > largest_pace) found_dense_ = true;
-    if (since_ <= trial || pace_ > largest_pace) return;
-    wait_ = found_dense_ ? trial : std::min(2 * wait_ + trial, longest_wait);
+    if (pace_ > numerics::kink_pace_kept) found_dense_ = true;
+    if (since_ <= numerics::kink_trial_steps || pace_ > numerics::kink_pace_kept) return;
+    wait_ = found_dense_ ? numerics::kink_trial_steps : std::min(2 * wait_ + numerics::kink_trial_steps, numerics::kink_longest_wait);
     dense_ = false;
   } else {
-    if (since_ <= wait_ || pace_ <= promising) return;
+    if (since_ <= wait_ || pace_ <= numerics::kink_pace_tried) return;
     dense_ = true;
     found_dense_ = false;
   }

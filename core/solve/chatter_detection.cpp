@@ -6,20 +6,9 @@
 #include <cmath>
 
 #include "core/base/format_list.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Failures of the integrator in a row after which the run ends.
-constexpr std::size_t enough_failures = 30;
-// Steps near one time after which the run ends; near is within `standstill_grains` of the round-off of time.
-constexpr int enough_steps = 1000;
-// Counts of `enough` events in a row without a change, after which the run has no end.
-constexpr int enough_counts = 20;
-constexpr double standstill_grains = 64;
-
-}  // namespace
 
 ChatterDetection::ChatterDetection(std::size_t causes, double accuracy) : accuracy_(accuracy), count_(causes, 0) {}
 
@@ -51,13 +40,13 @@ bool ChatterDetection::lost(double t, const std::vector<int>& causes, const Stat
   for (int cause : causes) {
     int& count = count_[static_cast<std::size_t>(cause)];
     if (count++ == 0) fired_.push_back(cause);
-    often = often || count >= enough;
+    often = often || count >= numerics::chatter_events;
   }
   return often;
 }
 
 bool ChatterDetection::without_end(double t, double instant) {
-  if (++counts_ >= enough_counts && t - first_ < instant) return true;
+  if (++counts_ >= numerics::endless_counts && t - first_ < instant) return true;
   for (int cause : fired_) count_[static_cast<std::size_t>(cause)] = 0;
   fired_.clear();
   since_ = t;
@@ -73,7 +62,6 @@ std::vector<int> ChatterDetection::busiest() const {
 }
 
 std::string ChatterDetection::describe(const Network& network, double t) const {
-  constexpr std::size_t most = 3;
   const auto& elements = network.scene->elements;
   std::vector<int> busy = busiest();
   std::erase_if(busy, [&](int cause) { return static_cast<std::size_t>(cause) >= elements.size(); });
@@ -83,22 +71,22 @@ std::string ChatterDetection::describe(const Network& network, double t) const {
   return fmt::format(
       "element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a dashpot beside {}, a mass "
       "at {} ends or a looser accuracy would end it",
-      several ? "s" : "", format_list(names, most), several ? "" : "es", enough, t - since_, several ? "them" : "it",
+      several ? "s" : "", format_list(names, numerics::chatter_names), several ? "" : "es", numerics::chatter_events, t - since_, several ? "them" : "it",
       several ? "their" : "its");
 }
 
 bool ChatterDetection::failing(double t, double within) {
   failures_.push_back(t);
-  if (failures_.size() > enough_failures) failures_.pop_front();
-  return failures_.size() == enough_failures && t - failures_.front() < within;
+  if (failures_.size() > numerics::solver_failures) failures_.pop_front();
+  return failures_.size() == numerics::solver_failures && t - failures_.front() < within;
 }
 
 bool ChatterDetection::stalled(double t, double grain) {
-  if (std::abs(t - reached_) > standstill_grains * grain) {
+  if (std::abs(t - reached_) > numerics::standstill_time * grain) {
     reached_ = t;
     steps_there_ = 0;
   }
-  return ++steps_there_ > enough_steps;
+  return ++steps_there_ > numerics::standstill_steps;
 }
 
 }  // namespace rheonet

@@ -13,16 +13,13 @@ namespace rheonet {
 /// Detects runs without progress: events that repeat at one place (chattering) or ever faster (accumulating), and failures.
 class ChatterDetection {
  public:
-  /// Events of one cause without a change of the state before the run is suspected to make no progress.
-  static constexpr int enough = 500;
-
   /// `accuracy` is that of the run: a change below this share of the largest velocity or deflection so far is none.
   ChatterDetection(std::size_t causes, double accuracy);
 
   /// Begins all counts anew.
   void reset();
   /// Counts the causes (indices of elements, or of the solver) that fired at t and led to this state. True when one of them
-  /// has fired `enough` times while the state has not changed. The caller then judges whether this took too little time.
+  /// has fired `numerics::chatter_events` times while the state has not changed. The caller then judges whether this took too little time.
   bool lost(double t, const std::vector<int>& causes, const State& state);
   /// Call where `lost` returned true but the events took long enough to be legitimate: begins new counts at t. True when
   /// the state has not changed for many such counts within `instant` [s], so that the run would never end.

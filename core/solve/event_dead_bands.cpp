@@ -3,23 +3,13 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
 
-namespace {
-
-// Dead band of a velocity for reversals, as a share of its tolerance.
-constexpr double noise_share = 0.1;
-// Largest excess of a sticking slider over its bound because of the errors of steps, in units of the tolerance.
-constexpr double slip_share = 10;
-// Relative round-off of a velocity that is a given function of time.
-constexpr double given_noise = 1e-13;
-
-}  // namespace
-
 double Tolerances::force_noise(int rate) const {
-  const double dead_band = noise_share * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
+  const double dead_band = numerics::reversal_dead_band * relative_ * seen_[static_cast<std::size_t>(Sort::force)][at(rate)];
   return std::max(dead_band, std::numeric_limits<double>::min());
 }
 
@@ -30,8 +20,8 @@ double Tolerances::noise_of(bool given, double flow, const Branch& b, double of_
   const auto heavy = [&](NodeId node) { return structure.kind[at(node)] == Kind::known || structure.inertia[at(node)] > 0; };
   const double of_rounding = heavy(b.a) && heavy(b.b) ? 0 : rounding_at_rest_[at(part_of(b))];
   const double unresolved =
-      given ? given_noise * flow
-            : std::max({noise_share * relative_ * std::max(flow, floor_of_kind * largest_velocity_), of_rounding, of_difference});
+      given ? numerics::given_velocity_roundoff * flow
+            : std::max({numerics::reversal_dead_band * relative_ * std::max(flow, numerics::scale_floor * largest_velocity_), of_rounding, of_difference});
   // Above 0: an event function that begins at 0 would never be seen to fall through it.
   return std::max(unresolved, std::numeric_limits<double>::min());
 }
@@ -93,7 +83,7 @@ void Tolerances::find_slip_noise(const std::vector<double>& slope) {
     const Branch& b = network_.sliders[k].branch;
     const double bound = std::max(dae_->inputs().box(k).largest(), held_seen_[k]);
     const double dead_band = structure.stuck[k] ? std::max(noise_at(b.a), noise_at(b.b)) : 0;
-    slip_noise_[k] = bound > 0 ? std::min(dead_band, slip_share * local() * bound) : dead_band;
+    slip_noise_[k] = bound > 0 ? std::min(dead_band, numerics::stick_dead_band * local() * bound) : dead_band;
   }
 }
 

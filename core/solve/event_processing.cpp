@@ -4,14 +4,12 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 
 namespace rheonet {
 
 namespace {
-
-// A branch has reversed too if its speed is at least this share of the slowest reversed branch's.
-constexpr double as_surely = 0.5;
 
 /// Branches that did not fire, but move against their direction about as fast as the slowest branch that fired. Friction at
 /// rest may hold such branches together: they reverse at the same event.
@@ -23,7 +21,7 @@ std::vector<NetworkEvents::Turned> turning_along(const std::vector<NetworkEvents
   }
   std::vector<NetworkEvents::Turned> along;
   for (const NetworkEvents::Turned& one : all) {
-    if (one.speed >= as_surely * speed && !contains(one.slides ? fired.sliders : switched, one.branch)) along.push_back(one);
+    if (one.speed >= numerics::simultaneous_reversal * speed && !contains(one.slides ? fired.sliders : switched, one.branch)) along.push_back(one);
   }
   return along;
 }
@@ -35,8 +33,7 @@ std::vector<char> at_once(System& system, double t, const std::vector<double>& y
   std::vector<char> result(found.size(), 0);
   for (std::size_t k = 0; k < found.size(); ++k) result[k] = found[k] != 0;
   if (found.empty() || system.events[0].which < 0) return result;  // the events of laws come first
-  constexpr double end_of_step = 1e-2;
-  const double begin = t - end_of_step * (t - system.integrator.previous_time());
+  const double begin = t - numerics::guard_slope_span * (t - system.integrator.previous_time());
   if (!(begin < t)) return result;
   std::vector<double> before(found.size()), now(found.size()), y_before, yp_before;
   system.integrator.interpolate(begin, 0, y_before);

@@ -4,6 +4,7 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/solve/tolerances.hpp"
 
@@ -11,15 +12,7 @@ namespace rheonet {
 
 namespace {
 
-// Round-off of forces that balance, in ulps (a sum of a few terms).
-constexpr double force_grains = 16;
-// A restart leaves a balance with a residual of Dae::rounding_share times the sum of its terms: of this many largest forces.
-constexpr double balance_terms = 4;
-// Velocities that differ by more than this share of the smaller one are different: velocity_roundoff with a margin.
-constexpr double different = 2.2 * velocity_roundoff;
-// Near rest Newton's iteration lets the velocity of a dilatant law alternate by this multiple of the round-off of its force:
-// its slopes belong to the previous velocity.
-constexpr double to_and_fro = 4;
+constexpr double different = numerics::different_velocities * numerics::equal_velocities;
 
 double speed_at(const Dae::View& view, const Branch& b) {
   return std::max(std::abs(view.velocity[at(b.a)]), std::abs(view.velocity[at(b.b)]));
@@ -118,7 +111,7 @@ Tolerances::Loads Tolerances::find_loads(const Dae::View& view) const {
 /// a mass and eps (V + F/B) at a node that dashpots hold. They leave a deflection eps F/k, and the integral of eps V until it
 /// has crept away. Otherwise steps would resolve the round-off of a network in equilibrium.
 void Tolerances::find_rounding(const Dae::View& view) {
-  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
   const Loads loads = find_loads(view);
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
@@ -140,7 +133,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
       // Friction at its bound has hardly any slope: its secant then limits its deflection.
       const double slope = std::max(df, view.p[k] != 0 ? f / std::abs(view.p[k]) : 0);
       const bool in_balance = structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0;
-      const double share = in_balance ? balance_terms * Dae::rounding_share : eps;
+      const double share = in_balance ? numerics::restart_balance_terms * numerics::equation_roundoff : eps;
       if (df != 0) rounding_[i] += share * (alone ? f : loads.force[part]) / slope;
       drift_[i] = {eps * (alone ? speed_at(view, b) : loads.speed[part]), dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
@@ -163,7 +156,7 @@ void Tolerances::find_rounding(const Dae::View& view) {
 /// two positions far from 0 has their round-off in its force, which shakes the mass that it holds.
 void Tolerances::find_block_rounding() {
   if (block_rounding_.empty()) return;
-  constexpr double eps = 2 * std::numeric_limits<double>::epsilon();
+  constexpr double eps = numerics::block_term_ulps * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
   BlockSignals& blocks = dae_->inputs().blocks();
   blocks.update_slopes(dae_->inputs().history());
@@ -194,7 +187,7 @@ void Tolerances::find_block_rounding() {
 /// Finds the round-off of forces. A dilatant law turns it into a much larger round-off of the velocity, the most at rest. The
 /// round-off of forces never decreases until the next restart.
 void Tolerances::find_force_rounding(const Dae::View& view) {
-  constexpr double eps = to_and_fro * force_grains * std::numeric_limits<double>::epsilon();
+  constexpr double eps = numerics::newton_alternation * numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
   const std::vector<double>& slope = dae_->slopes();
   const auto add = [&](NodeId part, double f) { force_rounding_[at(part)] = std::max(force_rounding_[at(part)], eps * std::abs(f)); };
@@ -211,7 +204,7 @@ void Tolerances::find_force_rounding(const Dae::View& view) {
   for (std::size_t r = 0; any_solved_ && r < dashpot_rounding_.size(); ++r) {
     if (dae_->force_unknown(static_cast<int>(r)) >= 0) continue;
     double& largest = force_rounding_[at(part_of(structure.rates[r]))];
-    largest = std::max(largest, to_and_fro * dashpot_rounding_[r]);
+    largest = std::max(largest, numerics::newton_alternation * dashpot_rounding_[r]);
   }
   for_each_dilatant([&](const RateBatch& law, std::size_t i, std::size_t, int part) {
     double& largest = rounding_at_rest_[at(part)];
@@ -227,7 +220,7 @@ double Tolerances::unresolved() const {
 /// large near rest.
 void Tolerances::find_dashpot_rounding(const Dae::View& view) {
   if (!any_solved_) return;
-  constexpr double eps = force_grains * std::numeric_limits<double>::epsilon();
+  constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
   for (std::size_t r = 0; r < dashpot_rounding_.size(); ++r) {
     const Branch& b = dae_->structure().rates[r];
     std::size_t i = 0;

@@ -11,22 +11,10 @@
 
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Round-off of a force relative to its bound.
-constexpr double force_rounding = 1e-12;
-// A slider may slip against its own force at this share of the largest velocity: more is no round-off.
-constexpr double slip_rounding = 1e-2;
-// Largest number of events of a law that is held at rest.
-constexpr std::size_t most_events = 8;
-// A velocity of this many times its dead band is resolved.
-constexpr double noises_resolved = 1e3;
-
-}  // namespace
 
 NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes)
     : dae_(dae), consistency_(consistency), tolerances_(tolerances), modes_(modes) {
@@ -88,7 +76,7 @@ NetworkEvents::Flow NetworkEvents::flow(const Watched& law, const Dae::View& vie
   if (law.beside < 0) return plain;
   std::size_t i = 0;
   const RateBatch& dashpot = dae_.network().rate_of(law.beside, i);
-  const double resolved = noises_resolved * plain.dead_band, most = dashpot.force_at(i, resolved);
+  const double resolved = numerics::resolved_dead_bands * plain.dead_band, most = dashpot.force_at(i, resolved);
   const double force = law.sign * view.rate_force[at(law.beside)];
   return {std::abs(force) < most ? resolved * (force / most) : plain.velocity,
           std::clamp(resolved * (tolerances_.force_noise(law.beside) / most), std::numeric_limits<double>::min(), plain.dead_band)};
@@ -121,7 +109,7 @@ bool NetworkEvents::moved_apart(int k) const {
 /// Dead band of the guard of a sticking slider [N]. A bound of 0, or one that falls, says nothing of the forces that balance there.
 double NetworkEvents::force_band(int k) const {
   const double largest = std::max(dae_.inputs().box(at(k)).largest(), tolerances_.held_seen(k));
-  return largest * force_rounding + tolerances_.slip_noise(k) + margin_[at(k)];
+  return largest * numerics::balance_roundoff + tolerances_.slip_noise(k) + margin_[at(k)];
 }
 
 double NetworkEvents::slider_function(int k, const Dae::View& view) const {
@@ -162,15 +150,15 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
     for (Slipping& one : slipping_) one.slope = slope(one, view);
   }
   // Never exactly 0, as for limits.
-  const auto margin = [](double g) { return g <= 0 ? -g * (1 + force_rounding) + std::numeric_limits<double>::min() : 0; };
+  const auto margin = [](double g) { return g <= 0 ? -g * (1 + numerics::balance_roundoff) + std::numeric_limits<double>::min() : 0; };
   // Mode selection and the equations may differ slightly: re-arm the guard at twice its current violation, so that it does
   // not fire again at once.
-  const auto more = [&](double g) { return 2 * margin(g); };
+  const auto more = [&](double g) { return numerics::rearm_violation * margin(g); };
   for (std::size_t k = 0; k < law_margin_.size(); ++k) law_margin_[k] = more(at_begin_[k]);
   for (std::size_t i = 0; i < sliders_.size(); ++i) {
     const int k = sliders_[i];
     const double g = at_begin_[law_margin_.size() + i];
-    if (!dae_.structure().stuck[at(k)] && g < -slip_rounding * tolerances_.largest_velocity()) report_against_force(t, k);
+    if (!dae_.structure().stuck[at(k)] && g < -numerics::slip_against_force * tolerances_.largest_velocity()) report_against_force(t, k);
     margin_[at(k)] = margin(g);
   }
   const std::size_t first = events_.size() - limit_margin_.size();
@@ -243,7 +231,7 @@ double NetworkEvents::looked_at(std::size_t i, const Dae::View& view) const {
 double NetworkEvents::held_function(const Held& held, const Dae::View& view) const {
   const Watched& law = watched_[held.law];
   const auto [velocity, dead_band] = flow(law, view);
-  std::array<double, most_events> g;
+  std::array<double, numerics::held_law_events> g;
   law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, dead_band, g.data());
   return g[at(held.which)] + law_margin_[held.event];
 }
@@ -254,7 +242,7 @@ void NetworkEvents::find_held() {
   std::size_t event = 0;
   for (std::size_t w = 0; w < watched_.size(); ++w) {
     const int events = watched_[w].batch->events(watched_[w].i);
-    const bool held = events <= static_cast<int>(most_events) && watched_[w].batch->holds(watched_[w].i);
+    const bool held = events <= static_cast<int>(numerics::held_law_events) && watched_[w].batch->holds(watched_[w].i);
     for (int k = 0; k < events; ++k, ++event) {
       if (held) held_.push_back({w, k, event});
     }
@@ -299,8 +287,6 @@ bool NetworkEvents::any_dips(const Dae::View& end) {
 }
 
 std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& integrator, const Dae::View& end) {
-  constexpr int refinements = 4;
-  constexpr double near = 0.1;  // a parabola gives the place of the minimum, but hardly its value
   const double a = integrator.previous_time(), b = integrator.time();
   std::optional<Missed> first;
   if (!(b > a)) return first;
@@ -314,11 +300,11 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
     double left = a, middle = (a + b) / 2, right = b;
     double gl = left_[i], gm = middle_[i], gr = right_[i];
     const double steep = std::max({gl, gm, gr}) - std::min({gl, gm, gr});
-    for (int n = 0; n < refinements && gm > 0; ++n) {
+    for (int n = 0; n < numerics::missed_event_refinements && gm > 0; ++n) {
       // The vertex of the parabola through the three points.
       const double p = (middle - left) * (gm - gr), q = (middle - right) * (gm - gl);
       const double least = middle - ((middle - left) * p - (middle - right) * q) / (2 * (p - q));
-      if (!(least > left && least < right) || least == middle || std::min({gl, gm, gr}) > near * (1 + n) * steep + gm / 2) break;
+      if (!(least > left && least < right) || least == middle || std::min({gl, gm, gr}) > numerics::missed_event_dip * (1 + n) * steep + gm / 2) break;
       const double g = at_time(integrator, least, i);
       if (g >= gm) break;
       (least < middle ? right : left) = middle;
@@ -327,7 +313,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
       gm = g;
     }
     if (!(gm < 0) || !(gl > 0)) continue;
-    while (middle - left > 4 * std::numeric_limits<double>::epsilon() * std::abs(middle)) {
+    while (middle - left > numerics::last_digit_ulps * std::numeric_limits<double>::epsilon() * std::abs(middle)) {
       const double half = (left + middle) / 2;
       if (half <= left || half >= middle) break;
       (at_time(integrator, half, i) > 0 ? left : middle) = half;

@@ -2,31 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Tolerance of a step over the accuracy of the result where errors are forgotten: they add up within the time of forgetting,
-// and recorded channels are not the unknowns themselves.
-constexpr double forgetful_share = 2e-3;
-// The same for steps over small kinks, whose errors have either sign. (1000 pairs on a mass at accuracy 1e-6 take a tenth of
-// the steps, with errors of 2e-7.)
-constexpr double dense_forgetful_share = 6e-3;
-// Where errors are not forgotten, each step adds this multiple of its tolerance to the global error. Measured: 0.05 at an
-// accuracy of 1e-6, 0.5 at 1e-9 (30 to 1000 cycles of an undamped oscillator, free and at resonance, IDA at order 5).
-constexpr double added = 1;
-// Dense kinks cause additional steps, whose errors cancel. The errors of the motion between kinks add up: about this many
-// steps from one sign change of a velocity or an acceleration to the next, each with this multiple of its tolerance.
-constexpr double dense_added = 0.15, steps_of_turn = 50;
-// A sign change counts once the value exceeds this share of its largest magnitude: a slower motion is jitter at rest.
-constexpr double of_any_size = 1e-3;
-
-}  // namespace
 
 GlobalErrorModel::GlobalErrorModel(const Network& network, const Structure& structure, double length)
     : network_(network), structure_(structure), length_(length) {
@@ -58,7 +39,7 @@ GlobalErrorModel::GlobalErrorModel(const Network& network, const Structure& stru
 
 bool GlobalErrorModel::Swing::turns(double x) {
   largest = std::max(largest, std::abs(x));
-  if (std::abs(x) <= of_any_size * largest) return false;
+  if (std::abs(x) <= numerics::turn_magnitude * largest) return false;
   const signed char now = x > 0 ? 1 : -1;
   const bool turned = side == -now;
   side = now;
@@ -116,13 +97,13 @@ double GlobalErrorModel::local_share() const {
   double share = 0;
   for (const Part& part : parts_) share = std::max(share, remembered(part));
   // Steps are assumed to go on at the same rate: `share` scales the count so far to the run, or to the time of forgetting.
-  return 1 / (1 / forgetful_share + added * share * static_cast<double>(steps_));
+  return 1 / (1 / numerics::step_tolerance + numerics::accumulated_error * share * static_cast<double>(steps_));
 }
 
 double GlobalErrorModel::dense_share() const {
   double turns = 0;
   for (const Part& part : parts_) turns = std::max(turns, remembered(part) * static_cast<double>(part.turns));
-  return std::max(local_share(), 1 / (1 / dense_forgetful_share + dense_added * steps_of_turn * turns));
+  return std::max(local_share(), 1 / (1 / numerics::kink_step_tolerance + numerics::kink_accumulated_error * numerics::steps_between_turns * turns));
 }
 
 }  // namespace rheonet

@@ -5,23 +5,17 @@
 #include <cmath>
 
 #include "core/base/format_list.hpp"
+#include "core/base/numerics.hpp"
 #include "core/network/overload_report.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Residual of a balance of constant forces that is still round-off, relative to the sum of their magnitudes.
-constexpr double tie_rounding = 1e-9;
-
-}  // namespace
 
 std::vector<std::string> check_ties(const Dae& dae, double t, const std::function<void()>& overloaded) {
   const Network& network = dae.network();
   std::vector<std::string> notes;
   for (const Structure::Tie& tie : dae.structure().ties) {
     const Dae::Balance balance = dae.balance(tie);
-    if (std::abs(balance.sum) > tie_rounding * balance.magnitude || dae.load_changes(tie)) {
+    if (std::abs(balance.sum) > numerics::constant_balance_roundoff * balance.magnitude || dae.load_changes(tie)) {
       overloaded();
       report_overload(network, t, tie.nodes, tie.elements);
     }

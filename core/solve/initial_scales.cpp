@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/polynomial.hpp"
 #include "core/network/error.hpp"
 
@@ -11,17 +12,10 @@ namespace rheonet {
 
 namespace {
 
-// Largest phase of an oscillation per step while sliders stick [rad]: their forces may be functions of time alone, which no
-// error test sees.
-constexpr double longest_angle = 0.3;
-// The same while sliders slip that follow the inputs directly [rad]: such a slider reverses at most once within a step.
-constexpr double longest_slip = 1.5;
-
 /// Angle of an oscillation per step [rad] at which the polynomial of a delay history misses a sine by a tenth of the
 /// accuracy. The history interpolates prescribed motions too, which no error test sees.
 double remembered_angle(double accuracy) {
-  constexpr double share = 0.1, at_middle = 0.005;  // error in the middle of six points: (5/2 3/2 1/2)^2/6!
-  return std::pow(share * accuracy / at_middle, 1.0 / static_cast<double>(step_points));
+  return std::pow(numerics::history_error_share * accuracy / numerics::history_error_in_middle, 1.0 / static_cast<double>(step_points));
 }
 
 }  // namespace
@@ -31,10 +25,9 @@ std::vector<double> coming_size(const Dae& dae, Consistency& consistency, double
   std::vector<double> size(n);
   for (std::size_t i = 0; i < n; ++i) size[i] = std::abs(motion.y[i]);
   if (dae.rough()) {
-    constexpr double about = 0.1;
     std::vector<double> y = motion.y, yp(n, 0);
     try {
-      if (consistency.collocate(t + ahead, 1 / ahead, y, yp) <= about) {
+      if (consistency.collocate(t + ahead, 1 / ahead, y, yp) <= numerics::guessed_state_change) {
         for (std::size_t i = 0; i < n; ++i) size[i] = std::max(size[i], std::abs(y[i]));
         return size;
       }
@@ -60,14 +53,13 @@ double fastest_rate(const Dae& dae, Consistency& consistency, double t, double h
 }
 
 double first_step(const std::vector<double>& ypp, const std::vector<double>& tolerance) {
-  constexpr double error = 0.3;  // weighted root mean square of h^2 y''/2
   double sum = 0;
   for (std::size_t i = 0; i < ypp.size(); ++i) {
     const double e = ypp[i] / 2 / tolerance[i];
     sum += e * e;
   }
   const double curvature = ypp.empty() ? 0 : std::sqrt(sum / static_cast<double>(ypp.size()));
-  return curvature > 0 ? std::sqrt(error / curvature) : std::numeric_limits<double>::infinity();
+  return curvature > 0 ? std::sqrt(numerics::first_step_error / curvature) : std::numeric_limits<double>::infinity();
 }
 
 bool stay_close(const Motion& a, const Motion& b, double ahead, const std::vector<double>& tolerance) {
@@ -81,9 +73,9 @@ bool stay_close(const Motion& a, const Motion& b, double ahead, const std::vecto
 double longest_step(const Inputs& inputs, bool sticks, bool slips_along, double accuracy) {
   double turn = std::numeric_limits<double>::infinity();
   if (const double omega = inputs.fastest(); omega > 0) {
-    if (slips_along) turn = longest_slip / omega;
-    if (sticks) turn = longest_angle / omega;
-    if (std::isfinite(inputs.history().shortest())) turn = std::min(turn, std::min(longest_angle, remembered_angle(accuracy)) / omega);
+    if (slips_along) turn = numerics::slip_phase_a_step / omega;
+    if (sticks) turn = numerics::phase_a_step / omega;
+    if (std::isfinite(inputs.history().shortest())) turn = std::min(turn, std::min(numerics::phase_a_step, remembered_angle(accuracy)) / omega);
   }
   return std::min(turn, inputs.history().longest_step());
 }

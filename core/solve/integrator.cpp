@@ -12,6 +12,7 @@
 #include <string>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/solve/newton.hpp"
 #include "core/solve/vectors.hpp"
 
@@ -22,14 +23,6 @@ namespace {
 void require(int flag, const char* call) {
   if (flag < 0) throw std::runtime_error(std::string("SUNDIALS: ") + call + " failed with " + std::to_string(flag));
 }
-
-// Error of Newton's iteration as a share of the step's allowed error. IDA's default is larger: it perturbs the error
-// estimates, and so keeps the order low and steps short.
-constexpr double iteration_share = 0.02;
-
-// The step size grows only if it may grow by this factor. (IDA's default of 2 leaves steps at less than half of the possible
-// size; below 1.3 the size changes so often that the order does not rise.)
-constexpr double growth = 1.5;
 
 }  // namespace
 
@@ -77,8 +70,8 @@ struct Integrator::Implementation {
     history.sparse = n > options.dense;
     require(IDASetMaxNumSteps(ida, -1), "IDASetMaxNumSteps");
     require(IDASetMaxOrd(ida, options.order), "IDASetMaxOrd");
-    require(IDASetEtaFixedStepBounds(ida, 1, growth), "IDASetEtaFixedStepBounds");
-    if (!dae.rough()) require(IDASetNonlinConvCoef(ida, iteration_share), "IDASetNonlinConvCoef");
+    require(IDASetEtaFixedStepBounds(ida, 1, numerics::step_growth), "IDASetEtaFixedStepBounds");
+    if (!dae.rough()) require(IDASetNonlinConvCoef(ida, numerics::newton_error_share), "IDASetNonlinConvCoef");
     // The error test leaves out algebraic unknowns, which follow from the others at any time. There they could keep the order
     // at 1 for good: they magnify the error of stiff components, which is proportional to the step size however small.
     for (int i = 0; i < dae.size(); ++i) work[at(i)] = dae.differentiated(i) ? 1 : 0;
@@ -159,18 +152,16 @@ struct Integrator::Implementation {
   /// change of step size excites an error of stiff components, each enlarged step is rejected, and the order would stay 1 for
   /// good. Then the step size is held until the order has risen.
   void rise() {
-    constexpr int enough = 6;
-    constexpr double none = 1e6;
     int order = 0;
     long failures = 0;
     IDAGetLastOrder(ida, &order);
     IDAGetNumErrTestFails(ida, &failures);
     const bool back = order == 1 && failures > rejected;
     rejected = failures;
-    const bool was_held = grown_back >= enough;
-    grown_back = back || (was_held && order == 1 && grown_back < 4 * enough) ? grown_back + 1 : 0;
-    const bool held = grown_back >= enough;
-    if (held != was_held) require(IDASetEtaFixedStepBounds(ida, 1, held ? none : growth), "IDASetEtaFixedStepBounds");
+    const bool was_held = grown_back >= numerics::rejected_growths;
+    grown_back = back || (was_held && order == 1 && grown_back < numerics::held_steps * numerics::rejected_growths) ? grown_back + 1 : 0;
+    const bool held = grown_back >= numerics::rejected_growths;
+    if (held != was_held) require(IDASetEtaFixedStepBounds(ida, 1, held ? numerics::held_step_growth : numerics::step_growth), "IDASetEtaFixedStepBounds");
   }
 
   void evaluate(std::vector<double>& functions) { event_functions.evaluate(refine(time), y.data(), yp.data(), functions.data()); }
@@ -208,10 +199,8 @@ struct Integrator::Implementation {
   /// Shortens the step to just behind the first event, by the Illinois variant of the rule of false position (Dowell and
   /// Jarratt, BIT 11 (1971) 168), applied to the function that falls first.
   void go_to_event() {
-    constexpr double grains = 100;  // tolerance of the event time, in ulps
-    constexpr int most = 60;        // iterations, then bisection
     double begin = previous, end = time;
-    const double near = grains * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
+    const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
     for (std::size_t k = 0; k < left.size(); ++k) {
       const double b = left[k] > 0 && right[k] <= 0 ? event_functions.band(static_cast<int>(k)) : 0;
       band[k] = left[k] > b ? b : 0;
@@ -228,7 +217,7 @@ struct Integrator::Implementation {
       for (std::size_t k = 0; k < left.size(); ++k) {
         if (left[k] > 0 && right[k] <= 0) share = std::max(share, right[k] / (right[k] - weight * left[k]));
       }
-      const double t = round < most ? end - share * (end - begin) : begin + (end - begin) / 2;
+      const double t = round < numerics::false_position_iterations ? end - share * (end - begin) : begin + (end - begin) / 2;
       go_to(std::clamp(t, begin + near / 2, end - near / 2));
       evaluate(between);
       take_bands(between);

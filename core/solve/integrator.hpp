@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/dae.hpp"
 
 namespace rheonet {
@@ -32,14 +33,12 @@ class Integrator {
     singular,  ///< the equations have no unique solution here
   };
 
-  /// Up to this many unknowns dense factorisation is faster than KLU: see tools/bench/linear_algebra.md.
-  static constexpr int dense_limit = 4;
   /// Highest order of the method.
   static constexpr int highest_order = 5;
 
   struct Options {
     int order = highest_order;  ///< highest order, from 1
-    int dense = dense_limit;    ///< linear algebra is dense up to this many unknowns
+    int dense = numerics::dense_integration_limit;  ///< linear algebra is dense up to this many unknowns
     /// Locate each event within its step; if false, an event is taken to be at the end of its step, as many programs do.
     bool locate_events = true;
   };

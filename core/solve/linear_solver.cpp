@@ -4,17 +4,9 @@
 #include <cmath>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Pivots are reused while coefficients grow by no more than this factor times their growth when the pivots were chosen.
-constexpr double much_more = 1e3;
-// Growth beyond this, with new pivots, means that no better pivots exist.
-constexpr double largest_growth = 1e6;
-
-}  // namespace
 
 LinearSolver::LinearSolver(const Pattern& pattern, bool sparse, const std::vector<double>& tolerance)
     : pattern_(pattern),
@@ -52,9 +44,9 @@ bool LinearSolver::factorise() {
   if (!sparse_) return dense_.factorise();
   // A former pivot may have become 0 or almost so, such as the slope of friction at its bound: dividing by it leaves few
   // digits of other unknowns.
-  if (sparse_->refactorise(values_.data()) && sparse_->growth(values_.data()) <= much_more * first_growth_) return true;
+  if (sparse_->refactorise(values_.data()) && sparse_->growth(values_.data()) <= numerics::pivot_growth_ratio * first_growth_) return true;
   if (!sparse_->factorise(values_.data())) return false;
-  first_growth_ = std::min(sparse_->growth(values_.data()), largest_growth);
+  first_growth_ = std::min(sparse_->growth(values_.data()), numerics::largest_pivot_growth);
   return true;
 }
 

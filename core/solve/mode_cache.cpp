@@ -1,14 +1,9 @@
 #include "core/solve/mode_cache.hpp"
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
-
-namespace {
-
-constexpr std::size_t most_kept = 64;
-
-}  // namespace
 
 System::System(const Network& network, Structure s, Inputs& inputs, const std::vector<char>& needed, const Modes& modes,
                Tolerances& tolerances, const Integrator::Options& options)
@@ -36,7 +31,7 @@ const std::shared_ptr<System>& ModeCache::of_modes() {
   for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
   auto found = mode_cache_.find(key);
   if (found == mode_cache_.end()) {
-    if (mode_cache_.size() >= most_kept) {
+    if (mode_cache_.size() >= numerics::modes_kept) {
       history_ = statistics();
       mode_cache_.clear();
     }

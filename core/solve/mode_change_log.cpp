@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/base/numerics.hpp"
 #include "core/dae/polynomial.hpp"
 
 namespace rheonet {
@@ -14,14 +14,12 @@ namespace {
 /// Jarratt, BIT 11 (1971) 168): immediate where g is almost straight.
 template <class G>
 double first_below_zero(const G& g, double left, double right) {
-  constexpr int most = 60;
-  constexpr double rounding = 1e-15;  // of the values at both ends
   double gl = g(left), gr = g(right);
   if (gl <= 0 || gr >= 0) return gl <= 0 ? left : right;
-  const double enough = rounding * (gl - gr);
+  const double enough = numerics::false_position_residual * (gl - gr);
   double best = -gr < gl ? right : left, least = std::min(gl, -gr);
   int kept = 0;  // 1: the right end stayed; -1: the left end did
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0; k < numerics::false_position_iterations; ++k) {
     const double t = left + (right - left) * (gl / (gl - gr));
     if (!(t > left && t < right)) break;
     const double now = g(t);

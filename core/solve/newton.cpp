@@ -6,21 +6,9 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// The Jacobian is renewed once cj has changed by this share. (With IDA's default of 0.25, a step that has become longer by
-// half keeps the old Jacobian, and takes twice the iterations. A Jacobian costs less than one iteration.)
-constexpr double stale_share = 0.01;
-
-// As in IDA: the largest number of iterations, the largest rate of convergence, and the assumed ratio of the remaining error
-// to the last change while no rate is known, with a new and with an old Jacobian.
-constexpr int most_iterations = 4;
-constexpr double slowest_rate = 0.9, left_if_new = 20, left_if_old = 100;
-
-}  // namespace
 
 Newton::Newton(Dae& dae, bool sparse, const std::vector<double>& tolerance, const std::vector<double>& grain)
     : dae_(dae),
@@ -36,7 +24,7 @@ void Newton::restart() {
 }
 
 bool Newton::stale(double cj) const {
-  constexpr double least = (1 - stale_share) / (1 + stale_share);
+  constexpr double least = (1 - numerics::jacobian_change) / (1 + numerics::jacobian_change);
   const double ratio = cj / jacobian_cj_;
   return jacobian_cj_ == 0 || ratio < least || ratio > 1 / least;
 }
@@ -61,14 +49,14 @@ bool Newton::renew(const Step& step) {
   ++counts_.jacobians;
   dae_.jacobian(step.t, step.cj, step.y, step.yp, linear_.entries());
   jacobian_cj_ = step.cj;
-  foreseen_ = left_if_new;
+  foreseen_ = numerics::newton_error_new_jacobian;
   singular_ = !linear_.factorise();
   if (singular_) jacobian_cj_ = 0;
   return !singular_;
 }
 
 bool Newton::solve(const Step& step, double* correction, const double* weight, double enough) {
-  if (step.cj != last_cj_) foreseen_ = left_if_old;
+  if (step.cj != last_cj_) foreseen_ = numerics::newton_error_old_jacobian;
   last_cj_ = step.cj;
   for (bool anew = stale(step.cj);; anew = true) {
     std::fill_n(correction, change_.size(), 0.0);
@@ -84,7 +72,7 @@ bool Newton::solve(const Step& step, double* correction, const double* weight, d
 Newton::Verdict Newton::iterate(const Step& step, double* correction, const double* weight, double enough) {
   // A Jacobian of another cj gives changes too large or too small: half of that is corrected (as in IDA).
   const double scale = 2 / (1 + step.cj / jacobian_cj_);
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < numerics::newton_iterations; ++iteration) {
     if (iteration > 0 && !evaluate(step, correction)) break;
     linear_.solve(change_.data());
     for (std::size_t i = 0; i < change_.size(); ++i) correction[i] += change_[i] *= scale;
@@ -103,12 +91,11 @@ Newton::Verdict Newton::judge(const Step& step, int iteration, const double* wei
 /// IDA's test, with two exceptions: an iteration that stalls has converged if it is within the round-off of the unknowns, or
 /// if it would satisfy IDA's default tolerance.
 Newton::Verdict Newton::smooth(const Step& step, int iteration, double size, const double* weight, double enough) {
-  constexpr double nothing_to_change = 1e-8, no_farther = 0.1;
   if (iteration == 0) {
-    if (size <= nothing_to_change * enough) return Verdict::converged;
+    if (size <= numerics::newton_no_change * enough) return Verdict::converged;
   } else {
     const double rate = iteration == 1 ? size / first_change_ : std::pow(size / first_change_, 1.0 / iteration);
-    if (rate > slowest_rate) return size <= std::max(rounding(step, weight), no_farther) ? Verdict::converged : Verdict::hopeless;
+    if (rate > numerics::newton_slowest_rate) return size <= std::max(rounding(step, weight), numerics::newton_stalled_change) ? Verdict::converged : Verdict::hopeless;
     foreseen_ = rate / (1 - rate);
   }
   return foreseen_ * size <= enough ? Verdict::converged : Verdict::go_on;
@@ -117,16 +104,14 @@ Newton::Verdict Newton::smooth(const Step& step, int iteration, double size, con
 /// For power laws. IDA's own test accepts one small first change if the iteration converged fast in the step before. But a
 /// power law is so steep near rest that with a Jacobian from there any change is small: a second change is required.
 Newton::Verdict Newton::rough(const Step& step, int iteration, double size, const double* weight, double enough) {
-  constexpr double nothing_to_change = 1e-4;
-  constexpr double certain = 0.1;  // of `enough`: small enough even where changes do not shrink
   const bool back = iteration > 0 && turns_back(weight);
   last_change_ = change_;
-  if (iteration == 0) return size <= nothing_to_change * enough ? Verdict::converged : Verdict::go_on;
+  if (iteration == 0) return size <= numerics::newton_no_change_rough * enough ? Verdict::converged : Verdict::go_on;
   if (size <= rounding(step, weight)) return Verdict::converged;
   // Changes that alternate in sign, as in the round-off of velocity differences, are about as large as the error.
-  if (back && size <= certain * enough) return Verdict::converged;
+  if (back && size <= numerics::newton_certain_change * enough) return Verdict::converged;
   const double rate = std::pow(size / first_change_, 1.0 / iteration);
-  if (rate > slowest_rate) return size <= certain * enough ? Verdict::go_on : Verdict::hopeless;
+  if (rate > numerics::newton_slowest_rate) return size <= numerics::newton_certain_change * enough ? Verdict::go_on : Verdict::hopeless;
   return rate / (1 - rate) * size <= enough ? Verdict::converged : Verdict::go_on;
 }
 
@@ -144,8 +129,7 @@ bool Newton::turns_back(const double* weight) const {
 
 /// The round-off of the unknowns, as the norm of a change.
 double Newton::rounding(const Step& step, const double* weight) const {
-  // A change follows from a residual and two triangular solutions, sums of some tens of rounded terms.
-  constexpr double grains = 64 * std::numeric_limits<double>::epsilon();
+  constexpr double grains = numerics::newton_change_ulps * std::numeric_limits<double>::epsilon();
   double sum = 0;
   for (std::size_t i = 0; i < grain_.size(); ++i) {
     const double least = weight[i] * std::max(grains * std::abs(step.y[i]), grain_[i]);

@@ -6,6 +6,7 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/rate_law.hpp"
 #include "core/solve/stop_chains.hpp"
@@ -73,16 +74,13 @@ void Regularisation::begin(const Inputs& inputs, const std::vector<double>& velo
 
 /// The velocity [m/s] below which round-off of time hides that the law stops a mass: m w' = -B w^n takes m w^(1-n)/B.
 double Regularisation::slowest_stop(std::size_t rate, const Growth& growth) const {
-  constexpr double grains = 16;  // shortest resolved duration, in units of the round-off of time
   const auto [B, n] = growth;
-  const double shortest = grains * time_roundoff(network_.scene->stop - network_.scene->start);
+  const double shortest = numerics::regularised_duration * time_roundoff(network_.scene->stop - network_.scene->start);
   return std::pow(n * B * shortest / mass_[rate], 1 / (1 - n));
 }
 
 void Regularisation::apply(const Tolerances& tolerances) {
-  // Velocities that follow such a law directly jump with each change of it: let it change by this factor at least.
-  constexpr double other = 2;
-  const auto same = [](double a, double b) { return a == b || (a < other * b && b < other * a); };
+  const auto same = [](double a, double b) { return a == b || (a < numerics::regularisation_change * b && b < numerics::regularisation_change * a); };
   const double unresolved = tolerances.unresolved();
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -90,7 +88,7 @@ void Regularisation::apply(const Tolerances& tolerances) {
       const Growth growth = laws.batch->growth(i);
       double w = 0;
       if (growth.exponent > 1) w = std::max(least_velocity_[r], tolerances.unfelt_dilatant(static_cast<int>(r)));
-      if (growth.exponent < 1 && stops_[r]) w = Tolerances::soft_share * unresolved;
+      if (growth.exponent < 1 && stops_[r]) w = numerics::negligible_force * unresolved;
       // Even at such a small velocity the force may be large, and all of it vanishes at rest.
       if (growth.exponent < 1 && mass_[r] > 0) w = std::min(w, std::max(tolerances.unfelt(static_cast<int>(r)), slowest_stop(r, growth)));
       if (same(w, applied_[r])) continue;

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/dae/polynomial.hpp"
@@ -25,26 +25,6 @@
 namespace rheonet {
 
 namespace {
-
-// Treat jumps in delay histories below 0.1 x accuracy as continuous: unknowns outside the error test have such errors.
-constexpr double jump_share = 0.1;
-// When the integrator fails, the loads at this share of the time to the next known discontinuity are checked for overload.
-constexpr double soon = 0.1;
-// Time steps for second derivatives and for scales, relative to the time to the next known discontinuity.
-constexpr double glimpse = 1e-7;
-constexpr double lookahead = 1e-4;
-// Events that repeat without a change within this share of the run would never end.
-constexpr double instant = 1e-6;
-// Least lookahead in units of the round-off of time, so that steps within it are longer than that round-off.
-constexpr double grains_ahead = 1e5;
-// Lookahead relative to the fastest time constant of the network.
-constexpr double lookahead_of_cycle = 0.01;
-// Steps that a restart needs to regain step size and order. After an interval with more steps a restart hardly matters.
-constexpr int steps_of_restart = 20;
-// Second derivatives are differences over this share of a step.
-constexpr double share_of_step = 0.1;
-// A run with more steps takes seconds: the user gets a note.
-constexpr double many_steps = 3e5;
 
 class Run {
  public:
@@ -66,7 +46,7 @@ class Run {
         regularisation_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
     slider_force_.assign(network.sliders.size(), 0);
-    inputs_.history().disregard(jump_share * settings.accuracy);
+    inputs_.history().disregard(numerics::continuous_jump * settings.accuracy);
   }
 
   SimulationStatistics go() {
@@ -116,7 +96,7 @@ class Run {
       throw;
     }
     regularisation_.begin(inputs_, state_.velocity);
-    if (const double steps = settings_.stop / inputs_.history().longest_step(); steps > many_steps) {
+    if (const double steps = settings_.stop / inputs_.history().longest_step(); steps > numerics::many_steps) {
       statistics_.notes.push_back(fmt::format(
           "no step can be longer than the shortest delay in front of a prescribed motion, or behind what has no mass, {:.3g} s: "
           "this run takes {:.1e} of them; without a delay as short as that hardly anything would be different", inputs_.history().longest_step(), steps));
@@ -139,7 +119,7 @@ class Run {
       return t;
     }
     leave(t);
-    smooth_ = cross_smoothly(t, stopped_ && !breaks.empty() && !inputs_.history().any() && steps_ <= steps_of_restart);
+    smooth_ = cross_smoothly(t, stopped_ && !breaks.empty() && !inputs_.history().any() && steps_ <= numerics::steps_of_restart);
     if (settings_.profile && !smooth_) {
       for (const Inputs::Break& b : breaks) settings_.profile->blame({b.element});
     }
@@ -151,7 +131,7 @@ class Run {
   bool cross_smoothly(double t, bool often) {
     const std::shared_ptr<System> before = system_;
     const double step = system_->integrator.time() - system_->integrator.previous_time();
-    const double difference = std::max(share_of_step * step, time_roundoff(t));
+    const double difference = std::max(numerics::corner_difference * step, time_roundoff(t));
     const std::vector<double> y = y_;
     std::vector<double> yp(y.size()), ypp, new_ypp;
     if (often) {
@@ -254,14 +234,14 @@ class Run {
       ++steps_;
       if (outcome == Integrator::Outcome::stuck || outcome == Integrator::Outcome::singular) {
         // A restart with a shorter first step helps if the integrator's history is the cause.
-        if ((shrink *= 1e-2) < 1e-7) fail(outcome);
+        if ((shrink *= numerics::retry_shrink) < numerics::least_retry) fail(outcome);
         y_ = system_->integrator.y();
         t = system_->integrator.time();
         system_->consistency.project(t, y_);
         system_->consistency.derivative(t, y_, yp_);
         leave(t);
         if (settings_.profile) settings_.profile->blame_failure(system_->integrator);
-        if (gets_nowhere(t, {solver()}) || chatter_.failing(t, glimpse * horizon(t))) fail(outcome);
+        if (gets_nowhere(t, {solver()}) || chatter_.failing(t, numerics::failure_time * horizon(t))) fail(outcome);
         tolerances_.trust(false);
         restart(t, until, shrink);
         continue;
@@ -329,8 +309,8 @@ class Run {
   bool gets_nowhere(double t, const std::vector<int>& causes) {
     if (!chatter_.lost(t, causes, state_)) return false;
     const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest());
-    if (rate > 0 ? (t - chatter_.since()) * rate < 1 : t - chatter_.since() < lookahead * horizon(t)) return true;
-    return chatter_.without_end(t, instant * settings_.stop);
+    if (rate > 0 ? (t - chatter_.since()) * rate < 1 : t - chatter_.since() < numerics::chatter_time * horizon(t)) return true;
+    return chatter_.without_end(t, numerics::endless_time * settings_.stop);
   }
 
   [[noreturn]] void report_chatter(double t) const {
@@ -355,15 +335,15 @@ class Run {
   }
 
   void restart(double t, double until, double shrink) {
-    double ahead = lookahead * course(t);
+    double ahead = numerics::lookahead_time * course(t);
     std::vector<double> ypp;
     // The difference step must exceed the round-off of time, even in a short interval.
-    system_->consistency.second_derivative(t, std::max(glimpse * course(t), time_roundoff(t)), y_, yp_, ypp);
+    system_->consistency.second_derivative(t, std::max(numerics::difference_time * course(t), time_roundoff(t)), y_, yp_, ypp);
     double foreseen = 0;
     if (tolerances_.blind()) {
       const double rate = fastest_rate(system_->dae, system_->consistency, t, course(t), {y_, yp_, ypp}, ahead);
-      if (rate > 0) ahead = std::min(ahead, lookahead_of_cycle / rate);
-      foreseen = ahead = std::max(ahead, std::min(grains_ahead * time_roundoff(t), until - t));
+      if (rate > 0) ahead = std::min(ahead, numerics::lookahead_of_network / rate);
+      foreseen = ahead = std::max(ahead, std::min(numerics::least_lookahead * time_roundoff(t), until - t));
     }
     std::vector<double> size;
     if (foreseen > 0) size = coming_size(system_->dae, system_->consistency, t, {y_, yp_, ypp}, foreseen);
@@ -374,7 +354,7 @@ class Run {
       system_->consistency.project(t, y_);
       system_->consistency.derivative(t, y_, yp_);
     }
-    double h = std::min({until - t, 100 * ahead, first_step(ypp, tolerances_.values())});
+    double h = std::min({until - t, numerics::first_step_lookahead * ahead, first_step(ypp, tolerances_.values())});
     // Without unknowns and guards a step has no error.
     if (system_->dae.unknowns() == 0 && !system_->events.sticks() && !system_->events.slips_along()) h = until - t;
     limit_step();
@@ -396,11 +376,11 @@ class Run {
     system_->integrator.limit_step(longest_step(inputs_, events.sticks(), events.slips_along(), settings_.accuracy));
   }
 
-  double tolerance(double share) const { return std::max(share * settings_.accuracy, Tolerances::least_tolerance); }
+  double tolerance(double share) const { return std::max(share * settings_.accuracy, numerics::least_step_tolerance); }
 
   void tell_overload() const {
     const double t = std::max(left_, system_->integrator.time());
-    transition_.check_load(t, t + soon * horizon(t), state_, slider_force_);
+    transition_.check_load(t, t + numerics::overload_check_time * horizon(t), state_, slider_force_);
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {

@@ -1,17 +1,10 @@
 #include <algorithm>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Forces may be this multiple of a slider's bound before they get tighter tolerances for it: errors of steps add up to less
-// than their limits. The tightening ends at `least_slider_share`, which takes two to three times the steps.
-constexpr double much_larger = 10, least_slider_share = 1e-3;
-
-}  // namespace
 
 void Tolerances::see_rest(std::size_t slider, double velocity) {
   if (rested_[slider]) return;
@@ -41,8 +34,8 @@ void Tolerances::find_slider_shares() {
   for (std::size_t k = 0; k < rested_.size(); ++k) {
     const double bound = dae_->inputs().box(k).largest();
     const std::size_t part = at(part_of(structure.sliders[k]));
-    if (!rested_[k] || !(bound > 0) || much_larger * bound >= force[part]) continue;
-    slider_share_[part] = std::min(slider_share_[part], std::max(least_slider_share, much_larger * bound / force[part]));
+    if (!rested_[k] || !(bound > 0) || numerics::slider_force_ratio * bound >= force[part]) continue;
+    slider_share_[part] = std::min(slider_share_[part], std::max(numerics::least_slider_share, numerics::slider_force_ratio * bound / force[part]));
   }
 }
 

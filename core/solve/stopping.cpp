@@ -3,23 +3,10 @@
 #include <limits>
 
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/solve/tolerances.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// Below n = 1/2 the force of w(t) = (c (T - t))^(1/(1-n)) falls ever more steeply, so an error of the time of rest T causes a
-// force error that grows towards T. It stays within its limit up to `last_share` of the motion before T. `most_steepening`
-// limits the effort for laws close to dry friction, whose force drops at one time anyway.
-constexpr double last_share = 3e-3, most_steepening = 1 / 30.0;
-// Finest resolution of the relative velocity of two ends that move together: relative to the tolerance of their common
-// velocity, and in ulps of that velocity.
-constexpr double least_share = 1e-5, carried_grains = 256;
-// Accepted round-off of a force over a negligible force, about the promised accuracy: more would hinder convergence.
-constexpr double noisy = 10;
-
-}  // namespace
 
 /// Limits the velocity tolerance of masses that pseudoplastic dashpots stop in a finite time. The slope of f = B w^n grows
 /// without bound towards rest, so the same velocity error causes a growing error of the force, and of the time of rest. The
@@ -43,14 +30,14 @@ void Tolerances::find_stopping(const Dae::View& view) {
     }
     if (least == 0) continue;  // no force yet
     const double n = largest_exponent;
-    const double steepening = n < 0.5 ? std::max(most_steepening, std::pow(last_share, (1 - 2 * n) / (1 - n))) : 1;
+    const double steepening = n < 0.5 ? std::max(numerics::stopping_tightening, std::pow(numerics::stopping_time_share, (1 - 2 * n) / (1 - n))) : 1;
     most = std::max({steepening * most, least, dead_band});
     for (const NodeId node : {chain.a, chain.b}) stopping_[at(node)] = std::min(stopping_[at(node)], most);
   }
 }
 
 double Tolerances::carried_noise(std::size_t rate) const {
-  return std::max(least_share * local(), carried_grains * std::numeric_limits<double>::epsilon()) * carried_seen_[rate];
+  return std::max(numerics::relative_motion_share * local(), numerics::relative_velocity_ulps * std::numeric_limits<double>::epsilon()) * carried_seen_[rate];
 }
 
 double Tolerances::unfelt(int rate) const {
@@ -58,9 +45,9 @@ double Tolerances::unfelt(int rate) const {
   const auto [B, n] = network_.rate_of(rate, i).growth(i);
   const double largest = dashpot_seen_[at(rate)];
   if (largest == 0) return std::numeric_limits<double>::infinity();
-  const double allowed = soft_share * local() * largest, rounding = std::numeric_limits<double>::epsilon() * carried_seen_[at(rate)];
+  const double allowed = numerics::negligible_force * local() * largest, rounding = std::numeric_limits<double>::epsilon() * carried_seen_[at(rate)];
   // A steep law amplifies the round-off of the velocities of two ends that move together.
-  return std::max({std::pow(allowed / B, 1 / n), std::pow(n * B * rounding / (noisy * allowed), 1 / (1 - n)), soft_share * carried_noise(at(rate))});
+  return std::max({std::pow(allowed / B, 1 / n), std::pow(n * B * rounding / (numerics::negligible_force_noise * allowed), 1 / (1 - n)), numerics::negligible_force * carried_noise(at(rate))});
 }
 
 }  // namespace rheonet

@@ -8,29 +8,10 @@
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/rate_law.hpp"
 
 namespace rheonet {
-
-namespace {
-
-// A node that moves along with others is resolved relative to its motion against them, down to `least_relative` of the common
-// motion and to this many ulps of it: nearer to round-off, steps are rejected for nothing.
-constexpr double least_relative = 1e-5, velocity_grains = 256, position_grains = 1024;
-// An integrated distance between two nodes may be off by this share of their displacement, and by this many ulps of it: their
-// velocities are derivatives of deflections with that round-off.
-constexpr double least_distance = 1e-7, distance_grains = 64;
-// A position's tolerance, loosened for the error of its velocity, is at most this multiple of its own.
-constexpr double most_of_velocity = 10;
-// Round-off of time that a step may be off by without being rejected [ulps]: each of the few past times that a prediction
-// uses is rounded by one ulp. (Fewer than in time_roundoff.hpp, within which two times are equal: faster changes count.)
-constexpr double time_grains = 8;
-// Round-off of a deflection that a step may be off by [ulps] (a sum of two terms).
-constexpr double value_grains = 4;
-// Multiple of the round-off of the balance behind a deflection that a step may be off by.
-constexpr double balance_grains = 4;
-
-}  // namespace
 
 Tolerances::Tolerances(const Network& network, double relative) : network_(network), relative_(relative), dense_(relative), bundle_corners_(network), block_gains_(network) {
   const std::size_t nodes = network.nodes(), deflections = network.deflections.size();
@@ -209,7 +190,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   // Estimates made before a recent event still hold.
   if (t > forget_) forget();
   if (ahead > 0) {
-    forget_ = t + 10 * ahead;
+    forget_ = t + numerics::scale_memory * ahead;
     ahead_ = ahead;
     for (std::size_t i = 0; i < y.size(); ++i) {
       double& foreseen = foreseen_of(quantity_[i]);
@@ -309,12 +290,12 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   if (q.sort == Sort::velocity) resolve(std::min(relative_seen_[q.index], least_slide_[q.index]), least.velocity);
   scale = std::max(scale, foreseen_of(q));
   if (!network_.blocks.blocks.empty()) scale = std::min(scale, block_scale_[static_cast<std::size_t>(q.sort)][q.index]);
-  if (!stands_alone(q)) scale = std::max(scale, floor_of_kind * largest[static_cast<std::size_t>(q.sort)]);
+  if (!stands_alone(q)) scale = std::max(scale, numerics::scale_floor * largest[static_cast<std::size_t>(q.sort)]);
   if (q.sort != Sort::deflection) return scale;
   // Limited by the scale of the force: near a reversal a nanometre may matter, in sliding a metre does not.
   const double stiffness = std::abs(slope[q.index]);
   const double own = std::max(force_seen_[q.index], stiffness * foreseen_of(q));
-  const double by_force = std::max(own, floor_of_kind * largest[static_cast<std::size_t>(Sort::force)]);
+  const double by_force = std::max(own, numerics::scale_floor * largest[static_cast<std::size_t>(Sort::force)]);
   return by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale;
 }
 
@@ -325,8 +306,8 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   tolerance = std::max({tolerance, jitters_[i] ? jitter : 0.0, rounding_[i]});
   if (q.sort == Sort::deflection) {
     grain_[i] = balance_rounding_.of(static_cast<int>(q.index));
-    tolerance = std::max({tolerance, value_grains * std::numeric_limits<double>::epsilon() * size_[i],
-                          step_ * difference_rounding_[q.index], balance_grains * grain_[i]});
+    tolerance = std::max({tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * size_[i],
+                          step_ * difference_rounding_[q.index], numerics::deflection_balance_ratio * grain_[i]});
   }
   if (q.sort == Sort::velocity && !block_rounding_.empty()) {
     grain_[i] = block_rounding_[q.index];
@@ -336,9 +317,9 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
   if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
   if (q.sort == Sort::position) {
     // A stop far from 0 may deflect by less than the round-off of its position.
-    tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * size_[i]);
+    tolerance = std::max(tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * size_[i]);
     // The positions of nodes on springs and friction follow from deflections, which are rounded.
-    tolerance = std::max(tolerance, value_grains * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
+    tolerance = std::max(tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
   const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
   // An error test compares a step with those since the restart: earlier round-off does not enter.
@@ -354,16 +335,16 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   const bool positions = !dae_->integrated_positions().empty();
   if (positions) find_longest();
   // Time is known to half an ulp: changes within that cannot be resolved.
-  const double grain = time_grains * std::numeric_limits<double>::epsilon() * std::abs(t);
+  const double grain = numerics::time_change_ulps * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Scales largest = find_largest(slope);
   largest_velocity_ = largest[static_cast<std::size_t>(Sort::velocity)];
   find_block_scales(largest[static_cast<std::size_t>(Sort::force)], view);
   const auto least_share = [&](double least, double grains) {
     return std::max(least, grains * std::numeric_limits<double>::epsilon() / local());
   };
-  const LeastShares least{.velocity = least_share(least_relative, velocity_grains),
-                          .position = least_share(least_relative, position_grains),
-                          .way = least_share(least_distance, distance_grains)};
+  const LeastShares least{.velocity = least_share(numerics::relative_motion_share, numerics::relative_velocity_ulps),
+                          .position = least_share(numerics::relative_motion_share, numerics::relative_position_ulps),
+                          .way = least_share(numerics::distance_share, numerics::distance_ulps)};
   std::optional<Scales> to_come;  // rarely needed
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     double scale = scale_of(quantity_[i], largest, least, slope);
@@ -371,7 +352,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
       if (!to_come) to_come = scales_to_come(std::max(ahead_, t - begin_), largest);
       scale = (*to_come)[static_cast<std::size_t>(quantity_[i].sort)];
     }
-    tolerance_[i] = std::max(local() * slider_share(quantity_[i]) * scale, least_tolerance * std::min(scale, size_[i]));
+    tolerance_[i] = std::max(local() * slider_share(quantity_[i]) * scale, numerics::least_step_tolerance * std::min(scale, size_[i]));
     bear_noise(i, t, grain * std::abs(yp[i]), largest_velocity_);
   }
   if (positions) loosen_positions();
@@ -385,7 +366,7 @@ void Tolerances::loosen_positions() {
     const Quantity& q = quantity_[i];
     if (q.sort != Sort::position || stands_alone(q)) continue;
     const int of = dae_->velocity_unknown(static_cast<NodeId>(q.index));
-    const double most = most_of_velocity * local() * seen(q);
+    const double most = numerics::position_loosening * local() * seen(q);
     if (of >= 0) tolerance_[i] = std::max(tolerance_[i], std::min(most, step_ * tolerance_[at(of)]));
   }
 }

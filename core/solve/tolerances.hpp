@@ -17,14 +17,11 @@ namespace rheonet {
 /// far.
 ///
 /// The scale of a deflection is its force over its slope: a nanometre of presliding counts as much as a metre of sliding. No
-/// scale is below `floor_of_kind` times the largest of its kind, so that small quantities that may still grow are not
+/// scale is below `numerics::scale_floor` times the largest of its kind, so that small quantities that may still grow are not
 /// resolved to every digit. Around a slider that comes to rest, forces are resolved relative to its own, which contains their
 /// errors.
 class Tolerances {
  public:
-  /// Least relative tolerance, a few ulps: IDA accepts no less.
-  static constexpr double least_tolerance = 6.4e-16;
-
   Tolerances(const Network& network, double relative);
 
   /// Switches to these equations; the magnitudes seen so far are kept.
@@ -54,9 +51,7 @@ class Tolerances {
   double largest_velocity() const { return largest_velocity_; }
   /// Velocity below which nothing is resolved, except by dilatant laws [m/s].
   double unresolved() const;
-  /// A force is negligible below this multiple of its error allowed in a step (0.04 of the accuracy; 0.12 over dense kinks).
-  static constexpr double soft_share = 20;
-  /// Velocity at which the force of a pseudoplastic dashpot is negligible by `soft_share`, or is mostly round-off [m/s].
+  /// Velocity at which the force of a pseudoplastic dashpot is negligible (`numerics::negligible_force`), or is mostly round-off [m/s].
   /// Infinite as long as the dashpot has had no force.
   double unfelt(int rate) const;
   /// Velocity at which the force of a dilatant dashpot equals the error of the forces around it [m/s].
@@ -74,8 +69,6 @@ class Tolerances {
  private:
   enum class Sort : char { velocity, deflection, force, position, block };
   static constexpr std::size_t sorts = 5;
-  /// Least scale relative to the largest of its kind: small enough that a nanometre is resolved beside metres.
-  static constexpr double floor_of_kind = 1e-8;
   /// The quantity of an unknown: velocity or position of a node, deflection or force of a branch, or state of a block.
   struct Quantity { Sort sort; unsigned index; };
   double& seen(const Quantity& q) { return seen_[static_cast<std::size_t>(q.sort)][q.index]; }

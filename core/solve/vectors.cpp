@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/numerics.hpp"
+
 namespace rheonet {
 
 namespace {
@@ -15,14 +17,11 @@ using Values = Eigen::Map<Eigen::ArrayXd>;
 
 Values of(N_Vector v) { return {NV_DATA_S(v), NV_LENGTH_S(v)}; }
 
-// Up to this length a plain loop is faster than one made for long vectors.
-constexpr sunindextype longest_loop = 6;
-
 // In each of these operations the result may be one of the operands.
 
 void linear_sum(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
   const sunindextype length = NV_LENGTH_S(z);
-  if (length <= longest_loop)
+  if (length <= numerics::plain_loop_limit)
     for (sunindextype i = 0; i < length; ++i) NV_DATA_S(z)[i] = a * NV_DATA_S(x)[i] + b * NV_DATA_S(y)[i];
   else if (a == 1 && b == 1)
     of(z) = of(x) + of(y);
@@ -49,7 +48,7 @@ realtype norm_of_few(N_Vector x, N_Vector weight) {
 }
 
 realtype norm(N_Vector x, N_Vector weight) {
-  if (NV_LENGTH_S(x) <= longest_loop) return norm_of_few(x, weight);
+  if (NV_LENGTH_S(x) <= numerics::plain_loop_limit) return norm_of_few(x, weight);
   return std::sqrt((of(x) * of(weight)).square().sum() / static_cast<double>(NV_LENGTH_S(x)));
 }
 
@@ -68,7 +67,7 @@ int linear_combination(int count, realtype* c, N_Vector* x, N_Vector z) {
   constexpr sunindextype block = 64;
   std::array<double, block> sum;
   const sunindextype length = NV_LENGTH_S(z);
-  if (length <= longest_loop) {
+  if (length <= numerics::plain_loop_limit) {
     for (sunindextype i = 0; i < length; ++i) {
       double term = c[0] * NV_DATA_S(x[0])[i];
       for (int k = 1; k < count; ++k) term += c[k] * NV_DATA_S(x[k])[i];

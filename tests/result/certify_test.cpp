@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/numerics.hpp"
 #include "core/network/error.hpp"
 #include "core/result/certify.hpp"
 #include "tests/support/check.hpp"
@@ -123,7 +124,7 @@ TEST_CASE("where the first run is not accurate enough a tighter one takes its pl
   CHECK(certificate.rounds.front().tolerance == 1e-3);
   CHECK(certificate.rounds.front().error.relative() > 1e-3);
   for (std::size_t i = 1; i < certificate.rounds.size(); ++i) {
-    CHECK(certificate.rounds[i].tolerance == doctest::Approx(certificate.rounds[i - 1].tolerance / Certificate::factor));
+    CHECK(certificate.rounds[i].tolerance == doctest::Approx(certificate.rounds[i - 1].tolerance / numerics::certificate_ratio));
   }
   // Against a run that is as tight as it can be, and knows nothing of this.
   const Trajectory truth = run_to_memory(scene, {.tolerance = 1e-12});
@@ -143,7 +144,7 @@ TEST_CASE("chaos is not certified: what is kept is good for as long as it says")
   const Certificate& certificate = certified.certificate;
   CHECK_FALSE(certificate.holds);
   CHECK(certificate.obstacle.empty());
-  CHECK(certificate.rounds.back().tolerance / Certificate::factor == doctest::Approx(1e-12).epsilon(1e-6));
+  CHECK(certificate.rounds.back().tolerance / numerics::certificate_ratio == doctest::Approx(1e-12).epsilon(1e-6));
   CHECK(certificate.rounds.back().error.relative() > 0.1);
   REQUIRE(certificate.until > 10);
   REQUIRE(certificate.until < 90);

@@ -1,5 +1,6 @@
 // Runs that events would keep from getting on.
 
+#include "core/base/numerics.hpp"
 #include "core/solve/chatter_detection.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +24,7 @@ State state(double velocity, double deflection) {
 
 TEST_CASE("headway: one element that fires while nothing changes") {
   ChatterDetection chatter(3, accuracy);
-  for (int n = 1; n < ChatterDetection::enough; ++n) {
+  for (int n = 1; n < numerics::chatter_events; ++n) {
     CHECK_FALSE(chatter.lost(0.1 + 1e-9 * n, n % 2 ? std::vector<int>{1} : std::vector<int>{1, 2}, state(1.3, 0.11)));
   }
   CHECK(chatter.lost(0.2, {1}, state(1.3, 0.11)));
@@ -42,7 +43,7 @@ TEST_CASE("headway: a change that the accuracy resolves begins a new count, one 
       ChatterDetection chatter(1, accuracy);
       const double change = share * accuracy * (velocity ? 3.7 : 0.29);
       bool lost = false;
-      for (int n = 0; n < 2 * ChatterDetection::enough; ++n) {
+      for (int n = 0; n < 2 * numerics::chatter_events; ++n) {
         const double moved = n % 2 ? change : 0;
         lost = chatter.lost(n, {0}, state(1.3 + (velocity ? moved : 0), 0.11 + (velocity ? 0 : moved))) || lost;
       }
@@ -58,9 +59,9 @@ TEST_CASE("headway: what goes on for count after count without a change is witho
       ChatterDetection chatter(1, accuracy);
       int counts = 0;
       bool ended = false;
-      for (int n = 0; n < 20 * ChatterDetection::enough && !ended; ++n) {
+      for (int n = 0; n < 20 * numerics::chatter_events && !ended; ++n) {
         const double t = 0.1 + spacing * n;
-        if (!chatter.lost(t, {0}, state(moves && n == 7 * ChatterDetection::enough ? 1.4 : 1.3, 0.11))) continue;
+        if (!chatter.lost(t, {0}, state(moves && n == 7 * numerics::chatter_events ? 1.4 : 1.3, 0.11))) continue;
         ++counts;
         ended = chatter.without_end(t, instant);
       }
@@ -72,7 +73,7 @@ TEST_CASE("headway: what goes on for count after count without a change is witho
 }
 
 TEST_CASE("headway: many elements that fire once each are no chattering") {
-  constexpr int many = 10 * ChatterDetection::enough;
+  constexpr int many = 10 * numerics::chatter_events;
   ChatterDetection chatter(many, accuracy);
   for (int n = 0; n < many; ++n) CHECK_FALSE(chatter.lost(0.1, {n}, state(1.3, 0.11)));
 }

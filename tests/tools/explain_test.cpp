@@ -1,6 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
 
 #include "tests/support/program.hpp"
 #include "tests/tools/scenes.hpp"
@@ -42,4 +47,50 @@ TEST_CASE("effects and reductions on the command line") {
   CHECK(contains(wrong.err, "`--keep`: there is no reduction `postions`\n  did you mean `positions`?"));
   CHECK(contains(folder.shell("rheonet run scene.toml --without inertai", 2).err, "did you mean `inertia`?"));
   CHECK(contains(folder.shell("rheonet run scene.toml --without inertia:k9", 2).err, "nothing is called `k9`"));
+}
+
+TEST_CASE("explain --numerics lists every numerical parameter once, with value, unit, meaning and reason") {
+  const Folder folder(oscillator);
+  std::istringstream text(folder.shell("rheonet explain --numerics", 0).out);
+  const std::regex first("  ([a-z_]+) = ([-+.e0-9, ]+) \\[([^\\]]+)\\]"), sentence("    [A-Z(0-9].*[^ ]");
+  std::map<std::string, std::string> value;
+  std::map<std::string, int> count;
+  for (std::string line; std::getline(text, line);) {
+    std::smatch found;
+    if (!std::regex_match(line, found, first)) continue;  // a heading
+    const std::string name = found[1], unit = found[3];
+    INFO(name);
+    ++count[name];
+    value[name] = std::string(found[2]) + " " + unit;
+    for (const char* field : {"meaning", "reason"}) {
+      INFO(field);
+      REQUIRE(std::getline(text, line));
+      CHECK(std::regex_match(line, sentence));
+    }
+  }
+  // The names as the list writes them.
+  std::ifstream list(RHEONET_SOURCE_DIR "/core/base/numerics.def");
+  const std::regex entry("NUMBER(?:\\([^,]*, |S\\()([a-z_]+),.*");
+  std::size_t entries = 0;
+  for (std::string line; std::getline(list, line);) {
+    std::smatch found;
+    if (!std::regex_match(line, found, entry)) continue;
+    ++entries;
+    INFO(line);
+    CHECK_EQ(count[found[1]], 1);
+  }
+  CHECK_GT(entries, 100);
+  CHECK_EQ(count.size(), entries);
+  CHECK_EQ(value["equal_velocities"], "1e-14 1");
+  CHECK_EQ(value["torn_link_times"], "0.37, 0.83 1");
+  CHECK_EQ(value["chatter_events"], "500 events");
+
+  const nlohmann::json json = nlohmann::json::parse(folder.shell("rheonet explain --numerics --json", 0).out);
+  CHECK_EQ(json.size(), entries);
+  for (const nlohmann::json& one : json) {
+    INFO(one["name"]);
+    CHECK_GE(one["values"].size(), 1);
+    for (const char* field : {"name", "unit", "meaning", "reason", "heading"}) CHECK_FALSE(one[field].get<std::string>().empty());
+  }
+  CHECK(contains(folder.shell("rheonet explain", 2).err, "SCENE"));
 }

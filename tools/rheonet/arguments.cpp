@@ -246,9 +246,10 @@ struct CommandLine {
     add_list(command, "--only", only, "keep only these effects; `none` leaves out all", "EFFECT,...");
     add_list(command, "--keep", arguments.keep, "do not make these reductions (see the manual)", "NAME,...");
   }
-  void add_scene(CLI::App* command) {
-    command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
+  CLI::Option* add_scene(CLI::App* command) {
+    CLI::Option* scene = command->add_option("SCENE", arguments.scene, "the netlist, a TOML file")->required()->type_name("");
     add_overrides(command);
+    return scene;
   }
   void add_accuracy(CLI::App* command) {
     command->add_option("--accuracy", accuracy, "allowed error of each record, relative to its largest magnitude")
@@ -307,9 +308,15 @@ struct CommandLine {
     check->add_flag("-v,--verbose", arguments.verbose, "print the network with every value in SI");
   }
   void add_explain(CLI::App* explain) {
-    add_scene(explain);
+    CLI::Option* scene = add_scene(explain);
     add_accuracy(explain);
     explain->add_flag("--json", arguments.json, "print JSON");
+    const auto without_scene = [this, scene] {
+      arguments.numerics = true;
+      scene->required(false);
+    };
+    explain->add_flag_callback("--numerics", without_scene,
+                               "print every numerical parameter of the engine: value, unit, meaning, reason; takes no scene");
   }
   void add_effects(CLI::App* weigh) {
     add_scene(weigh);

@@ -45,6 +45,7 @@ struct Arguments {
   std::optional<std::vector<std::string>> only;  ///< effects; empty: none
   std::vector<std::string> keep;       ///< reductions that are not made
   bool json = false;                   ///< of `explain`
+  bool numerics = false;               ///< of `explain`: print the numerical parameters; there is no scene then
   bool quiet = false;
   bool verbose = false;
   std::string type;  ///< of `components`; "": all

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/numerics.hpp"
 #include "tools/rheonet/say.hpp"
 #include "tools/rheonet/summary.hpp"
 #include "tools/rheonet/table.hpp"
@@ -17,7 +18,7 @@ namespace {
 using Rows = std::vector<std::vector<std::string>>;
 using Round = Certificate::Round;
 
-double tighter(const Round& round) { return round.tolerance / Certificate::factor; }
+double tighter(const Round& round) { return round.tolerance / numerics::certificate_ratio; }
 std::string relative(double value) { return value == 0 ? "0" : fmt::format("{:.1e}", value); }
 const std::string& path_of_worst(const Scene& scene, const Round& round) { return scene.records[round.worst].path; }
 
@@ -51,7 +52,7 @@ std::string reason(const Certificate& certificate) {
   if (!certificate.obstacle.empty()) return "a tighter run does not come to its end: " + certificate.obstacle;
   if (rounds.size() == 1) return "double precision leaves no room for runs tight enough to know, or to do better";
   const Round &before = rounds[rounds.size() - 2], &last = rounds.back();
-  if (last.error.relative() > Certificate::own_error * before.error.relative())
+  if (last.error.relative() > numerics::certificate_own_error * before.error.relative())
     return fmt::format(
         "tightening the tolerance {:.0f} times gains little: differences as small as rounding grow in this scene, as in chaos, or "
         "where what happens hangs on the last digit of a value",

@@ -10,7 +10,7 @@ ExitStatus run_scene(const Arguments& arguments);
 /// `rheonet check`: reads, and finds out what can be known without simulating.
 ExitStatus check_scene(const Arguments& arguments);
 
-/// `rheonet explain`: says what will be simulated of a scene, and why.
+/// `rheonet explain`: says what will be simulated of a scene, and why; or lists the numerical parameters of the engine.
 ExitStatus explain_scene(const Arguments& arguments);
 
 /// `rheonet effects`: says what each effect of a scene contributes, and what it costs.

@@ -25,7 +25,8 @@ inline constexpr const char* footer_of_check =
 inline constexpr const char* footer_of_explain =
     "Examples:\n"
     "  rheonet explain scene.toml\n"
-    "  rheonet explain scene.toml --without inertia --json\n\n"
+    "  rheonet explain scene.toml --without inertia --json\n"
+    "  rheonet explain --numerics\n\n"
     "Exit status: 0 done; 1 the scene can be read but not simulated; 2 the scene or the command line is wrong.";
 
 inline constexpr const char* footer_of_effects =
