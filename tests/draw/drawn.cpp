@@ -19,7 +19,7 @@ namespace rheonet::test {
 namespace {
 
 using namespace rheonet::draw;
-using draw::Box;  // not the bounds of a slider
+using draw::Box;  // not that of a law
 
 constexpr double touch = 0.02;  // px: coordinates this close are one
 

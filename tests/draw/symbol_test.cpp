@@ -123,7 +123,7 @@ TEST_CASE("a generator shows what it generates, each shape as another one, withi
 }
 
 TEST_CASE("a path is mapped to a box, mirrored or not; arcs turn the other way in a mirror") {
-  const draw::Box box{100, 10, 300, 50};
+  const rheonet::draw::Box box{100, 10, 300, 50};
   CHECK(fitted("M0 .5 H.25 L.5 .75 V1 Z", box, false) == "M100 30H150L200 40V50Z");
   CHECK(fitted("M0 .5 H.25 L.5 .75 V1 Z", box, true) == "M300 30H250L200 40V50Z");
   CHECK(fitted("M0 0 A.1 .5 0 0 1 1 1", box, false) == "M100 10A20 20 0 0 1 300 50");
