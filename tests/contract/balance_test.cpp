@@ -17,6 +17,7 @@ double direction(const Component& component) {
     case Role::rate:
     case Role::slip:
     case Role::mass:
+    case Role::inerter:
     case Role::nothing:
       return 1;
     case Role::motion:
