@@ -100,7 +100,8 @@ class EventTransition {
   static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest);
   /// Sets sliders at their bound to slip at velocity 0 where friction in parallel takes the rest of the load. Returns them.
-  std::vector<int> let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
+  /// `h`: time over which the problem looks ahead [s].
+  std::vector<int> let_slip(const ConvexNetwork& problem, double h, const std::vector<int>& branch_of, const std::vector<int>& slider_of,
                             const std::vector<int>& side, const std::vector<double>& at_rest, const Fired& fired,
                             Modes& modes, Change& change) const;
   /// The nodes of a group move as one at an event, as dashpots take no impulse: the first node represents them.

@@ -71,7 +71,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
     modes.slider[k] = static_cast<signed char>(direction);
     if (direction != 0 && bound(k, direction) > inputs_.box(k).at(direction).sliding.value) broken.push_back(static_cast<int>(k));
   }
-  for (int k : let_slip(problem, selection.law, selection.slider, selection.bound_side, selection.at_rest, fired, modes, change)) {
+  for (int k : let_slip(problem, selection.h, selection.law, selection.slider, selection.bound_side, selection.at_rest, fired, modes, change)) {
     const int direction = modes.slider[at(k)];
     if (bound(at(k), direction) > inputs_.box(at(k)).at(direction).sliding.value) broken.push_back(k);
   }

@@ -39,7 +39,7 @@ void EventTransition::join_given(const ConvexNetwork& problem, DisjointSets& set
 // Where a slider and friction that relaxes hold the same ends together, the slider has the sharper transition. The friction
 // rests (s = 0) while the slider has force left. At its bound the slider can take no more: the friction is then in a Filippov
 // sliding mode, with a mixture of rest and the slider's direction, until it might rest as well.
-std::vector<int> EventTransition::let_slip(const ConvexNetwork& problem, const std::vector<int>& branch_of,
+std::vector<int> EventTransition::let_slip(const ConvexNetwork& problem, double h, const std::vector<int>& branch_of,
                                    const std::vector<int>& slider_of, const std::vector<int>& side,
                                    const std::vector<double>& at_rest, const Fired& fired, Modes& modes,
                                    Change& change) const {
@@ -79,7 +79,7 @@ std::vector<int> EventTransition::let_slip(const ConvexNetwork& problem, const s
       const NodeId from = firm.find(network_.sliders[at(other)].branch.a), to = firm.find(network_.sliders[at(other)].branch.b);
       if (std::minmax(from, to) != std::minmax(a, b)) continue;
       const int sign = from == a ? 1 : -1;
-      beyond_rest += sign * problem.force(slider_of[at(other)]);
+      beyond_rest += sign * (problem.force(slider_of[at(other)]) - side[at(other)] * h * bound_rate(at(other), side[at(other)]));
       eased = eased || sign * side[at(other)] != side[at(k)];  // the other slider has force left
     }
     std::vector<std::pair<SlidingMode*, int>> beside;  // friction in parallel, and the side of the slider's bound

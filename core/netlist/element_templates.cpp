@@ -274,7 +274,8 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     } else if (entry->value.is_table()) {
       diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(context_.declarations));
     } else {
-      plan.values[i] = Formula(entry->value, "`" + name + "`", diagnostics);
+      const bool coefficient = plan.quantity_of(parameter) != parameter.quantity;
+      plan.values[i] = Formula(entry->value, "`" + name + "`" + (coefficient ? " (which multiplies `" + parameter.coefficient_with + "`)" : ""), diagnostics);
     }
   }
   if (given.size() > 1) refuse_both(*given[0], *given[1], article(type.value.text), diagnostics);

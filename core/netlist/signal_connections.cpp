@@ -213,7 +213,8 @@ class Connection {
     if (!wrong) return;
     const Within within(diagnostics_, end);
     diagnostics_.error(end.connection->source->spot,
-                    "`" + wanted.name_in(context_.domain) + "` from block `" + end.path + "`: " + wrong->message);
+                    "`" + wanted.name_in(context_.domain) + "`" + (quantity != wanted.quantity ? " (which multiplies `" + wanted.coefficient_with + "`)" : "") +
+                        " from block `" + end.path + "`: " + wrong->message);
   }
 
   static std::string words(const BlockUnit& unit) { return describe(one_of(unit)); }

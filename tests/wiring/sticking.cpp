@@ -88,8 +88,9 @@ std::string wrong_sticking(const Scene& scene, const RunTable& rows) {
         return fmt::format("{} of {:.17g} at t = {:.6g} sticks beyond its bounds of {:.17g} and {:.17g}", e.name, f, rows.time()[row],
                            sticking.low, sticking.high);
       }
-      // One that is about to slip may be beyond its bound by what finds the event.
-      branches.push_back({free(e.a), free(e.b), std::min(sticking.low, f), std::max(sticking.high, f)});
+      // One that is about to slip may be beyond its bound by what finds the event, and bounds that vary are rounded.
+      const double grain = e.signals.empty() ? 0 : potential_rounding * largest;
+      branches.push_back({free(e.a), free(e.b), f <= sticking.low + grain ? f : sticking.low, f >= sticking.high - grain ? f : sticking.high});
       least.push_back(f);
     }
     for (int n = 1; n < nodes; ++n) {
