@@ -17,11 +17,17 @@ constexpr double difference_rounding = numerics::sum_ulps * std::numeric_limits<
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), cluster_(at(nodes), 0) {}
+    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), given_(origin_), cluster_(at(nodes), 0) {}
 
 void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
-  u_[at(node)] = change;
+  u_[at(node)] = given_[at(node)] = change;
+}
+
+bool ConvexNetwork::torn(int node) const {
+  const double given = origin_[at(node)] + given_[at(node)], is = value(node);
+  const double size = std::abs(origin_[at(node)]) + std::abs(given_[at(node)]) + std::abs(is);
+  return fixed_[at(node)] && std::abs(is - given) > numerics::torn_velocities * size;
 }
 
 // Round-off must not separate nodes that are together, or were until a branch released them: a massless node takes both numbers

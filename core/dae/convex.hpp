@@ -58,6 +58,8 @@ class ConvexNetwork {
   int direction(int branch) const;
   /// Whether sticking branches join these nodes. After `solve`.
   bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
+  /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one. After `solve`.
+  bool torn(int node) const;
   /// Iterations of the last `solve`.
   std::size_t rounds() const { return rounds_; }
   /// Nodes that run away, if the outcome is `unbounded`.
@@ -103,6 +105,7 @@ class ConvexNetwork {
   std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows
   std::vector<double> inertia_, applied_;
   std::vector<char> fixed_;
+  std::vector<double> given_;  ///< prescribed change of each fixed node
   std::vector<Branch> branches_;
   std::vector<int> cluster_;  ///< of each node: its cluster, the nodes that sticking branches join
   std::vector<int> head_;     ///< of each cluster: its fixed or heaviest node

@@ -265,7 +265,8 @@ std::vector<int> EventTransition::moving_backwards(const State& state) const {
   const auto velocity = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known ? given_velocity(n) : state.velocity[at(n)]; };
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const auto& [element, a, b] = network_.sliders[k].branch;
-    if (massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) continue;
+    const bool given = structure_.kind[at(a)] == Kind::known && structure_.kind[at(b)] == Kind::known;
+    if (given || massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) continue;
     const double va = velocity(a), vb = velocity(b);
     const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
     if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));

@@ -77,6 +77,8 @@ class EventTransition {
   double given_velocity(NodeId node) const;
   /// Throws SimulationError if rigid links join nodes that move at different velocities.
   void refuse_torn_links(double t) const;
+  /// Throws SimulationError if prescribed motions demand a relative velocity that a law forbids.
+  void refuse_blocked_motions(double t, const ConvexNetwork& problem) const;
   struct Parting { double t, of_a, of_b; };  ///< s, and velocities [m/s]
   std::optional<Parting> parting(double t, NodeId a, NodeId b) const;
   std::string moved_node(NodeId node, const std::string& how) const;

@@ -53,6 +53,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
     while (breaks_loose(selection)) selection = look_ahead(t, h = std::max(least, numerics::onset_step_ratio * h), fired, state, modes, force, now);
   }
   const ConvexNetwork& problem = selection.problem;
+  refuse_blocked_motions(t, problem);
   for (std::size_t n = 0; n < nodes; ++n) {
     if (structure_.kind[n] != Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }

@@ -6,6 +6,7 @@
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/dae/convex.hpp"
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/network/rigid_links.hpp"
@@ -61,6 +62,24 @@ void EventTransition::refuse_torn_links(double t) const {
                                       with_velocity(node, torn->of_b), with_velocity(other, torn->of_a),
                                       at_time(*network_.scene, torn->t), links.several ? "a link" : "the link",
                                       other == ground ? "the motion" : "one of the motions"));
+  }
+}
+
+/// Where a law forbids a motion one way (a freewheel), prescribed motions may not demand it.
+void EventTransition::refuse_blocked_motions(double t, const ConvexNetwork& problem) const {
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    const int node = slot(static_cast<NodeId>(n));
+    if (structure_.kind[n] != Kind::known || !problem.torn(node)) continue;
+    for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+      const Branch& b = network_.sliders[k].branch;
+      const Box& box = inputs_.box(k);
+      const bool forbids = std::isinf(box.forward.sliding.value) != std::isinf(box.backward.sliding.value);
+      if (!forbids || !problem.joined(node, slot(b.a)) || !problem.joined(node, slot(b.b))) continue;
+      throw SimulationError(network_.spot_of(b.element),
+                            fmt::format("{} `{}` forbids the motion of node `{}` against `{}` that the prescribed motions demand; name its nodes the other "
+                                        "way round, or put an element that gives way in series with it",
+                                        at_time(*network_.scene, t), network_.name_of(b), network_.node_name(b.a), network_.node_name(b.b)));
+    }
   }
 }
 

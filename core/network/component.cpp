@@ -32,7 +32,8 @@ RegisterComponent::RegisterComponent(Component component) {
 }
 
 Box constant_box(const Component& component, std::span<const double> values) {
-  const std::vector<Dual> constant(values.begin(), values.end());
+  std::vector<Dual> constant(values.begin(), values.end());
+  constant.resize(component.declaration.parameters.size(), not_given);
   return component.box(constant);
 }
 

@@ -242,7 +242,7 @@ struct Component {
   }
 };
 
-/// The box of a component whose parameters are constant.
+/// The box of a component whose parameters are constant; those that are left out at the end are not given.
 Box constant_box(const Component& component, std::span<const double> values);
 
 /// The components in alphabetical order of their types.

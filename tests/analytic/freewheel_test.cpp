@@ -369,3 +369,18 @@ output = {{ points = 212 }}
     }
   }
 }
+
+TEST_CASE("freewheel: a motion that it forbids is refused when it begins") {
+  const auto moved = [](const std::string& velocity, const std::string& ends) {
+    return refusal("[elements]\nhand = { type = \"motion\", at = \"h\", velocity = " + velocity +
+                   " }\nk1 = { type = \"spring\", between = [\"h\", \"ground\"], stiffness = 5 }\nfree = { type = \"freewheel\", between = [" + ends +
+                   "] }\n[simulate]\nstop = 1\n");
+  };
+  const std::string forwards = "\"h\", \"ground\"", backwards = "\"ground\", \"h\"";
+  CHECK_EQ(moved("{ sine = 1.3, frequency = 0.49 }", forwards), "");
+  CHECK(moved("{ sine = 1.3, frequency = 0.49 }", backwards).find("at t = 0 s `free` forbids the motion of node") != std::string::npos);
+  CHECK(moved("{ sine = 1.3, frequency = 1 }", forwards).find("at t = 0.5 s `free` forbids the motion of node") != std::string::npos);
+  CHECK(moved("{ square = 1.3, frequency = 1 }", forwards).find("at t = 0.5 s `free` forbids the motion of node") != std::string::npos);
+  CHECK(moved("-0.3", forwards).find("at t = 0 s `free` forbids the motion of node") != std::string::npos);
+  CHECK_EQ(moved("-0.3", backwards), "");
+}

@@ -70,7 +70,14 @@ class Surroundings {
       case Wiring::given:
         drive("a");
         if (!motion()) drive("b");
-        put(values, "a", "b", "b");
+        if (forbids(values)) {
+          // Motions that it forbids are refused: something gives way.
+          begin_mid(values);
+          put(values, "a", "mid", "mid");
+          spring("mid", "b");
+        } else {
+          put(values, "a", "b", "b");
+        }
         dashpot("a", "b");
         break;
     }
@@ -86,6 +93,11 @@ class Surroundings {
 
  private:
   std::string far() const { return place_.moving_base ? "base" : "ground"; }
+  bool forbids(const std::vector<double>& values) const {
+    SceneElement e = SceneBuilder::element("element", component_.declaration.type);
+    e.values = values;
+    return one_way(e);
+  }
   bool motion() const { return component_.role == Role::motion; }
   double scale(Quantity quantity) const { return typical.of(quantity, place_.domain); }
   double start() { return random_.uniform(-0.7, 0.7) * scale(Quantity::position); }

@@ -71,6 +71,9 @@ Judgement beside(const Scene& scene, const Attempt& run, const ReferenceSolution
   } else if (reference.fork < reference.end) {
     result.verdict = run.refusal.empty() || says(run.refusal, overload) ? Verdict::open : Verdict::wrong;
     result.text = run.refusal;
+  } else if (!reference.complete && says(run.refusal, blocked) &&
+             std::abs(time_in(run.refusal) - reference.end) <= same_end * (scene.stop - scene.start)) {
+    result.verdict = Verdict::refused;
   } else if (const std::string why = contradiction(scene, reference); !why.empty()) {
     result.text = why;
     result.verdict = beyond_bounds(scene, run.refusal) ? Verdict::refused : Verdict::undecided;

@@ -21,6 +21,12 @@ inline constexpr Refusal overload{
     "displacement, and no mass. The velocity would be infinite.",
     {"nothing resists the force", "every element there has come to a constant force"}};
 
+/// Prescribed motions through a freewheel, with nothing in between that gives way.
+inline constexpr Refusal blocked{
+    "a motion that a freewheel forbids",
+    "Prescribed motions turn the ends of a freewheel backwards against each other. No force ends that.",
+    {"that the prescribed motions demand", "that the prescribed motions demand"}};
+
 bool says(const std::string& message, const Refusal& refusal);
 
 /// The time that a message gives [s]; NaN if it gives none.
