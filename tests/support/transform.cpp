@@ -103,7 +103,7 @@ bool one_way(const SceneElement& element) {
   if (!component.box || !element.signals.empty()) return false;
   const std::vector<double> values = element.values;
   const Box box = constant_box(component, values);
-  return box.forward.sliding.value != box.backward.sliding.value;
+  return std::isinf(box.forward.sliding.value) != std::isinf(box.backward.sliding.value);
 }
 
 double flow_index(const Declaration& declaration, const Parameter& parameter, const std::vector<double>& values) {
