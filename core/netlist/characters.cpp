@@ -97,6 +97,14 @@ std::string printable(std::string_view text) {
   return result;
 }
 
+std::size_t name_length(std::string_view text) {
+  const auto within = [&](std::size_t at) { return at < text.size() && (is_letter(text[at]) || is_digit(text[at]) || text[at] == '_'); };
+  if (text.empty() || is_digit(text[0]) || !within(0)) return 0;
+  std::size_t end = 1;
+  while (within(end) || (end < text.size() && text[end] == '.' && within(end + 1))) ++end;
+  return end;
+}
+
 std::size_t count_characters(std::string_view text) { return decode(text).size(); }
 
 }  // namespace rheonet

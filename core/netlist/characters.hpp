@@ -20,6 +20,10 @@ std::string printable(std::string_view text);
 bool is_letter(char c);
 bool is_digit(char c);
 
+/// Number of bytes of the name at the start of the text, 0 if there is none: a letter or `_`, then also digits. A path
+/// (`k1.force`, `chain.0.force`) is one name.
+std::size_t name_length(std::string_view text);
+
 /// Number of characters (code points) of a text. Positions in messages count characters, not bytes.
 std::size_t count_characters(std::string_view text);
 

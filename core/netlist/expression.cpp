@@ -74,7 +74,8 @@ class Evaluation {
     }
   }
 
-  Result run() {
+  /// If `any_value` is false, a value that is no number or infinite is an error.
+  Result run(bool any_value = false) {
     if (code_.error) return *code_.error;
     for (std::size_t at = 0; at < code_.instructions.size(); ++at) {
       const ExpressionCode::Instruction& instruction = code_.instructions[at];
@@ -88,7 +89,8 @@ class Evaluation {
     }
     Number result = stack_.back();
     const bool limit = infinite_ && result.value > 0;
-    if (std::isnan(result.value) || (std::isinf(result.value) && !limit)) return undefined(result.value);
+    const bool defined = !std::isnan(result.value) && (std::isfinite(result.value) || limit);
+    if (!defined && !any_value) return undefined(result.value);
     result.plain = result.plain || !united_ || infinite_;
     if (result.plain) result = {.value = result.value, .dimension = {}, .pi = united_ ? 0 : result.pi};
     return result;
@@ -334,6 +336,15 @@ std::variant<Number, TextError> evaluate_expression(std::string_view text, const
   try {
     const auto code = code_of(text);
     return Evaluation(text, *code, environment).run();
+  } catch (TextError& error) {
+    return std::move(error);
+  }
+}
+
+std::variant<Number, TextError> unit_of_expression(std::string_view text, const Environment& environment) {
+  try {
+    const auto code = code_of(text);
+    return Evaluation(text, *code, environment).run(true);
   } catch (TextError& error) {
     return std::move(error);
   }

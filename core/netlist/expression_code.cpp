@@ -73,7 +73,7 @@ class ExpressionScanner {
 
   ExpressionToken name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (begins_name(text_[at_]) || is_digit(text_[at_]))) ++at_;
+    at_ += name_length(text_.substr(at_));
     return {ExpressionToken::Kind::name, {begin, at_}};
   }
 

@@ -38,7 +38,7 @@ std::vector<std::string> PlotTable::records() const {
 }
 
 PlotTable read_plot_table(const TomlValue& plot, const std::set<std::string>& doubtful, Context& context,
-                          const Scene& scene) {
+                          Scene& scene) {
   DiagnosticList& diagnostics = context.diagnostics;
   PlotTable table;
   if (!expect_table(plot, "`plot`", diagnostics, "[plot] has keys such as y = [\"k1.force\"] and loop = \"c1\"")) return table;

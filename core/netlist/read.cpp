@@ -159,7 +159,7 @@ class Reader {
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);
     // Do not make a million default records for a scene that is refused.
-    if (record || diagnostics_.errors() == 0) resolve_records(record, doubtful, context_, scene_);
+    if (record || diagnostics_.errors() == 0) resolve_records(record, environment, doubtful, context_, scene_);
     add_records(options_.records, doubtful, context_, result_.sources, scene_);
     if (const TomlEntry* expect = document_.find("expect"); expect && options_.claims)
       read_claims(expect->value, environment, doubtful, context_, scene_);

@@ -13,7 +13,7 @@ namespace rheonet {
 
 /// Reads `[plot]`: curves and their units. `scene` already has its elements and nodes.
 PlotTable read_plot_table(const TomlValue& plot, const std::set<std::string>& doubtful, Context& context,
-                          const Scene& scene);
+                          Scene& scene);
 
 /// Reads `[demo]`: texts, and ranges of the scene's parameters.
 Demo read_demo(const TomlValue& demo, const Environment& environment, Context& context);

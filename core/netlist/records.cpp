@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "core/netlist/record_expressions.hpp"
 #include "core/netlist/scene_index.hpp"
 #include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
@@ -18,7 +19,16 @@ constexpr std::pair<const char*, Channel> channels[] = {{"position", Channel::po
                                                         {"velocity", Channel::velocity},
                                                         {"displacement", Channel::displacement},
                                                         {"force", Channel::force},
+                                                        {"acceleration", Channel::acceleration},
+                                                        {"power", Channel::power},
+                                                        {"dissipated", Channel::dissipated},
+                                                        {"energy", Channel::energy},
                                                         {"out", Channel::out}};
+
+/// Powers and energies are scalars: those of an assembly are sums over its elements.
+bool is_scalar(Channel channel) {
+  return channel == Channel::power || channel == Channel::dissipated || channel == Channel::energy;
+}
 
 struct Path {
   std::string object;
@@ -26,13 +36,17 @@ struct Path {
   const TomlValue* source;  ///< nullptr: no channel
 };
 
-/// The channels that can be recorded.
-std::vector<std::string> channels_of(const SceneIndex::Found& found) {
-  if (found.block >= 0 && found.node >= 0) return {"out", "position", "velocity"};
-  if (found.block >= 0) return {"out"};
-  if (found.node >= 0 && found.element >= 0) return {"position", "velocity", "displacement", "force"};
-  if (found.node >= 0) return {"position", "velocity"};
-  return {"force", "displacement", "velocity"};
+/// The channels that can be recorded, or be inputs of blocks.
+std::vector<std::string> channels_of(const SceneIndex::Found& found, bool sensed) {
+  std::vector<std::string> names;
+  if (found.block >= 0) names = {"out"};
+  if (found.node >= 0) names.insert(names.end(), {"position", "velocity"});
+  if (found.node >= 0 && !sensed) names.emplace_back("acceleration");
+  if (found.block >= 0 || (found.element < 0 && found.assembly < 0)) return names;
+  names.insert(names.end(), {"force", "displacement"});
+  if (found.node < 0) names.emplace_back("velocity");
+  if (!sensed) names.insert(names.end(), {"power", "dissipated", "energy"});
+  return names;
 }
 
 /// The channel meant by a word of rotational scenes, or by another word that users may try.
@@ -49,9 +63,9 @@ std::optional<Record> resolve(const Path& path, const SceneIndex::Found& found) 
       std::find_if(std::begin(channels), std::end(channels), [&](const auto& c) { return path.channel == c.first; });
   if (channel == std::end(channels)) return {};
   Record record{path.object + '.' + path.channel, Subject::node, found.node, channel->second};
-  const bool of_node = record.channel == Channel::position || record.channel == Channel::velocity;
-  if (of_node && found.node >= 0) return record;
-  if (record.channel == Channel::position || (record.channel == Channel::out) != (found.block >= 0)) return {};
+  const bool of_node_alone = record.channel == Channel::position || record.channel == Channel::acceleration;
+  if ((of_node_alone || record.channel == Channel::velocity) && found.node >= 0) return record;
+  if (of_node_alone || (record.channel == Channel::out) != (found.block >= 0)) return {};
   if (found.block >= 0) {
     record.subject = Subject::block;
     record.index = found.block;
@@ -68,7 +82,7 @@ std::optional<Record> resolve(const Path& path, const SceneIndex::Found& found) 
   return record;
 }
 
-void refuse(const Path& path, const SceneIndex::Found& found, Context& context, const Scene& scene) {
+void refuse(const Path& path, const SceneIndex::Found& found, bool sensed, Context& context, const Scene& scene) {
   const TomlValue& source = *path.source;
   if (!found.any()) {
     const auto known = known_paths(scene, true);
@@ -79,12 +93,13 @@ void refuse(const Path& path, const SceneIndex::Found& found, Context& context, 
                            meant.empty() ? "" : "did you mean `" + meant + "." + path.channel + "`?");
     return;
   }
-  const auto known = channels_of(found);
+  const auto known = channels_of(found, sensed);
   const Spot spot = context.diagnostics.inside(source, path.object.size() + 1);
-  if (found.block < 0 && found.element >= 0 && scene.elements[static_cast<std::size_t>(found.element)].at && path.channel == "position") {
+  const bool of_node = path.channel == "position" || path.channel == "acceleration";
+  if (found.block < 0 && found.element >= 0 && scene.elements[static_cast<std::size_t>(found.element)].at && of_node) {
     const NodeId node = scene.elements[static_cast<std::size_t>(found.element)].a;
-    context.diagnostics.error(spot, "`" + path.object + "` has no `position`: it is an element, only nodes have one",
-                           "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + ".position`");
+    context.diagnostics.error(spot, "`" + path.object + "` has no `" + path.channel + "`: it is an element, only nodes have one",
+                           "that of its node is `" + scene.nodes[static_cast<std::size_t>(node)].name + '.' + path.channel + '`');
     return;
   }
   const std::string meant = meant_channel(path.channel, known);
@@ -137,6 +152,15 @@ Quantity quantity_of(Channel channel) {
       return Quantity::position;
     case Channel::velocity:
       return Quantity::velocity;
+    case Channel::acceleration:
+      return Quantity::acceleration;
+    case Channel::power:
+    case Channel::dissipated:
+      return Quantity::power;
+    case Channel::energy:
+      return Quantity::energy;
+    case Channel::value:
+      return Quantity::number;
     case Channel::force:
     case Channel::out:
       break;
@@ -144,9 +168,16 @@ Quantity quantity_of(Channel channel) {
   return Quantity::force;
 }
 
+bool may_be_sensed(const Record& record) {
+  return record.channel == Channel::position || record.channel == Channel::velocity || record.channel == Channel::displacement ||
+         record.channel == Channel::force;
+}
+
 BlockUnit unit_of(const Scene& scene, const Record& record) {
   if (record.subject == Subject::block) return scene.blocks[static_cast<std::size_t>(record.index)].unit;
-  const double radian = scene.domain == Domain::rotation && record.channel != Channel::force ? 1 : 0;
+  if (record.subject == Subject::expression) return scene.expressions[static_cast<std::size_t>(record.index)].unit;
+  const bool by_angle = record.channel != Channel::force && !is_scalar(record.channel);
+  const double radian = scene.domain == Domain::rotation && by_angle ? 1 : 0;
   return {dimension_of(quantity_of(record.channel), scene.domain), radian, false};
 }
 
@@ -157,12 +188,12 @@ Number one_of(const BlockUnit& unit) {
 BlockUnit unit_of(const Number& number) { return {number.dimension, number.radian, number.plain}; }
 
 std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
-  if (record.subject != Subject::block) return quantity_of(record.channel);
+  if (record.subject != Subject::block && record.subject != Subject::expression) return quantity_of(record.channel);
   const BlockUnit unit = unit_of(scene, record);
   if (unit.open) return {};
   // An exponent of rad distinguishes an angle from a number; in other units it has no meaning, and is often omitted.
   const bool angle = scene.domain == Domain::rotation && unit.radian != 0;
-  for (const Quantity known : {angle ? Quantity::position : Quantity::number, Quantity::position, Quantity::velocity, Quantity::force})
+  for (const Quantity known : {angle ? Quantity::position : Quantity::number, Quantity::position, Quantity::velocity, Quantity::force, Quantity::acceleration, Quantity::power, Quantity::energy})
     if (unit.dimension.same(dimension_of(known, scene.domain))) return known;
   return {};
 }
@@ -174,20 +205,21 @@ std::string unit_text(const Scene& scene, const Record& record) {
 
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
-                                                const Scene& scene) {
+                                                Scene& scene, bool sensed) {
   DiagnosticList& diagnostics = context.diagnostics;
   std::vector<Path> parts;
   std::vector<std::string> objects;
   for (const TomlValue& path : paths) {
     const std::size_t dot = path.text.rfind('.');
     const bool whole = dot == path.text.npos;
-    if (path.text == "time")
+    const bool expression = find_expression(scene, path.text).has_value();
+    if (!expression && path.text == "time")
       diagnostics.error(path.spot, "`time` is no quantity of an element or a node: it is the first column always",
                      "leave it out");
-    else if (whole)
+    else if (!expression && whole)
       diagnostics.error(path.spot, "`" + path.text + "` does not say which quantity is meant",
                      "for instance `" + path.text + ".force` of an element, `" + path.text + ".velocity` of a node");
-    parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole ? nullptr : &path});
+    parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole && !expression ? nullptr : &path});
     objects.push_back(parts.back().object);
   }
   const SceneIndex index(scene, objects);
@@ -195,18 +227,26 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
   for (const Path& path : parts) {
     records.emplace_back();
     if (!path.source) continue;
+    if (auto expression = find_expression(scene, path.source->text)) {
+      records.back() = std::move(expression);
+      continue;
+    }
     const auto found = index.find(path.object);
     if (path.object == "ground")
       diagnostics.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
     else if (auto record = resolve(path, found))
-      records.back() = std::move(record);
+      records.back() = record->subject == Subject::assembly && is_scalar(record->channel)
+                           ? sum_over_assembly(record->path, scene.assemblies[static_cast<std::size_t>(record->index)], record->channel,
+                                               path.source->spot, context, scene)
+                           : std::move(record);
     else if (found.any() || !is_doubtful(path.object, doubtful))
-      refuse(path, found, context, scene);
+      refuse(path, found, sensed, context, scene);
   }
   return records;
 }
 
-void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
+void resolve_records(const TomlEntry* record, const Environment& environment, const std::set<std::string>& doubtful, Context& context,
+                     Scene& scene) {
   if (!record) {
     scene.records = every_record(scene);
     return;
@@ -217,14 +257,28 @@ void resolve_records(const TomlEntry* record, const std::set<std::string>& doubt
   if (record->value.items.empty())
     diagnostics.warning(record->value.spot, "`record` is empty: only the time is written",
                      "without `record` everything is, or name some: " + hint);
+  std::vector<const TomlValue*> tables;
+  for (const TomlValue& item : record->value.items) {
+    if (item.is_table()) tables.push_back(&item);
+  }
+  const auto expressions = read_record_expressions(tables, environment, doubtful, context, scene);
   std::vector<TomlValue> paths;
   std::unordered_set<std::string> seen;
+  auto expression = expressions.begin();
   for (const TomlValue& item : record->value.items) {
-    if (!expect_string(item, "what to record", diagnostics, hint)) continue;
-    if (seen.insert(item.text).second)
-      paths.push_back(item);
+    TomlValue path = item;
+    if (item.is_table()) {
+      const std::optional<Record>& made = *expression++;
+      if (!made) continue;
+      path.kind = TomlValue::Kind::string;
+      path.text = made->path;
+    } else if (!expect_string(item, "what to record", diagnostics, hint)) {
+      continue;
+    }
+    if (seen.insert(path.text).second)
+      paths.push_back(std::move(path));
     else
-      diagnostics.warning(item.spot, "`" + item.text + "` is recorded already: it has one column");
+      diagnostics.warning(item.spot, "`" + path.text + "` is recorded already: it has one column");
   }
   for (auto& found : find_records(paths, doubtful, context, scene))
     if (found) scene.records.push_back(std::move(*found));

@@ -18,21 +18,26 @@ Quantity quantity_of(Record::Channel channel);
 Number one_of(const BlockUnit& unit);
 BlockUnit unit_of(const Number& number);
 
-/// All records that the scene can provide, in the order of its file.
+/// The records of a scene that names none, in the order of its file: motion and force of everything.
 std::vector<Record> every_record(const Scene& scene);
 
 /// Finds the records named by `simulate.record` (`k1.force`); takes all records if it is not given. Names that begin with
 /// one in `doubtful` (it has a mistake) are not reported as unknown.
-void resolve_records(const TomlEntry* record, const std::set<std::string>& doubtful, Context& context, Scene& scene);
+void resolve_records(const TomlEntry* record, const Environment& environment, const std::set<std::string>& doubtful, Context& context,
+                     Scene& scene);
 
 /// Adds the records of the command line after those of the file.
 void add_records(const std::vector<std::string>& paths, const std::set<std::string>& doubtful, Context& context,
                  Sources& sources, Scene& scene);
 
-/// The records at these paths, each a string with its place; absent for a path that is a mistake.
+/// Whether a record may be the input of a block.
+bool may_be_sensed(const Record& record);
+
+/// The records at these paths, each a string with its place; absent for a path that is a mistake. Sums over assemblies are
+/// added to the expressions of the scene. `sensed`: inputs of blocks, for the channels that a hint offers.
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
-                                                const Scene& scene);
+                                                Scene& scene, bool sensed = false);
 
 /// Reads initial values from `[nodes]`.
 void read_initial_values(const TomlValue& nodes, const Environment& environment, const std::set<std::string>& doubtful,

@@ -86,14 +86,30 @@ struct SceneBlock {
 struct SceneFeed { int element, parameter, block; double sign; };
 
 struct Record {
-  enum class Subject { node, element, assembly, block };
-  enum class Channel { position, velocity, displacement, force, out };
+  enum class Subject { node, element, assembly, block, expression };
+  enum class Channel {
+    position, velocity, displacement, force,
+    acceleration,  ///< of a node
+    power,         ///< of an element: its force times its velocity [W]
+    dissipated,    ///< of an element: the part of its power that becomes heat [W]
+    energy,        ///< of an element: stored in it [J]
+    out,           ///< of a block
+    value,         ///< of an expression
+  };
   std::string path;  ///< as in the header row: `k1.force`
   Subject subject = Subject::node;
-  int index = 0;     ///< into nodes, elements, assemblies or blocks
+  int index = 0;     ///< into nodes, elements, assemblies, blocks or expressions
   Channel channel = Channel::position;
 };
 
+/// A record that is computed from others: an entry `{ name, value }` of `simulate.record`, or the sum of a quantity over the
+/// elements of an assembly.
+struct SceneExpression {
+  std::string name;              ///< path of its record
+  std::vector<Record> operands;  ///< none of them is an expression
+  std::function<double(std::span<const double>)> value = {};  ///< from the values of the operands [SI]; NaN if it has none
+  BlockUnit unit;
+};
 
 /// A claim of `[expect]`: bounds on a figure of a record's course through the run. A measure is a claim without bounds:
 /// only the figure itself is reported.
@@ -132,6 +148,7 @@ struct Scene {
   std::vector<SceneBlock> blocks;        ///< in the order of the file
   std::vector<Record> sensed;            ///< quantities of the network that blocks use as inputs
   std::vector<SceneFeed> feeds;
+  std::vector<SceneExpression> expressions;
   std::vector<Record> records;           ///< in the order asked for; if not asked for: all, in the order of the file
 
   std::vector<Record> claimed;  ///< records that claims refer to, each once
@@ -155,6 +172,16 @@ struct Scene {
   std::int64_t output_intervals = 0;
   bool output_events = false;  ///< also a pair of rows at every event
 };
+
+/// Calls visit(record) for the record itself, or for each operand of an expression.
+template <class Visit>
+void for_each_operand(const Scene& scene, const Record& record, Visit visit) {
+  if (record.subject != Record::Subject::expression) {
+    visit(record);
+    return;
+  }
+  for (const Record& operand : scene.expressions[static_cast<std::size_t>(record.index)].operands) visit(operand);
+}
 
 /// Quantity of a parameter of an element: a number where it is a coefficient of another one that is given.
 Quantity quantity_of(const Declaration& declaration, const SceneElement& element, std::size_t parameter);

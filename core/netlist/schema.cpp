@@ -304,6 +304,9 @@ Json simulate_schema() {
                          {{"type", "boolean"},
                           {"description", "a pair of rows, before and after, at every event"},
                           {"default", false}}}});
+  Json expression = object({{"name", text("its column, and its path elsewhere: gap")},
+                            {"value", text("an expression over records and parameters: a.position - b.position")}});
+  expression["required"] = {"name", "value"};
   Json schema = object({{"start", described(reference("value"), "[s]; 0 if absent")},
                         {"start_from",
                          {{"enum", {"given", "rest", "steady"}},
@@ -314,7 +317,8 @@ Json simulate_schema() {
                                                "error allowed, relative to the largest magnitude of "
                                                "each recorded quantity; 1e-6 if absent")},
                         {"output", std::move(output)},
-                        {"record", described(list_of(text("k1.force, mid.velocity, ...")), "absent: everything")}});
+                        {"record", described(list_of({{"anyOf", {text("k1.force, mid.velocity, mid.acceleration, k1.power, ..."), std::move(expression)}}}),
+                                             "absent: every position, displacement, velocity, force and output")}});
   schema["required"] = {"stop"};
   return schema;
 }

@@ -96,8 +96,12 @@ class Connection {
     }
     TomlValue path = *end.connection->source;
     path.text = end.path;
-    auto record = std::move(find_records({path}, doubtful_, context_, scene_).front());
+    auto record = std::move(find_records({path}, doubtful_, context_, scene_, true).front());
     if (!record) return -1;
+    if (!may_be_sensed(*record)) {
+      diagnostics_.error(path.spot, "a block cannot take in `" + end.path + "`", "it takes in positions, velocities, displacements and forces");
+      return -1;
+    }
     scene_.sensed.push_back(std::move(*record));
     return static_cast<int>(scene_.sensed.size()) - 1;
   }

@@ -30,6 +30,11 @@ void collect(const TomlValue& value, std::set<std::string>& names) {
   const bool in_element = value.find("type") != nullptr;
   for (const TomlEntry& entry : value.entries) {
     if (holds_expressions(entry, in_element)) collect(entry.value, names);
+    if (entry.key != "record") continue;
+    // A record is named by a string, or computed by an expression in a table.
+    for (const TomlValue& item : entry.value.items) {
+      if (item.is_table()) collect(item, names);
+    }
   }
 }
 

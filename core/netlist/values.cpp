@@ -52,11 +52,9 @@ std::vector<std::string> words_of(std::string_view text) {
   while (!text.empty()) {
     if (const std::size_t number = number_length(text)) {
       text.remove_prefix(number);
-    } else if (is_letter(text.front()) || text.front() == '_') {
-      std::size_t end = 1;
-      while (end < text.size() && (is_letter(text[end]) || is_digit(text[end]) || text[end] == '_')) ++end;
-      names.emplace_back(text.substr(0, end));
-      text.remove_prefix(end);
+    } else if (const std::size_t name = name_length(text)) {
+      names.emplace_back(text.substr(0, name));
+      text.remove_prefix(name);
     } else {
       text.remove_prefix(1);
     }

@@ -177,17 +177,18 @@ class Adviser {
     const auto ask = [&](int part) {
       if (part >= 0) asked[at(part)] = 1;
     };
+    const auto ask_for = [&](const Record& record) {
+      if (record.subject == Record::Subject::node) ask(parts.of_node[at(record.index)]);
+      if (record.subject == Record::Subject::element) ask(parts.of_element[at(record.index)]);
+      if (record.subject == Record::Subject::block) ask(parts.of_element[at(scene_.blocks[at(record.index)].element)]);
+      if (record.subject != Record::Subject::assembly) return;
+      const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
+      ask(parts.of_node[at(assembly.a)]);
+      ask(parts.of_node[at(assembly.b)]);
+    };
     for (const std::vector<Record>* records : {&scene_.claimed, &scene_.records}) {
       if (records == &scene_.records && !records_too) continue;
-      for (const Record& record : *records) {
-        if (record.subject == Record::Subject::node) ask(parts.of_node[at(record.index)]);
-        if (record.subject == Record::Subject::element) ask(parts.of_element[at(record.index)]);
-        if (record.subject == Record::Subject::block) ask(parts.of_element[at(scene_.blocks[at(record.index)].element)]);
-        if (record.subject != Record::Subject::assembly) continue;
-        const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
-        ask(parts.of_node[at(assembly.a)]);
-        ask(parts.of_node[at(assembly.b)]);
-      }
+      for (const Record& record : *records) for_each_operand(scene_, record, ask_for);
     }
     return asked;
   }

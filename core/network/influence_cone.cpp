@@ -99,7 +99,7 @@ class InfluenceSearch {
       if (!(mass_[n] > 0) || elsewhere(node.position) || elsewhere(node.velocity)) begin_at(static_cast<NodeId>(n));
     }
     for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed, &scene_.sensed}) {
-      for (const Record& record : *records) ask_for(record);
+      for (const Record& record : *records) for_each_operand(scene_, record, [this](const Record& operand) { ask_for(operand); });
     }
   }
 
@@ -119,6 +119,7 @@ class InfluenceSearch {
         break;
       }
       case Record::Subject::block:
+      case Record::Subject::expression:
         break;
     }
   }

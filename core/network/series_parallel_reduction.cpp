@@ -87,7 +87,11 @@ class Merger {
       if (!std::isnan(scene_.nodes[n].position) || !std::isnan(scene_.nodes[n].velocity)) stays_[n] = 1;
     }
     for (const Record& record : scene_.records) {
+      if (record.subject == Record::Subject::expression) stay_with(record);
       if (record.subject == Record::Subject::node) stay(record.index);
+      // The energy of an element is no linear function of the quantities of its merger.
+      const bool linear = record.channel == Record::Channel::force || record.channel == Record::Channel::displacement || record.channel == Record::Channel::velocity;
+      if (record.subject == Record::Subject::element && !linear) stay_with_ends(record.index);
       // A dashpot's displacement is no multiple of its merger's: it depends on where it began.
       const bool place = record.channel == Record::Channel::displacement;
       if (record.subject == Record::Subject::element && place && kind_[at(record.index)] != spring) {
@@ -100,15 +104,20 @@ class Merger {
       }
     }
     for (const std::vector<Record>* records : {&scene_.claimed, &scene_.sensed}) {
-      for (const Record& record : *records) {
-        if (record.subject == Record::Subject::node) stay(record.index);
-        if (record.subject == Record::Subject::element) stay_with_ends(record.index);
-        if (record.subject != Record::Subject::assembly) continue;
-        stay(scene_.assemblies[at(record.index)].a);
-        stay(scene_.assemblies[at(record.index)].b);
-        for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force) stay_with_ends(term.element);
-      }
+      for (const Record& record : *records) stay_with(record);
     }
+  }
+
+  /// Keeps all that a record refers to.
+  void stay_with(const Record& record) {
+    for_each_operand(scene_, record, [this](const Record& operand) {
+      if (operand.subject == Record::Subject::node) stay(operand.index);
+      if (operand.subject == Record::Subject::element) stay_with_ends(operand.index);
+      if (operand.subject != Record::Subject::assembly) return;
+      stay(scene_.assemblies[at(operand.index)].a);
+      stay(scene_.assemblies[at(operand.index)].b);
+      for (const SceneAssembly::Term& term : scene_.assemblies[at(operand.index)].force) stay_with_ends(term.element);
+    });
   }
 
   void build() {
@@ -134,6 +143,9 @@ class Merger {
     for (SceneFeed& feed : s.feeds) feed.element = element_[at(feed.element)];
     for (std::vector<Record>* records : {&s.sensed, &s.claimed}) {
       for (Record& record : *records) renumber(record);
+    }
+    for (SceneExpression& expression : s.expressions) {
+      for (Record& operand : expression.operands) renumber(operand);
     }
     s.exact.clear();
     s.records.clear();

@@ -38,7 +38,7 @@ std::vector<char> massless_nodes(const Scene& scene) {
 template <class Visit>
 void visit_nodes(const Scene& scene, Visit visit) {
   for (std::size_t k = 0; k < scene.records.size(); ++k) {
-    const Record& record = scene.records[k];
+    for_each_operand(scene, scene.records[k], [&](const Record& record) {
     const auto both = [&](std::pair<NodeId, NodeId> ends) {
       visit(record, k, ends.first);
       if (ends.second != ends.first) visit(record, k, ends.second);
@@ -58,8 +58,10 @@ void visit_nodes(const Scene& scene, Visit visit) {
         }
         break;
       case Record::Subject::block:
+      case Record::Subject::expression:
         break;
     }
+    });
   }
 }
 
@@ -75,7 +77,9 @@ void Balances::find_nodes(const Scene& scene) {
     const auto [found, fresh] = place.try_emplace(id, nodes_.size());
     if (fresh) nodes_.push_back({id, {}, {}, {}});
     Node& node = nodes_[found->second];
-    std::vector<std::size_t>& records = record.channel == Record::Channel::force ? node.forces : node.movements;
+    // The imbalance is an error of this force itself; of other records it is the same share of their scale.
+    const bool itself = record.channel == Record::Channel::force && scene.records[k].subject != Record::Subject::expression;
+    std::vector<std::size_t>& records = itself ? node.forces : node.movements;
     if (records.empty() || records.back() != k) records.push_back(k);
   });
   std::map<int, std::size_t> force_of;  // index of an element to that of its record

@@ -1,10 +1,14 @@
 #include "core/result/output_sampler.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "core/base/index.hpp"
+#include "core/network/error.hpp"
 #include "core/network/reductions.hpp"
 
 namespace rheonet {
@@ -21,6 +25,7 @@ Ends ends_of(const Scene& scene, const Record& record) {
     case Record::Subject::element:
       return {scene.elements[at(record.index)].a, scene.elements[at(record.index)].b};
     case Record::Subject::block:
+    case Record::Subject::expression:
       return {ground, ground};
     case Record::Subject::assembly:
       break;
@@ -73,19 +78,37 @@ bool bent(const Dae& dae) {
   return false;
 }
 
+/// The records, each expression replaced by its operands.
+std::vector<const Record*> operands_of(const Scene& scene, const std::vector<Record>& records) {
+  std::vector<const Record*> result;
+  result.reserve(records.size());
+  for (const Record& record : records) {
+    for_each_operand(scene, record, [&](const Record& operand) { result.push_back(&operand); });
+  }
+  return result;
+}
+
+/// Values of the channel depend on the relative velocity of an element.
+bool is_power(const Record& record) {
+  return record.channel == Record::Channel::power || record.channel == Record::Channel::dissipated;
+}
+
 bool is_place(const Record& record) {
   return record.channel == Record::Channel::position || record.channel == Record::Channel::displacement;
 }
 
 }  // namespace
 
-std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& records) {
+namespace {
+
+/// The gauge of each record.
+std::vector<Gauge> gauges(const Network& network, const std::vector<const Record*>& records) {
   const Scene& scene = *network.scene;
   std::vector<Gauge> result(records.size());
   // By the ends: elements with a displacement of their own; filled on first use.
   std::map<std::pair<NodeId, NodeId>, int> between;
   for (std::size_t k = 0; k < records.size(); ++k) {
-    const Record& record = records[k];
+    const Record& record = *records[k];
     if (record.channel != Record::Channel::displacement) continue;
     if (record.subject == Record::Subject::element && own_displacement(network, record.index)) {
       result[k] = {record.index, 1};
@@ -105,13 +128,16 @@ std::vector<Gauge> gauges(const Network& network, const std::vector<Record>& rec
   return result;
 }
 
+}  // namespace
+
 std::vector<char> needed_positions(const Network& network) {
   if (kept(*network.scene, Reduction::positions)) return std::vector<char>(network.nodes(), 1);
   std::vector<char> needed(network.nodes(), 0);
-  for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
-    const std::vector<Gauge> measured = gauges(network, *records);
-    for (std::size_t k = 0; k < records->size(); ++k) {
-      const Record& record = (*records)[k];
+  for (const std::vector<Record>* all : {&network.scene->records, &network.scene->claimed}) {
+    const std::vector<const Record*> records = operands_of(*network.scene, *all);
+    const std::vector<Gauge> measured = gauges(network, records);
+    for (std::size_t k = 0; k < records.size(); ++k) {
+      const Record& record = *records[k];
       if (!is_place(record) || measured[k].element >= 0) continue;
       const Ends ends = ends_of(*network.scene, record);
       for (const NodeId end : {ends.a, ends.b}) {
@@ -133,7 +159,13 @@ std::vector<char> needed_positions(const Network& network) {
 }
 
 OutputSampler::OutputSampler(const Network& network, const std::vector<Record>& records)
-    : network_(network), scene_(*network.scene), records_(records), gauges_(gauges(network, records)), row_(records.size()) {}
+    : network_(network),
+      scene_(*network.scene),
+      records_(records),
+      operands_(operands_of(scene_, records)),
+      gauges_(gauges(network, operands_)),
+      values_(operands_.size()),
+      row_(records.size()) {}
 
 void OutputSampler::attach(Dae& dae, Consistency& consistency) {
   dae_ = &dae;
@@ -148,11 +180,40 @@ void OutputSampler::attach(Dae& dae, Consistency& consistency) {
   };
   bent_ = bent(dae);
   rates_needed_ = false;
-  for (const Record& record : records_) {
-    if (record.channel != Record::Channel::velocity) continue;
+  for (const Record* operand : operands_) {
+    const Record& record = *operand;
+    if (record.channel == Record::Channel::acceleration) rates_needed_ = follow_acceleration(record.index) || rates_needed_;
+    if (is_power(record) && network_.places[at(record.index)].role == Role::deflection) rates_needed_ = true;
+    if (record.channel != Record::Channel::velocity && !is_power(record)) continue;
     const Ends ends = ends_of(scene_, record);
     rates_needed_ = rates_needed_ || floating(ends.a) || floating(ends.b);
   }
+}
+
+/// Whether the acceleration of a node is the rate of an unknown. Refuses nodes without an equation for their velocity.
+bool OutputSampler::follow_acceleration(NodeId end) const {
+  const int number = network_.node_of[at(end)];
+  const Structure& structure = dae_->structure();
+  bool any = false;
+  const auto follow = [&](NodeId node) {
+    const Kind kind = structure.kind[at(structure.rigid[at(node)])];
+    if (kind == Kind::floating) {
+      const SceneNode& named = scene_.nodes[at(end)];
+      throw SimulationError(
+          named.spot,
+          fmt::format("the acceleration of node `{0}` is not known: the node has no mass, and only springs and laws with a memory hold it, so that no "
+                      "equation determines it; give the node a mass, or record `{0}.velocity`",
+                      named.name));
+    }
+    any = any || kind == Kind::viscous;
+  };
+  if (number >= 0) {
+    follow(number);
+  } else {
+    follow(network_.pairs[at(-1 - number)].spring_end);
+    follow(network_.pairs[at(-1 - number)].slider_end);
+  }
+  return any;
 }
 
 double OutputSampler::element_force(int element, const Dae::View& view) const {
@@ -204,31 +265,77 @@ double OutputSampler::velocity(NodeId end, const Dae::View& view) const {
   return view.velocity[at(pair.slips() ? pair.pair.spring_end : pair.pair.slider_end)];
 }
 
-double OutputSampler::displacement(std::size_t record, const Dae::View& view) const {
-  if (const auto [element, sign] = gauges_[record]; element >= 0) {
+double OutputSampler::acceleration(NodeId end, const Dae::View& view, const std::vector<double>& rates) const {
+  int node = network_.node_of[at(end)];
+  if (node < 0) {
+    const PairView pair(network_, -1 - node, view);
+    node = pair.slips() ? pair.pair.spring_end : pair.pair.slider_end;
+  }
+  const Structure& structure = dae_->structure();
+  const NodeId leader = structure.rigid[at(node)];
+  if (structure.kind[at(leader)] == Kind::viscous) return rates[at(dae_->velocity_unknown(leader))];
+  return view.acceleration[at(leader)];
+}
+
+/// Power that becomes heat.
+double OutputSampler::dissipated_power(int element, const Dae::View& view) const {
+  const Network::Place& place = network_.places[at(element)];
+  if (!place.paired && place.role == Role::deflection) {
+    std::size_t i = 0;
+    const DeflectionBatch& batch = network_.batch_of(place.index, i);
+    const std::size_t j = at(place.index);
+    return batch.dissipated_power(i, view.p[j], view.dp[j], view.flow[j]);
+  }
+  // The spring of a pair stores; rate laws and sliders store nothing.
+  const bool dissipates = place.paired ? element != network_.pairs[at(place.index)].spring
+                                       : place.role == Role::rate || place.role == Role::slip;
+  return dissipates ? element_force(element, view) * element_velocity(element, view) : 0;
+}
+
+double OutputSampler::stored_energy(int element, const Dae::View& view) const {
+  const Network::Place& place = network_.places[at(element)];
+  if (place.paired) {
+    const PairView pair(network_, place.index, view);
+    return element == pair.pair.spring ? pair.force() * pair.force() / (2 * pair.pair.law.stiffness) : 0;
+  }
+  if (place.role == Role::deflection) {
+    std::size_t i = 0;
+    const DeflectionBatch& batch = network_.batch_of(place.index, i);
+    return batch.stored_energy(i, view.p[at(place.index)]);
+  }
+  if (place.role != Role::mass) return 0;
+  const Network::Mass& m = network_.masses[at(place.index)];
+  return m.mass * view.velocity[at(m.node)] * view.velocity[at(m.node)] / 2;
+}
+
+double OutputSampler::displacement(std::size_t operand, const Dae::View& view) const {
+  if (const auto [element, sign] = gauges_[operand]; element >= 0) {
     const Network::Place& place = network_.places[at(element)];
     if (!place.paired) return sign * dae_->displacement(place.index);
     const PairView pair(network_, place.index, view);
     return sign * (element == pair.pair.spring ? pair.pair.spring_sign * pair.stretch()
                                                : pair.pair.slider_sign * pair.slide());
   }
-  const Ends ends = ends_of(scene_, records_[record]);
+  const Ends ends = ends_of(scene_, *operands_[operand]);
   return position(ends.a, view) - position(ends.b, view);
 }
 
-double OutputSampler::velocity(const Record& record, const Dae::View& view) const {
-  if (record.subject == Record::Subject::element) {
-    const Network::Place& place = network_.places[at(record.index)];
-    if (place.paired) {
-      const PairView pair(network_, place.index, view);
-      const bool spring = record.index == pair.pair.spring;
-      if (spring == pair.slips()) return 0;
-      return (spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.pair.sign * view.flow[at(pair.branch)];
-    }
-    if (place.role == Role::deflection) return view.flow[at(place.index)];
-    if (place.role == Role::rate) return view.rate_velocity[at(place.index)];
-    if (place.role == Role::slip) return view.slider_velocity[at(place.index)];
+double OutputSampler::element_velocity(int element, const Dae::View& view) const {
+  const Network::Place& place = network_.places[at(element)];
+  if (place.paired) {
+    const PairView pair(network_, place.index, view);
+    const bool spring = element == pair.pair.spring;
+    if (spring == pair.slips()) return 0;
+    return (spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.pair.sign * view.flow[at(pair.branch)];
   }
+  if (place.role == Role::deflection) return view.flow[at(place.index)];
+  if (place.role == Role::rate) return view.rate_velocity[at(place.index)];
+  if (place.role == Role::slip) return view.slider_velocity[at(place.index)];
+  return velocity(scene_.elements[at(element)].a, view) - velocity(scene_.elements[at(element)].b, view);
+}
+
+double OutputSampler::velocity(const Record& record, const Dae::View& view) const {
+  if (record.subject == Record::Subject::element) return element_velocity(record.index, view);
   const Ends ends = ends_of(scene_, record);
   return velocity(ends.a, view) - velocity(ends.b, view);
 }
@@ -252,32 +359,50 @@ const std::vector<double>& OutputSampler::read_state(double t, const std::vector
     rates = &yp_;
   }
   const Dae::View& view = dae_->view(t, y.data(), rates->data());
+  for (std::size_t k = 0; k < operands_.size(); ++k) values_[k] = value(k, view, *rates);
+  std::span<const double> left(values_);
   for (std::size_t k = 0; k < row_.size(); ++k) {
-    const Record& record = records_[k];
-    switch (record.channel) {
-      case Record::Channel::position:
-      case Record::Channel::displacement:
-        row_[k] = displacement(k, view);
-        break;
-      case Record::Channel::velocity:
-        row_[k] = velocity(record, view);
-        break;
-      case Record::Channel::out:
-        row_[k] = dae_->output(record.index);
-        break;
-      case Record::Channel::force:
-        row_[k] = 0;
-        if (record.subject == Record::Subject::element) {
-          row_[k] = element_force(record.index, view);
-        } else {
-          for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force) {
-            row_[k] += term.sign * element_force(term.element, view);
-          }
-        }
-        break;
+    if (records_[k].subject != Record::Subject::expression) {
+      row_[k] = left.front();
+      left = left.subspan(1);
+      continue;
     }
+    const SceneExpression& expression = scene_.expressions[at(records_[k].index)];
+    row_[k] = expression.value(left.first(expression.operands.size()));
+    left = left.subspan(expression.operands.size());
   }
   return row_;
+}
+
+double OutputSampler::value(std::size_t operand, const Dae::View& view, const std::vector<double>& rates) const {
+  const Record& record = *operands_[operand];
+  switch (record.channel) {
+    case Record::Channel::position:
+    case Record::Channel::displacement:
+      return displacement(operand, view);
+    case Record::Channel::velocity:
+      return velocity(record, view);
+    case Record::Channel::acceleration:
+      return acceleration(record.index, view, rates);
+    case Record::Channel::power:
+      return element_force(record.index, view) * element_velocity(record.index, view);
+    case Record::Channel::dissipated:
+      return dissipated_power(record.index, view);
+    case Record::Channel::energy:
+      return stored_energy(record.index, view);
+    case Record::Channel::out:
+      return dae_->output(record.index);
+    case Record::Channel::value:
+      break;
+    case Record::Channel::force:
+      if (record.subject == Record::Subject::element) return element_force(record.index, view);
+      double sum = 0;
+      for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force) {
+        sum += term.sign * element_force(term.element, view);
+      }
+      return sum;
+  }
+  return 0;
 }
 
 }  // namespace rheonet

@@ -62,7 +62,9 @@ class Divider {
     for (const SceneFeed& feed : scene_.feeds) need(feed.block);
     for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed}) {
       for (const Record& record : *records) {
-        if (record.subject == Record::Subject::block) need(record.index);
+        for_each_operand(scene_, record, [&](const Record& operand) {
+          if (operand.subject == Record::Subject::block) need(operand.index);
+        });
       }
     }
     for (std::size_t k = 0; k < needed.size(); ++k) {
@@ -112,7 +114,7 @@ class Divider {
         add(part_of(record.index));
         break;
       case Record::Subject::element:
-        record.channel == Record::Channel::force ? add_force(record.index) : add(part_of_element(record.index));
+        record.channel == Record::Channel::force || record.channel == Record::Channel::power ? add_force(record.index) : add(part_of_element(record.index));
         if (scene_.elements[at(record.index)].at) add(part_of(scene_.elements[at(record.index)].a));
         break;
       case Record::Subject::block:
@@ -128,6 +130,11 @@ class Divider {
         }
         break;
       }
+      case Record::Subject::expression:
+        for_each_operand(scene_, record, [&](const Record& operand) {
+          for (const int part : parts_of(operand)) found.push_back(part);
+        });
+        break;
     }
     for (int& part : found) part = joined_.find(part);
     return found;

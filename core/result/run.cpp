@@ -184,6 +184,10 @@ class Recorder final : public Observer {
   void write(double t, const std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       if (std::isfinite(values[k])) continue;
+      if (scene_.records[k].subject == Record::Subject::expression) {
+        throw SimulationError(fmt::format("{} the expression `{}` has no finite value: is there a division by zero, or the root or logarithm of a "
+                                          "negative number?", at_time(scene_, t), scene_.records[k].path));
+      }
       throw SimulationError(
           fmt::format("{} `{}` is beyond the range of double precision; check the values of the elements around it", at_time(scene_, t),
                       scene_.records[k].path));
@@ -347,22 +351,31 @@ Summary run_by(const SimulationMethod& method, const Scene& asked, const RunSett
 
 namespace {
 
-/// An observer that does nothing.
-class Blind final : public Observer {
-  void begin(Dae&, Consistency&, double, const std::vector<double>&, const std::vector<double>&, double) override {}
+/// Checks that the equations determine the records.
+class StartObserver final : public Observer {
+ public:
+  explicit StartObserver(const Network& network) : records_(network, network.scene->records), claimed_(network, network.scene->claimed) {}
+
+ private:
+  void begin(Dae& dae, Consistency& consistency, double, const std::vector<double>&, const std::vector<double>&, double) override {
+    records_.attach(dae, consistency);
+    claimed_.attach(dae, consistency);
+  }
   void step(const Integrator&) override {}
   void event(const Event&) override {}
   void end(double) override {}
+
+  OutputSampler records_, claimed_;
 };
 
 }  // namespace
 
 StartReport check(const Scene& scene) {
   const Network network = build_network(scene);
-  Blind blind;
+  StartObserver observer(network);
   const SimulationSettings settings{
       .stop = scene.stop - scene.start, .accuracy = scene.accuracy, .interrupt = nullptr, .progress = {}, .profile = nullptr};
-  const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, blind);
+  const SimulationStatistics statistics = check_start(network, needed_positions(network), settings, observer);
   StartReport report{.notes = network.notes, .chosen = statistics.chosen};
   report.notes.insert(report.notes.end(), statistics.notes.begin(), statistics.notes.end());
   return report;

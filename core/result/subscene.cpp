@@ -63,6 +63,7 @@ class Taker {
     Record record = whole;
     record.index = number(whole);
     if (record.index < 0) return {};
+    if (record.subject == Record::Subject::expression) return record;
     if (record.subject == Record::Subject::assembly) {
       const SceneAssembly& assembly = scene_.assemblies[at(record.index)];
       const bool whole_ends = assembly.a >= 0 && assembly.b >= 0;
@@ -141,10 +142,24 @@ class Taker {
         return numbers_.element[at(record.index)];
       case Record::Subject::assembly:
         return take_assembly(record.index);
+      case Record::Subject::expression:
+        return take_expression(record.index);
       case Record::Subject::block:
         break;
     }
     return numbers_.block[at(record.index)];
+  }
+
+  /// -1 if the subscene lacks an operand.
+  int take_expression(int k) {
+    SceneExpression expression = whole_.expressions[at(k)];
+    for (Record& operand : expression.operands) {
+      const std::optional<Record> mine = taken(operand);
+      if (!mine) return -1;
+      operand = *mine;
+    }
+    scene_.expressions.push_back(std::move(expression));
+    return static_cast<int>(scene_.expressions.size()) - 1;
   }
 
   const Scene& whole_;
@@ -159,7 +174,9 @@ std::vector<char> asked_assemblies(const Scene& scene) {
   std::vector<char> asked(scene.assemblies.size(), 0);
   for (const std::vector<Record>* records : {&scene.records, &scene.claimed, &scene.sensed}) {
     for (const Record& record : *records) {
-      if (record.subject == Record::Subject::assembly) asked[at(record.index)] = 1;
+      for_each_operand(scene, record, [&](const Record& operand) {
+        if (operand.subject == Record::Subject::assembly) asked[at(operand.index)] = 1;
+      });
     }
   }
   return asked;
@@ -281,6 +298,8 @@ class Cutter {
         return jobs_of_element_[at(record.index)];
       case Record::Subject::block:
         return jobs_of_element_[at(scene_.blocks[at(record.index)].element)];
+      case Record::Subject::expression:
+        return jobs_of_expression(scene_.expressions[at(record.index)]);
       case Record::Subject::assembly:
         break;
     }
@@ -292,6 +311,14 @@ class Cutter {
     }
     if (assembly.a == ground || assembly.b == ground) return jobs_of({.path = {}, .subject = Record::Subject::node, .index = assembly.a == ground ? assembly.b : assembly.a});
     return common(jobs_of_node_[at(assembly.a)], jobs_of_node_[at(assembly.b)]);
+  }
+
+  /// The jobs that contain all operands. An expression over given motions alone may refer to nodes of several jobs.
+  std::set<int> jobs_of_expression(const SceneExpression& expression) const {
+    std::set<int> jobs;
+    for (std::size_t job = 0; job < jobs_.size(); ++job) jobs.insert(static_cast<int>(job));
+    for (const Record& operand : expression.operands) jobs = common(jobs, jobs_of(operand));
+    return jobs;
   }
 
   Subscene subscene(const Job& job) {

@@ -17,10 +17,13 @@ std::vector<int> recorded_blocks(const Network& network) {
   };
   for (const std::vector<Record>* records : {&network.scene->records, &network.scene->claimed}) {
     for (const Record& record : *records) {
-      if (record.subject == Record::Subject::block) add(record.index);
-      if (record.subject != Record::Subject::element || record.channel != Record::Channel::force) continue;
-      const Network::Place& place = network.places[at(record.index)];
-      if (place.role == Role::force) add(network.forces[at(place.index)].block);
+      for_each_operand(*network.scene, record, [&](const Record& operand) {
+        if (operand.subject == Record::Subject::block) add(operand.index);
+        const bool force = operand.channel == Record::Channel::force || operand.channel == Record::Channel::power;
+        if (operand.subject != Record::Subject::element || !force) return;
+        const Network::Place& place = network.places[at(operand.index)];
+        if (place.role == Role::force) add(network.forces[at(place.index)].block);
+      });
     }
   }
   return result;

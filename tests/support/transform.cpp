@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/index.hpp"
+#include "core/netlist/records.hpp"
 #include "core/network/component.hpp"
 
 namespace rheonet::test {
@@ -88,6 +89,12 @@ double factor(const Scene& scene, const Record& record, const Scaling& scaling) 
     case Record::Channel::force:
     case Record::Channel::out:  // no scene that is scaled has blocks
       break;
+    case Record::Channel::acceleration:
+    case Record::Channel::power:
+    case Record::Channel::dissipated:
+    case Record::Channel::energy:
+    case Record::Channel::value:
+      return scaling.of(quantity_of(record.channel), scene.domain);
   }
   return scaling.of(Quantity::force, scene.domain);
 }

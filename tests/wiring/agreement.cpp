@@ -34,6 +34,8 @@ std::size_t kind_of(const Record& record) {
     case Record::Channel::position:
     case Record::Channel::displacement:
       break;
+    default:  // these scenes record nothing else
+      break;
   }
   return 2;
 }

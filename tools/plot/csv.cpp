@@ -78,7 +78,11 @@ std::optional<Measure> measure_of_record(const std::string& name, std::optional<
   const std::pair<const char*, Channel> channels[] = {{"position", Channel::position},
                                                       {"velocity", Channel::velocity},
                                                       {"displacement", Channel::displacement},
-                                                      {"force", Channel::force}};
+                                                      {"force", Channel::force},
+                                                      {"acceleration", Channel::acceleration},
+                                                      {"power", Channel::power},
+                                                      {"dissipated", Channel::dissipated},
+                                                      {"energy", Channel::energy}};
   for (const auto& [word, known] : channels) {
     if (channel != word) continue;
     if (!domain) return Measure{word, "SI", {}};

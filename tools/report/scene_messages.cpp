@@ -27,10 +27,11 @@ const char* name_of(Sources::Role role) {
 
 const char* name_of(Record::Subject subject) {
   using Subject = Record::Subject;
-  return subject == Subject::node      ? "node"
-         : subject == Subject::element ? "element"
-         : subject == Subject::block   ? "block"
-                                       : "assembly";
+  return subject == Subject::node         ? "node"
+         : subject == Subject::element    ? "element"
+         : subject == Subject::block      ? "block"
+         : subject == Subject::expression ? "expression"
+                                          : "assembly";
 }
 
 /// The first of the wished units in which a record can be shown; null if there is none.
