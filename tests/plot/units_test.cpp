@@ -62,5 +62,8 @@ TEST_CASE("a record says by its name what it measures") {
   CHECK(measure_of_record("k.displacement", Domain::rotation)->quantity == "angle");
   CHECK(measure_of_record("k.velocity", {})->unit == "SI");
   CHECK_FALSE(measure_of_record("force", {}));
-  CHECK_FALSE(measure_of_record("k.energy", {}));
+  CHECK_FALSE(measure_of_record("k.colour", {}));
+  CHECK(measure_of_record("k.energy", Domain::rotation)->unit == "J");
+  CHECK(measure_of_record("k.dissipated", Domain::translation)->quantity == "power");
+  CHECK(measure_of_record("a.acceleration", Domain::translation)->unit == "m/s^2");
 }
