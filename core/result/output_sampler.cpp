@@ -201,8 +201,8 @@ bool OutputSampler::follow_acceleration(NodeId end) const {
       const SceneNode& named = scene_.nodes[at(end)];
       throw SimulationError(
           named.spot,
-          fmt::format("the acceleration of node `{0}` is not known: the node has no mass, and only springs and laws with a memory hold it, so that no "
-                      "equation determines it; give the node a mass, or record `{0}.velocity`",
+          fmt::format("the acceleration of node `{}` is not known: the node has no mass, and only springs and laws with a memory hold it; give the "
+                      "node a mass, or record its velocity",
                       named.name));
     }
     any = any || kind == Kind::viscous;
