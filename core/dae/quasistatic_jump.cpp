@@ -11,6 +11,7 @@
 #include "core/dae/dashpot_steps.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/network/adjacent_elements.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -28,6 +29,16 @@ void EventTransition::position_steps(double t, std::vector<double>& dx, std::vec
                                       "give the step a time to rise in",
                                       at_time(*network_.scene, t), network_.name_of(b),
                                       with_unit(*network_.scene, dx[at(b.a)] - dx[at(b.b)], Quantity::position)));
+  }
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const double by = dx[at(b.a)] - dx[at(b.b)];
+    if (massless(b.a) || massless(b.b) || step_together(dx[at(b.a)], dx[at(b.b)]) || is_rigid_link(network_.sliders[k])) continue;
+    if (!std::isinf(inputs_.box(k).at(by < 0 ? -1 : 1).sliding.value)) continue;
+    throw SimulationError(network_.spot_of(b.element),
+                          fmt::format("{} a step in position turns `{}` backwards by {} in no time, which takes a force beyond any bound; give "
+                                      "the step a time to rise in",
+                                      at_time(*network_.scene, t), network_.name_of(b), with_unit(*network_.scene, std::abs(by), Quantity::position)));
   }
   const auto tell = [&](int element, const std::string& what, double by, const char* whose) {
     char& told = impulse_told_[at(element)];

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/netlist/scene.hpp"
+
 namespace rheonet {
 
 namespace {

@@ -87,10 +87,11 @@ BoxedForces::Outcome BoxedForces::solve(const std::vector<double>& load, std::ve
     } else if (bounded) {
       move(least);
     } else {
-      return Outcome::failed;
+      break;
     }
   }
-  return Outcome::failed;
+  if (!balanced_to_largest(load, force) || !of_least_norm(force)) return Outcome::failed;
+  return cuts_.empty() ? Outcome::within : Outcome::beyond;
 }
 
 /// Computes the forces of least norm without bounds. Returns true if they lie in their boxes: they are then the answer.
@@ -148,6 +149,20 @@ bool BoxedForces::balanced(const std::vector<double>& load, const std::vector<do
     }
   }
   return failed_node_ < 0;
+}
+
+/// The same, but to the round-off of the largest force of all: where potentials of that size leave almost no force at a node, their
+/// difference has no better round-off. Call after `balanced`.
+bool BoxedForces::balanced_to_largest(const std::vector<double>& load, const std::vector<double>& force) {
+  double largest = 0;
+  for (const std::vector<double>* list : {&load, &force}) {
+    for (const double f : *list) largest = std::max(largest, std::abs(f));
+  }
+  for (std::size_t n = 0; n < load.size(); ++n) {
+    if (!held_[n] && !(std::abs(left_[n]) <= (terms_[n] + 1) * eps * largest)) return false;
+  }
+  failed_node_ = -1;
+  return true;
 }
 
 /// Newton's direction for the present active set. Branches within their boxes connect nodes into parts. Parts without a held

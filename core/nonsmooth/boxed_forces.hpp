@@ -51,6 +51,7 @@ class BoxedForces {
   double force_at(std::size_t k, double step) const;
   double round_off(std::size_t node) const;
   bool balanced(const std::vector<double>& load, const std::vector<double>& force);
+  bool balanced_to_largest(const std::vector<double>& load, const std::vector<double>& force);
   bool without_bounds(const std::vector<double>& load, std::vector<double>& force);
   void find_direction();
   double slope_at(double step) const;

@@ -303,6 +303,11 @@ double OutputSampler::stored_energy(int element, const Dae::View& view) const {
     const DeflectionBatch& batch = network_.batch_of(place.index, i);
     return batch.stored_energy(i, view.p[at(place.index)]);
   }
+  if (place.role == Role::inerter) {
+    const auto& [branch, inertance] = network_.inerters[at(place.index)];
+    const double w = view.velocity[at(branch.a)] - view.velocity[at(branch.b)];
+    return inertance * w * w / 2;
+  }
   if (place.role != Role::mass) return 0;
   const Network::Mass& m = network_.masses[at(place.index)];
   return m.mass * view.velocity[at(m.node)] * view.velocity[at(m.node)] / 2;

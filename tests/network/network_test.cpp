@@ -59,6 +59,9 @@ TEST_CASE("laws are sorted into one contiguous batch a type, and every element k
     const int element = static_cast<int>(e);
     const auto index = static_cast<std::size_t>(place.index);
     switch (place.role) {
+      case Role::inerter:
+        CHECK_EQ(net.inerters.at(index).branch.element, element);
+        break;
       case Role::deflection:
         CHECK_EQ(net.deflections.at(index).element, element);
         break;
