@@ -148,12 +148,17 @@ class Surroundings {
     e.values = values;
     e.at = !ends_;
     add_signals(e);
-    const bool by_velocity =
-        motion() && e.signal_parameters.size() == 1 &&
-        component_.declaration.parameters[static_cast<std::size_t>(e.signal_parameters[0])].quantity ==
-            Quantity::velocity;
+    const auto given_by = [&](Quantity quantity) {
+      return motion() && e.signal_parameters.size() == 1 &&
+             component_.declaration.parameters[static_cast<std::size_t>(e.signal_parameters[0])].quantity == quantity;
+    };
     element_ = builder_.add(e, e.at ? at : a, b);
-    if (motion()) builder_.start(at, by_velocity ? start() : not_given);
+    if (!motion()) return;
+    if (given_by(Quantity::acceleration)) {
+      begin(at);
+    } else {
+      builder_.start(at, given_by(Quantity::velocity) ? start() : not_given);
+    }
   }
 
   /// Those that must be given; of several of which one is to be given, one.
