@@ -195,6 +195,62 @@ void ConvexNetwork::merge() {
   }
 }
 
+/// Where sticking branches join prescribed nodes that go apart, one of them opens: the first on the way from one node to the other
+/// whose law permits that motion. False if there is none.
+bool ConvexNetwork::part_torn() {
+  const std::size_t n = u_.size();
+  const auto given = [&](std::size_t node) { return origin_[node] + given_[node]; };
+  std::vector<std::vector<std::size_t>> around(n);
+  for (std::size_t k = 0; k < branches_.size(); ++k) {
+    if (!branches_[k].stuck) continue;
+    around[at(branches_[k].a)].push_back(k);
+    around[at(branches_[k].b)].push_back(k);
+  }
+  for (std::size_t node = 0; node < n; ++node) {
+    if (!torn(static_cast<int>(node))) continue;
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> by(n, none), reached{node};
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      const std::size_t from = reached[i];
+      if (fixed_[from] && !torn(static_cast<int>(from))) {
+        for (std::size_t here = from; here != node;) {
+          Branch& b = branches_[by[here]];
+          const bool first = at(b.a) == here;
+          const double w = first ? given(from) - given(node) : given(node) - given(from);
+          if (std::isfinite(w > 0 ? b.law.high : b.law.low)) {
+            b.stuck = false;
+            b.side = w > 0 ? 1 : -1;
+            u_[node] = given_[node];
+            return true;
+          }
+          here = at(first ? b.b : b.a);
+        }
+      }
+      for (const std::size_t k : around[from]) {
+        const std::size_t next = at(branches_[k].a) == from ? at(branches_[k].b) : at(branches_[k].a);
+        if (next == node || by[next] != none) continue;
+        by[next] = k;
+        reached.push_back(next);
+      }
+    }
+  }
+  return false;
+}
+
+/// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. What then moves as a law forbids
+/// sticks.
+void ConvexNetwork::let_prescribed_part() {
+  for (std::size_t tries = 0; tries <= 2 * branches_.size() && part_torn(); ++tries) {
+    merge();
+    for (Branch& b : branches_) {
+      if (b.stuck || !b.jumps) continue;
+      b.w = nodal_difference(b);
+      if (b.w != 0 && std::isinf(b.w > 0 ? b.law.high : b.law.low)) b.stuck = true;
+    }
+    merge();
+  }
+}
+
 /// Sums the forces at all free clusters; true if the sums are round-off.
 bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
   gradient.assign(at(columns_), 0);
@@ -269,6 +325,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
   for (rounds_ = 0; rounds_ < rounds; ++rounds_) {
     merge();
     while (stick_where_met()) merge();  // several may come together in one step
+    if (rounds_ == 0) let_prescribed_part();
     bool settled = balanced(gradient) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d, false)) {

@@ -89,6 +89,8 @@ class ConvexNetwork {
   void choose_weak();
   void stick_at_first();
   bool stick_where_met();
+  void let_prescribed_part();
+  bool part_torn();
   bool stick_where_idle();
   void merge();
   bool balanced(std::vector<double>& gradient) const;

@@ -65,7 +65,7 @@ void EventTransition::refuse_torn_links(double t) const {
   }
 }
 
-/// Where a law forbids a motion one way (a freewheel), prescribed motions may not demand it.
+/// Where a law forbids a motion one way (a freewheel), prescribed motions may not demand it: no branch could open.
 void EventTransition::refuse_blocked_motions(double t, const ConvexNetwork& problem) const {
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     const int node = slot(static_cast<NodeId>(n));
