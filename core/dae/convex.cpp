@@ -111,6 +111,8 @@ void ConvexNetwork::choose_weak() {
   }
 }
 
+bool ConvexNetwork::forbids(const Branch& b, double w) { return std::isinf(w < 0 ? b.law.low : b.law.high); }
+
 /// Branches between equal start values stick; massless nodes follow nodes to which they can stick.
 void ConvexNetwork::stick_at_first() {
   const std::size_t n = u_.size();
@@ -129,9 +131,7 @@ void ConvexNetwork::stick_at_first() {
       if (b.jumps && (std::isinf(b.law.low) || std::isinf(b.law.high)) == strict) order.push_back(&b);
     }
   }
-  // A force without a bound holds a branch, or ends a motion that the law forbids.
   const auto apart = [&](const Branch& b) { return difference(head[at(sets.find(b.a))], head[at(sets.find(b.b))]); };
-  const auto forbids = [](const Branch& b, double w) { return std::isinf(w < 0 ? b.law.low : b.law.high); };
   const auto stick = [&](Branch& b) {
     const int sa = sets.find(b.a), sb = sets.find(b.b);
     b.stuck = true;
@@ -147,8 +147,7 @@ void ConvexNetwork::stick_at_first() {
   };
   for (Branch* b : order) {
     const double w = apart(*b);
-    const bool rigid = (std::isinf(b->law.low) && std::isinf(b->law.high)) || forbids(*b, w);
-    if (!rigid && w != 0 && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
+    if (w != 0 && !forbids(*b, w) && heavy[at(sets.find(b->a))] && heavy[at(sets.find(b->b))]) {
       b->side = w > 0 ? 1 : -1;
     } else {
       stick(*b);
@@ -217,7 +216,7 @@ bool ConvexNetwork::part_torn() {
           Branch& b = branches_[by[here]];
           const bool first = at(b.a) == here;
           const double w = first ? given(from) - given(node) : given(node) - given(from);
-          if (std::isfinite(w > 0 ? b.law.high : b.law.low)) {
+          if (!forbids(b, w)) {
             b.stuck = false;
             b.side = w > 0 ? 1 : -1;
             u_[node] = given_[node];
@@ -237,15 +236,15 @@ bool ConvexNetwork::part_torn() {
   return false;
 }
 
-/// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. What then moves as a law forbids
-/// sticks.
+/// Lets branches open until no prescribed nodes are torn from each other, as far as the laws permit. A branch that would then move
+/// as its law forbids sticks.
 void ConvexNetwork::let_prescribed_part() {
   for (std::size_t tries = 0; tries <= 2 * branches_.size() && part_torn(); ++tries) {
     merge();
     for (Branch& b : branches_) {
       if (b.stuck || !b.jumps) continue;
       b.w = nodal_difference(b);
-      if (b.w != 0 && std::isinf(b.w > 0 ? b.law.high : b.law.low)) b.stuck = true;
+      if (b.w != 0 && forbids(b, b.w)) b.stuck = true;
     }
     merge();
   }

@@ -77,6 +77,8 @@ class ConvexNetwork {
     int side = 1;  ///< the bound at which the force is while the branch slips and w is 0
     int before = 0;  ///< see was_apart; 0: no guess
   };
+  /// A force without a bound holds a branch, or ends a motion to the side of w that the law forbids.
+  static bool forbids(const Branch& b, double w);
   /// Argument of the law, from the values of the nodes.
   double nodal_difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);

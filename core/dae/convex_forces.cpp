@@ -118,7 +118,7 @@ bool ConvexNetwork::run_away() {
   }
   for (const Branch& b : branches_) {
     if (b.stuck || std::abs(b.weak * b.w) <= numerics::regularising_load * scale) continue;
-    // Nor does one that goes with others: where there is no force at all, the regularising slope has the largest share of it.
+    // A node that goes with others does not run away either. Without any force, the regularising slope carries the largest share.
     if (std::abs(b.w) <= numerics::carried_along * farthest) continue;
     for (int node : {b.a, b.b}) {
       if (!heavy[at(cluster_[at(node)])]) runaways_.push_back(node);

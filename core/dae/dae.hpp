@@ -168,6 +168,8 @@ class Dae {
   double reaction(NodeId node) const;
   /// Force of an inerter [N] in the state last viewed.
   double inerter_force(std::size_t index) const;
+  /// Energy that an inerter stores [J], likewise.
+  double inerter_energy(std::size_t index) const;
   /// Output of a block in the state last viewed.
   double output(int block) const { return inputs_->blocks().out(block).value; }
   /// Limiters take the sides that fit this state: see BlockSignals::choose.
@@ -223,6 +225,7 @@ class Dae {
   struct SlidingCoupling { Coupling coupling; std::size_t slider, parameter; };
   struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
   std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
+  std::vector<Coupling> entries_of(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) const;
   void couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor,
               Coupling::By by = Coupling::By::itself, std::size_t branch = 0);
   void build_couplings(PatternBuilder& builder);

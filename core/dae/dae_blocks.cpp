@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 
 #include "core/dae/dae.hpp"
 
@@ -24,17 +25,25 @@ std::vector<Dae::AtomTerm> Dae::terms_of_atom(std::size_t atom) const {
   return {{iv_[at(b.a)], 1, By::damping, branch}, {iv_[at(b.b)], -1, By::damping, branch}};
 }
 
-void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor, Coupling::By by,
-                 std::size_t branch) {
+/// The entries of a row that takes in, times `factor`, the output of a block, or the rate of a state.
+std::vector<Dae::Coupling> Dae::entries_of(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) const {
   const BlockSignals& blocks = inputs_->blocks();
+  std::vector<Coupling> result;
   for (std::size_t atom = 0; row >= 0 && atom < blocks.atoms(); ++atom) {
     if (!(of_rate ? blocks.rate_couples(source, atom) : blocks.couples(static_cast<int>(source), atom))) continue;
     for (const AtomTerm& term : terms_of_atom(atom)) {
       if (term.column < 0) continue;
-      const bool plain = by == Coupling::By::itself;
-      couplings_.push_back({builder.ticket(row, term.column), of_rate, source, atom, factor * term.factor, plain ? term.by : by,
-                            plain ? term.branch : branch});
+      result.push_back({builder.ticket(row, term.column), of_rate, source, atom, factor * term.factor, term.by, term.branch});
     }
+  }
+  return result;
+}
+
+void Dae::couple(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor, Coupling::By by,
+                 std::size_t branch) {
+  for (Coupling& entry : entries_of(builder, row, of_rate, source, factor)) {
+    if (by != Coupling::By::itself) std::tie(entry.by, entry.branch) = std::tie(by, branch);
+    couplings_.push_back(entry);
   }
 }
 
@@ -55,21 +64,14 @@ void Dae::build_couplings(PatternBuilder& builder) {
 
 /// Entries of the forces of slipping sliders, of whose parameters blocks give some.
 void Dae::couple_sliders(PatternBuilder& builder) {
-  const BlockSignals& blocks = inputs_->blocks();
   for (const std::size_t k : varying_) {
     const Branch& b = structure_->sliders[k];
     if (b.a == b.b) continue;
     for (std::size_t i = 0; i < network_->sliders[k].varying.size(); ++i) {
       const auto [parameter, block, block_sign] = network_->sliders[k].varying[i];
-      for (std::size_t atom = 0; atom < blocks.atoms(); ++atom) {
-        if (!blocks.couples(block, atom)) continue;
-        for (const AtomTerm& term : terms_of_atom(atom)) {
-          for (const auto& [end, sign] : {std::pair{b.a, block_sign}, std::pair{b.b, -block_sign}}) {
-            for (const int row : {iv_[at(end)], balance_of_group(end)}) {
-              if (row < 0 || term.column < 0) continue;
-              sliding_couplings_.push_back({{builder.ticket(row, term.column), false, at(block), atom, sign * term.factor, term.by, term.branch}, k, i});
-            }
-          }
+      for (const auto& [end, sign] : {std::pair{b.a, block_sign}, std::pair{b.b, -block_sign}}) {
+        for (const int row : {iv_[at(end)], balance_of_group(end)}) {
+          for (const Coupling& entry : entries_of(builder, row, false, at(block), sign)) sliding_couplings_.push_back({entry, k, i});
         }
       }
     }

@@ -71,7 +71,10 @@ class EventTransition {
   bool take_delayed_steps(double t, State& state, Change& change);
   [[noreturn]] void report_unbalanced(double t) const;
   [[noreturn]] void report_hidden_shares(double t) const;
+  // impacts.cpp
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
+  double kinetic_energy(const State& state) const;
+  void share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const;
   double collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes);
   std::vector<int> moving_backwards(const State& state) const;
   double given_velocity(NodeId node) const;

@@ -7,11 +7,11 @@
 
 namespace rheonet {
 
-/// The mass matrix M of the nodes that inerters couple: masses on the diagonal, and for each inerter of inertance b between the
-/// nodes i and j
-///     M_ii += b,   M_jj += b,   M_ij = M_ji -= b
-/// without rows and columns for prescribed nodes. It is positive definite, because a mass or a prescribed node belongs to
-/// each group of nodes that inerters join (see Structure). All other nodes have a mass of their own or none.
+/// The mass matrix M of the nodes that inerters couple. Masses stand on its diagonal. An inerter of inertance b between the
+/// nodes i and j adds
+///     M_ii += b,   M_jj += b,   M_ij -= b,   M_ji -= b.
+/// Prescribed nodes have no rows and columns. M is positive definite, because each group of nodes that inerters join has a
+/// mass or a prescribed node (see Structure).
 class InertiaMatrix {
  public:
   /// Network and structure must outlive this.

@@ -169,6 +169,12 @@ double Dae::inerter_force(std::size_t k) const {
   return inertance * (view_.acceleration[at(branch.a)] - view_.acceleration[at(branch.b)]);
 }
 
+double Dae::inerter_energy(std::size_t k) const {
+  const auto& [branch, inertance] = network_->inerters[k];
+  const double w = view_.velocity[at(branch.a)] - view_.velocity[at(branch.b)];
+  return inertance * w * w / 2;
+}
+
 double Dae::supplied_power() const {
   double power = 0;
   for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
@@ -219,10 +225,7 @@ double Dae::stored_energy() const {
   for (std::size_t n = 0; n < v_.size(); ++n) {
     energy += structure_->own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
   }
-  for (const Network::Inerter& inerter : network_->inerters) {
-    const double w = view_.velocity[at(inerter.branch.a)] - view_.velocity[at(inerter.branch.b)];
-    energy += inerter.inertance * w * w / 2;
-  }
+  for (std::size_t k = 0; k < network_->inerters.size(); ++k) energy += inerter_energy(k);
   return energy;
 }
 

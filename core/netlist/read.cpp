@@ -93,7 +93,7 @@ class Reader {
 
     const Environment& environment = parameters_of(document_);
     if (const TomlEntry* checks = document_.find("check")) evaluate_checks(checks->value, environment, diagnostics_);
-    const std::set<std::string> doubtful = read_network(elements, environment, canonical);
+    std::set<std::string> doubtful = read_network(elements, environment, canonical);
     read_start_and_effects(environment, doubtful);
     read_questions(simulate, environment, doubtful);
     if (diagnostics_.errors() > 0) return;
@@ -154,7 +154,7 @@ class Reader {
   }
 
   /// Reads the settings of the run, the records, the claims and the presentation.
-  void read_questions(const TomlEntry* simulate, const Environment& environment, const std::set<std::string>& doubtful) {
+  void read_questions(const TomlEntry* simulate, const Environment& environment, std::set<std::string>& doubtful) {
     scene_.stop = not_given;  // disables comparisons with the stop if [simulate] is missing or mistaken
     const TomlEntry* record = simulate ? read_simulate(*simulate, environment, context_, scene_) : nullptr;
     if (options_.accuracy) override_accuracy(*options_.accuracy, context_, result_.sources, scene_);

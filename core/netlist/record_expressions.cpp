@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/netlist/characters.hpp"
 #include "core/netlist/counting.hpp"
 #include "core/netlist/dependency_order.hpp"
@@ -70,7 +71,7 @@ struct RecordFormula {
 
 class ExpressionReader {
  public:
-  ExpressionReader(const Environment& environment, const std::set<std::string>& doubtful, Context& context, Scene& scene)
+  ExpressionReader(const Environment& environment, std::set<std::string>& doubtful, Context& context, Scene& scene)
       : environment_(environment), doubtful_(doubtful), context_(context), diagnostics_(context.diagnostics), scene_(scene) {
     auto parameters = std::make_shared<Environment>();
     copy_names(environment, *parameters);
@@ -94,8 +95,14 @@ class ExpressionReader {
     const DependencyOrder order = dependency_order(uses);
     for (const std::vector<std::size_t>& cycle : order.cycles) refuse_cycle(cycle);
     std::vector<std::optional<Record>> records(entries_.size());
+    const auto doubt = [&](std::size_t k) {
+      const TomlEntry* name = tables[k]->find("name");
+      if (name && name->value.is_string()) doubtful_.insert(name->value.text);
+    };
+    for (const std::vector<std::size_t>& cycle : order.cycles) std::for_each(cycle.begin(), cycle.end(), doubt);
     for (const std::size_t k : order.order) {
       if (entries_[k].name) records[k] = make(entries_[k]);
+      if (!records[k]) doubt(k);
     }
     return records;
   }
@@ -198,20 +205,21 @@ class ExpressionReader {
   }
 
   /// Number of the character at which a name stands by itself.
-  static std::size_t place_of(const std::string& name, const std::string& text) {
-    const auto in_name = [&](std::size_t at) { return at < text.size() && (is_letter(text[at]) || is_digit(text[at]) || text[at] == '_' || text[at] == '.'); };
-    std::size_t at = text.find(name);
-    while (at != text.npos && ((at > 0 && in_name(at - 1)) || in_name(at + name.size()))) at = text.find(name, at + 1);
-    return at == text.npos ? 0 : count_characters(std::string_view(text).substr(0, at));
+  static std::size_t place_of(const std::string& name, std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t length = name_length(text.substr(at));
+      if (text.substr(at, length) == name) return count_characters(text.substr(0, at));
+      at += std::max<std::size_t>(length, 1);
+    }
+    return 0;
   }
 
   /// The unit of the result, from values of either sign and different sizes, so that each branch of a choice is evaluated.
   bool find_unit(const TomlValue& source, SceneExpression& expression, const RecordFormula& formula) {
-    constexpr int samples = 16;
     std::vector<double> values(expression.operands.size());
     std::optional<Number> unit;
     std::uint32_t state = 1;
-    for (int sample = 0; sample < samples; ++sample) {
+    for (int sample = 0; sample < numerics::unit_samples; ++sample) {
       for (double& value : values) {
         state = state * 1664525u + 1013904223u;  // Numerical Recipes, 3rd edition, section 7.1
         const double uniform = static_cast<double>(state >> 8) / (1 << 24);
@@ -234,7 +242,7 @@ class ExpressionReader {
   }
 
   const Environment& environment_;
-  const std::set<std::string>& doubtful_;
+  std::set<std::string>& doubtful_;
   Context& context_;
   DiagnosticList& diagnostics_;
   Scene& scene_;
@@ -245,7 +253,7 @@ class ExpressionReader {
 }  // namespace
 
 std::vector<std::optional<Record>> read_record_expressions(const std::vector<const TomlValue*>& entries, const Environment& environment,
-                                                           const std::set<std::string>& doubtful, Context& context, Scene& scene) {
+                                                           std::set<std::string>& doubtful, Context& context, Scene& scene) {
   return ExpressionReader(environment, doubtful, context, scene).run(entries);
 }
 

@@ -13,9 +13,9 @@ namespace rheonet {
 
 /// The entries `{ name = "gap", value = "a.position - b.position" }` of `simulate.record`: expressions over records, parameters
 /// and each other. Returns the record of each, in their order; absent, with a mistake, where the entry has one. The
-/// expressions are added to the scene. `entries` must be tables.
+/// expressions are added to the scene, the names of those with a mistake to `doubtful`. `entries` must be tables.
 std::vector<std::optional<Record>> read_record_expressions(const std::vector<const TomlValue*>& entries, const Environment& environment,
-                                                           const std::set<std::string>& doubtful, Context& context, Scene& scene);
+                                                           std::set<std::string>& doubtful, Context& context, Scene& scene);
 
 /// The record of an expression of the scene that has this name.
 std::optional<Record> find_expression(const Scene& scene, const std::string& name);

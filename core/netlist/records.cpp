@@ -203,6 +203,16 @@ std::string unit_text(const Scene& scene, const Record& record) {
   return known ? unit_of(*known, scene.domain) : to_string(unit_of(scene, record).dimension);
 }
 
+namespace {
+
+std::vector<std::string> expression_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SceneExpression& expression : scene.expressions) names.push_back(expression.name);
+  return names;
+}
+
+}  // namespace
+
 std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& paths,
                                                 const std::set<std::string>& doubtful, Context& context,
                                                 Scene& scene, bool sensed) {
@@ -216,9 +226,9 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
     if (!expression && path.text == "time")
       diagnostics.error(path.spot, "`time` is no quantity of an element or a node: it is the first column always",
                      "leave it out");
-    else if (!expression && whole)
+    else if (!expression && whole && !is_doubtful(path.text, doubtful))
       diagnostics.error(path.spot, "`" + path.text + "` does not say which quantity is meant",
-                     "for instance `" + path.text + ".force` of an element, `" + path.text + ".velocity` of a node");
+                     did_you_mean(path.text, expression_names(scene), "for instance `" + path.text + ".force` of an element, `" + path.text + ".velocity` of a node"));
     parts.push_back({path.text.substr(0, dot), whole ? "" : path.text.substr(dot + 1), whole && !expression ? nullptr : &path});
     objects.push_back(parts.back().object);
   }
@@ -245,7 +255,7 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
   return records;
 }
 
-void resolve_records(const TomlEntry* record, const Environment& environment, const std::set<std::string>& doubtful, Context& context,
+void resolve_records(const TomlEntry* record, const Environment& environment, std::set<std::string>& doubtful, Context& context,
                      Scene& scene) {
   if (!record) {
     scene.records = every_record(scene);

@@ -22,8 +22,8 @@ BlockUnit unit_of(const Number& number);
 std::vector<Record> every_record(const Scene& scene);
 
 /// Finds the records named by `simulate.record` (`k1.force`); takes all records if it is not given. Names that begin with
-/// one in `doubtful` (it has a mistake) are not reported as unknown.
-void resolve_records(const TomlEntry* record, const Environment& environment, const std::set<std::string>& doubtful, Context& context,
+/// one in `doubtful` (it has a mistake) are not reported as unknown. Expressions with a mistake are added to `doubtful`.
+void resolve_records(const TomlEntry* record, const Environment& environment, std::set<std::string>& doubtful, Context& context,
                      Scene& scene);
 
 /// Adds the records of the command line after those of the file.

@@ -87,7 +87,7 @@ class Finder {
       Blocks::Input input{true, motion.block, motion.sign};
       if (motion.block < 0) {
         input = {true, number(), 1};
-        added.push_back({.element = motion.element, .law = {}, .generates = true, .signal = motion.signal, .inputs = {}});
+        added.push_back(generator(motion.element, motion.signal));
       }
       const double velocity = network_.node(motion.node).velocity;
       motion.block = number();
@@ -96,6 +96,10 @@ class Finder {
                        .generates = false, .signal = {}, .inputs = {input}});
     }
     return added;
+  }
+
+  static Blocks::Block generator(int element, Signal signal) {
+    return {.element = element, .law = {}, .generates = true, .signal = std::move(signal), .inputs = {}};
   }
 
   void add_rate(int state) {
@@ -121,7 +125,7 @@ class Finder {
       const auto which = std::find(element.signal_parameters.begin(), element.signal_parameters.end(), varying.parameter);
       const Signal& signal = element.signals[static_cast<std::size_t>(which - element.signal_parameters.begin())];
       input.index = static_cast<int>(result_.blocks.size());
-      result_.blocks.push_back({.element = e, .law = {}, .generates = true, .signal = signal.seen_from(scene_.start), .inputs = {}});
+      result_.blocks.push_back(generator(e, signal.seen_from(scene_.start)));
     }
     varying.block = static_cast<int>(result_.blocks.size());
     const double least = slider.component->declaration.parameters[at(varying.parameter)].lower;

@@ -10,6 +10,7 @@
 #include "core/base/index.hpp"
 #include "core/network/error.hpp"
 #include "core/network/reductions.hpp"
+#include "core/result/pair_view.hpp"
 
 namespace rheonet {
 
@@ -32,24 +33,6 @@ Ends ends_of(const Scene& scene, const Record& record) {
   }
   return {scene.assemblies[at(record.index)].a, scene.assemblies[at(record.index)].b};
 }
-
-/// A spring and its slider in a state of their bundle; positive from the spring's end to the slider's.
-struct PairView {
-  PairView(const Network& network, int k, const Dae::View& view)
-      : pair(network.pairs[at(k)]),
-        bundle((*network.bundles)[at(pair.bundle)]),
-        branch(network.first_bundle + pair.bundle),
-        p(view.p[at(branch)]) {}
-  double force() const { return pair.sign * bundle.pair_force(pair.index, p); }
-  double stretch() const { return pair.sign * bundle.stretch(pair.index, p); }
-  double slide() const { return pair.sign * bundle.slide(pair.index, p); }
-  bool slips() const { return bundle.pair_yields(pair.index, p); }
-
-  const Pair& pair;
-  const Iwan& bundle;
-  int branch;
-  double p;
-};
 
 bool own_displacement(const Network& network, int element) {
   const Network::Place& place = network.places[at(element)];
@@ -96,10 +79,6 @@ bool is_power(const Record& record) {
 bool is_place(const Record& record) {
   return record.channel == Record::Channel::position || record.channel == Record::Channel::displacement;
 }
-
-}  // namespace
-
-namespace {
 
 /// The gauge of each record.
 std::vector<Gauge> gauges(const Network& network, const std::vector<const Record*>& records) {
@@ -216,41 +195,6 @@ bool OutputSampler::follow_acceleration(NodeId end) const {
   return any;
 }
 
-double OutputSampler::element_force(int element, const Dae::View& view) const {
-  const Network& network = network_;
-  const Network::Place& place = network.places[at(element)];
-  if (place.paired) {
-    const PairView pair(network, place.index, view);
-    return (element == pair.pair.spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.force();
-  }
-  switch (place.role) {
-    case Role::deflection: {
-      // Round-off of the displacement times a stiffness of 1e12 N/m can lift the force above its bound at the event.
-      std::size_t i = 0;
-      const double bound = network.batch_of(place.index, i).steady(i).bound;
-      return std::clamp(view.f[at(place.index)], -bound, bound);
-    }
-    case Role::rate:
-      return view.rate_force[at(place.index)];
-    case Role::slip:
-      return view.slider_force[at(place.index)];
-    case Role::mass: {
-      const Network::Mass& m = network.masses[at(place.index)];
-      return m.mass * view.acceleration[at(m.node)];
-    }
-    case Role::inerter:
-      return dae_->inerter_force(at(place.index));
-    case Role::motion:
-      return dae_->reaction(network.motions[at(place.index)].node);
-    case Role::force:
-      return dae_->applied_force(place.index);
-    case Role::block:
-    case Role::nothing:
-      break;
-  }
-  return 0;
-}
-
 double OutputSampler::position(NodeId end, const Dae::View& view) const {
   const int node = network_.node_of[at(end)];
   if (node >= 0) return view.position[at(node)];
@@ -277,42 +221,6 @@ double OutputSampler::acceleration(NodeId end, const Dae::View& view, const std:
   return view.acceleration[at(leader)];
 }
 
-/// Power that becomes heat.
-double OutputSampler::dissipated_power(int element, const Dae::View& view) const {
-  const Network::Place& place = network_.places[at(element)];
-  if (!place.paired && place.role == Role::deflection) {
-    std::size_t i = 0;
-    const DeflectionBatch& batch = network_.batch_of(place.index, i);
-    const std::size_t j = at(place.index);
-    return batch.dissipated_power(i, view.p[j], view.dp[j], view.flow[j]);
-  }
-  // The spring of a pair stores; rate laws and sliders store nothing.
-  const bool dissipates = place.paired ? element != network_.pairs[at(place.index)].spring
-                                       : place.role == Role::rate || place.role == Role::slip;
-  return dissipates ? element_force(element, view) * element_velocity(element, view) : 0;
-}
-
-double OutputSampler::stored_energy(int element, const Dae::View& view) const {
-  const Network::Place& place = network_.places[at(element)];
-  if (place.paired) {
-    const PairView pair(network_, place.index, view);
-    return element == pair.pair.spring ? pair.force() * pair.force() / (2 * pair.pair.law.stiffness) : 0;
-  }
-  if (place.role == Role::deflection) {
-    std::size_t i = 0;
-    const DeflectionBatch& batch = network_.batch_of(place.index, i);
-    return batch.stored_energy(i, view.p[at(place.index)]);
-  }
-  if (place.role == Role::inerter) {
-    const auto& [branch, inertance] = network_.inerters[at(place.index)];
-    const double w = view.velocity[at(branch.a)] - view.velocity[at(branch.b)];
-    return inertance * w * w / 2;
-  }
-  if (place.role != Role::mass) return 0;
-  const Network::Mass& m = network_.masses[at(place.index)];
-  return m.mass * view.velocity[at(m.node)] * view.velocity[at(m.node)] / 2;
-}
-
 double OutputSampler::displacement(std::size_t operand, const Dae::View& view) const {
   if (const auto [element, sign] = gauges_[operand]; element >= 0) {
     const Network::Place& place = network_.places[at(element)];
@@ -323,20 +231,6 @@ double OutputSampler::displacement(std::size_t operand, const Dae::View& view) c
   }
   const Ends ends = ends_of(scene_, *operands_[operand]);
   return position(ends.a, view) - position(ends.b, view);
-}
-
-double OutputSampler::element_velocity(int element, const Dae::View& view) const {
-  const Network::Place& place = network_.places[at(element)];
-  if (place.paired) {
-    const PairView pair(network_, place.index, view);
-    const bool spring = element == pair.pair.spring;
-    if (spring == pair.slips()) return 0;
-    return (spring ? pair.pair.spring_sign : pair.pair.slider_sign) * pair.pair.sign * view.flow[at(pair.branch)];
-  }
-  if (place.role == Role::deflection) return view.flow[at(place.index)];
-  if (place.role == Role::rate) return view.rate_velocity[at(place.index)];
-  if (place.role == Role::slip) return view.slider_velocity[at(place.index)];
-  return velocity(scene_.elements[at(element)].a, view) - velocity(scene_.elements[at(element)].b, view);
 }
 
 double OutputSampler::velocity(const Record& record, const Dae::View& view) const {

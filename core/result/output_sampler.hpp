@@ -31,6 +31,7 @@ class OutputSampler {
  private:
   const std::vector<double>& read_state(double t, const std::vector<double>& y, const std::vector<double>& yp, bool exact);
   double value(std::size_t operand, const Dae::View& view, const std::vector<double>& rates) const;
+  // element_values.cpp
   double element_force(int element, const Dae::View& view) const;
   double element_velocity(int element, const Dae::View& view) const;
   double dissipated_power(int element, const Dae::View& view) const;

@@ -140,7 +140,7 @@ TEST_CASE("brake: a ramped normal force stops a mass at sqrt(2 m v0/(mu r))") {
     check_events(with_events, {locks});
     // The sliding force itself as the signal.
     check_motion(braked("coulomb = " + ramp(mu * r), v0), exact, force, {locks});
-    // What the mass loses is heat.
+    // The kinetic energy becomes heat.
     check_account(braked(normal(ramp(r)), v0), {0, -m * v0 * v0 / 2, m * v0 * v0 / 2});
   }
 }
@@ -205,10 +205,10 @@ TEST_CASE("brake: a normal force below 0 counts as 0, and the mass coasts") {
   }
 }
 
-// A spring pulled at constant speed V against a brake without mass. The force is the largest one that never exceeds
-// the bound and never rises faster than k V (Skorokhod's problem):
-//     f(t) = min(k V t, min over s <= t of b(s) + k V (t - s)),
-// with the minimum at a corner of b, or at t.
+// A spring pulled at constant speed V against a brake without mass. The force never exceeds the bound b and never rises faster
+// than k V. It is the largest such force (Skorokhod's problem):
+//     f(t) = min(k V t, min over s <= t of b(s) + k V (t - s)).
+// The minimum is at a corner of b, or at t.
 TEST_CASE("brake: a spring in series with a brake, pulled at constant speed") {
   const double k = 143, V = 0.0931, rate = k * V;
   const std::vector<Points> normals = {
@@ -302,8 +302,8 @@ TEST_CASE("brake: a normal force that follows the speed is a dashpot") {
   }
 }
 
-// The spring presses the surfaces together in proportion to its force: the stiffness is k (1 +- mu) on the one side, where friction
-// adds to the spring on the way out and takes from it on the way back, and k on the other.
+// A stretched spring presses the surfaces together in proportion to its force. Friction adds to its force on the way out and takes
+// from it on the way back: the stiffness is k (1 + mu) and k (1 - mu). A compressed spring presses nothing: there it is k.
 TEST_CASE("brake: a normal force from the force of a spring") {
   const double k = 61.3, x0 = 0.173;
   const double back = std::sqrt(k * (1 - mu) / m), free = std::sqrt(k / m), out = std::sqrt(k * (1 + mu) / m);
@@ -360,7 +360,7 @@ TEST_CASE("clutch: two inertias come to a common speed") {
   const double sync = relative.stop_after(0), common = T / (J1 + J2);
   REQUIRE_LT(sync, 2.7);
   REQUIRE_LT(T * J2 / (J1 + J2), mu * r * sync);
-  // Both have the momentum of what they had and of T.
+  // Momentum: that of the start, and that of the torque T.
   CHECK(first.velocity(sync) == doctest::Approx((J1 * fast - J2 * 2.7 + T * sync) / (J1 + J2)).epsilon(1e-12));
   first.accelerate(sync, common);
   second.accelerate(sync, common);

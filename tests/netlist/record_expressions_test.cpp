@@ -106,6 +106,19 @@ TEST_CASE("record expressions: mistakes") {
   CHECK(contains_all(said("\"gap\""), {"`gap` does not say which quantity is meant"}));
 }
 
+TEST_CASE("record expressions: a mistake in one is told once, a misspelt name of one is recognised") {
+  const auto count = [](const std::string& text) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(": error:"); at != text.npos; at = text.find(": error:", at + 1)) ++found;
+    return found;
+  };
+  const std::string mistaken = "{ name = \"gap\", value = \"x.positon\" }";
+  CHECK(count(said(mistaken + ", \"gap\", { name = \"twice\", value = \"2*gap\" }")) == 1);
+  CHECK(count(messages(read(recording(mistaken) + "[expect]\ngap = { final = \"1 mm\" }\n[plot]\ny = [\"gap\"]\n"))) == 1);
+  CHECK(count(said("{ name = \"a\", value = \"2*b\" }, { name = \"b\", value = \"a\" }, \"b\"")) == 1);
+  CHECK(contains_all(messages(read(recording("{ name = \"clearance\", value = \"x.position\" }") + "[plot]\ny = [\"clearence\"]\n")), {"did you mean `clearance`?"}));
+}
+
 TEST_CASE("record expressions: claims and a second mention find them by their names") {
   const Scene scene = scene_of(recording("{ name = \"gap\", value = \"x.position - y.position\" }, \"k.energy\"") +
                                "[expect]\ngap = { final = \"1 mm\" }\n\"g.dissipated\" = { max = \"1 mW\" }\n");

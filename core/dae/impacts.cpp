@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/format_list.hpp"
+#include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
+#include "core/dae/event_transition.hpp"
+#include "core/network/overload_report.hpp"
+#include "core/network/rigid_links.hpp"
+
+namespace rheonet {
+
+double EventTransition::kinetic_energy(const State& state) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    if (structure_.kind[n] == Kind::massive) sum += structure_.mass[n] * state.velocity[n] * state.velocity[n] / 2;
+  }
+  for (const auto& [branch, inertance] : network_.inerters) {
+    const double w = state.velocity[at(branch.a)] - state.velocity[at(branch.b)];
+    sum += inertance * w * w / 2;
+  }
+  return sum;
+}
+
+/// Gives masses the momentum of dashpots at steps in position [N s], and passes on the jumps of prescribed velocities through
+/// inerters. Ends motions that a law forbids (a freewheel turned backwards by a step, or at the start): a plastic impact.
+/// Returns the energy that this turns into heat [J].
+double EventTransition::collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes) {
+  std::vector<double> jump(structure_.kind.size(), 0);  // of the velocity of each prescribed node
+  // At the start the state does not have these velocities yet: nothing jumps.
+  for (std::size_t n = 0; started_ && n < jump.size(); ++n) {
+    if (structure_.kind[n] == Kind::known) jump[n] = given_velocity(static_cast<NodeId>(n)) - state.velocity[n];
+  }
+  started_ = true;
+  const bool pushed = std::any_of(momentum.begin(), momentum.end(), [](double p) { return p != 0; });
+  const auto jolted = [&](const Network::Inerter& i) { return jump[at(i.branch.a)] != 0 || jump[at(i.branch.b)] != 0; };
+  if (!network_.inerters.empty() && (pushed || std::any_of(network_.inerters.begin(), network_.inerters.end(), jolted))) {
+    share_impulses(t, jump, momentum, state);
+  } else {
+    for (std::size_t n = 0; pushed && n < momentum.size(); ++n) {
+      if (momentum[n] != 0) state.velocity[n] += momentum[n] / structure_.mass[n];
+    }
+  }
+  const std::vector<int> backwards = moving_backwards(state);
+  if (backwards.empty()) return 0;
+  const double before = kinetic_energy(state);
+  const std::vector<double> none(structure_.kind.size(), 0);
+  share_impulses(t, none, none, state);
+  const double lost = std::max(0.0, before - kinetic_energy(state));
+  // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
+  const bool impact = lost > numerics::equal_energies * before;
+  if (!impact && t > 0) return lost;
+  std::vector<std::string> names;
+  for (const int k : backwards) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
+  notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
+                              names.size() > 1 ? "their" : "its",
+                              impact ? fmt::format(", which turns {:.6g} J into heat{}", lost, t > 0 ? "" : ", before the energy account begins") : ""));
+  return lost;
+}
+
+/// Changes the velocities of masses by impulses,
+///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
+/// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse.
+void EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const {
+  ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    const auto node = static_cast<NodeId>(n);
+    if (structure_.kind[n] == Kind::known) {
+      problem.start(slot(node), given_velocity(node) - jump[n]);
+      problem.fix(slot(node), jump[n]);
+      continue;
+    }
+    problem.start(slot(node), state.velocity[n]);
+    if (structure_.kind[n] != Kind::massive) continue;
+    problem.set_inertia(slot(node), structure_.mass[n]);
+    problem.load(slot(node), momentum[n]);
+  }
+  for (const auto& [branch, inertance] : network_.inerters) {
+    problem.add(slot(branch.a), slot(branch.b), {.backward = inertance, .forward = inertance, .of_change = true});
+  }
+  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Branch& b = network_.sliders[k].branch;
+    const ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
+    if (law.low < law.high) problem.add(slot(b.a), slot(b.b), law);
+  }
+  if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    if (structure_.kind[n] == Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
+  }
+}
+
+/// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
+std::vector<int> EventTransition::moving_backwards(const State& state) const {
+  std::vector<int> result;
+  const auto velocity = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known ? given_velocity(n) : state.velocity[at(n)]; };
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const auto& [element, a, b] = network_.sliders[k].branch;
+    const bool given = structure_.kind[at(a)] == Kind::known && structure_.kind[at(b)] == Kind::known;
+    if (given || massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) continue;
+    const double va = velocity(a), vb = velocity(b);
+    const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
+    if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
+  }
+  return result;
+}
+
+/// Masses that sliders bring to rest against each other go on with their common momentum: what remains of their relative
+/// velocity is the round-off of the event. Rigid links do so at once, and the energy that this takes is heat.
+double EventTransition::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
+                     std::vector<std::string>& notes) const {
+  refuse_torn_links(t);
+  std::vector<int> fired = events;
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    if (is_rigid_link(network_.sliders[k])) fired.push_back(static_cast<int>(k));
+  }
+  double heat = 0;
+  Modes held = modes;
+  for (int k : fired) held.slider[at(k)] = Modes::stuck;
+  std::vector<std::vector<NodeId>> around(structure_.kind.size());
+  for (std::size_t k = 0; k < held.slider.size(); ++k) {
+    if (held.slider[k] != Modes::stuck) continue;
+    const Branch& b = network_.sliders[k].branch;
+    around[at(b.a)].push_back(b.b);
+    around[at(b.b)].push_back(b.a);
+  }
+  std::vector<char> seen(structure_.kind.size(), 0);
+  for (int k : fired) {
+    std::vector<NodeId> cluster{network_.sliders[at(k)].branch.a};
+    if (seen[at(cluster[0])]) continue;
+    seen[at(cluster[0])] = 1;
+    double momentum = 0, mass = 0, known = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t c = 0; c < cluster.size(); ++c) {
+      const NodeId node = cluster[c];
+      if (structure_.kind[at(node)] == Kind::known) {
+        known = given_velocity(node);
+      }
+      momentum += structure_.mass[at(node)] * state.velocity[at(node)];
+      mass += structure_.mass[at(node)];
+      for (NodeId other : around[at(node)]) {
+        if (seen[at(other)]) continue;
+        seen[at(other)] = 1;
+        cluster.push_back(other);
+      }
+    }
+    if (std::isnan(known) && mass == 0) continue;
+    const double after = std::isnan(known) ? momentum / mass : known;
+    double lost = 0, had = 0;
+    for (NodeId node : cluster) {
+      const double before = state.velocity[at(node)], m = structure_.mass[at(node)];
+      if (std::isnan(known)) lost += m * (before - after) * (before + after) / 2;
+      had += m * before * before / 2;
+      state.velocity[at(node)] = after;
+    }
+    heat += lost;
+    if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > numerics::equal_energies * had) {
+      notes.push_back(fmt::format(
+          "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
+          "at once, before the energy account begins",
+          network_.name_of(link.branch), with_unit(*network_.scene, after, Quantity::velocity), lost));
+    }
+  }
+  return std::max(0.0, heat);
+}
+
+}  // namespace rheonet
