@@ -54,8 +54,8 @@ void Dae::number_unknowns() {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
       const double impulse = laws.batch->impulse(i);
-      const bool linear = impulse > 0 && std::isfinite(impulse);
-      rough_ = rough_ || !linear;
+      const bool linear = laws.batch->linear(i), power_law = laws.batch->growth(i).exponent != 1;
+      rough_ = rough_ || power_law;
       // If both ends are masses or motions, their velocities give the force. At a massless node the balance gives the force,
       // but cannot be solved for the velocity of a law of slope 0 or infinity at rest: its force is then an unknown. A law of
       // slope 0 needs that only if nothing else determines the velocities: its force is lost in the tolerance long before its
@@ -68,7 +68,7 @@ void Dae::number_unknowns() {
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > numerics::series_stiffness_ratio * softest[at(node)]; };
       const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
       const bool stiff_between = moving && least_mass > 0 && impulse * length > numerics::equalising_ratio * least_mass;
-      const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between : needed && at_massless;
+      const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between : power_law && needed && at_massless;
       by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }

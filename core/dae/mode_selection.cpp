@@ -258,7 +258,7 @@ ConvexNetwork::Law EventTransition::released(ConvexNetwork::Law law, double slop
 /// away, towards forces of about `scale` [N]. Slopes above `steepest` [N s/m] are treated as rigid, and replaced by it.
 ConvexNetwork::Law EventTransition::law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest) {
   const double impulse = batch.impulse(i);
-  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse, .of_change = true};
+  if (batch.linear(i)) return {.backward = impulse, .forward = impulse, .of_change = true};
   const Growth growth = batch.growth(i);
   const double rigid = growth.exponent < 1 ? std::pow(growth.coefficient / steepest, 1 / (1 - growth.exponent)) : 0;
   const auto force = [&batch, i, rigid, steepest](double w) {

@@ -7,7 +7,7 @@ namespace rheonet {
 
 ConvexNetwork::Law rate_law(const RateBatch& batch, std::size_t i, double scale) {
   const double impulse = batch.impulse(i);
-  if (impulse > 0 && std::isfinite(impulse)) return {.backward = impulse, .forward = impulse};
+  if (batch.linear(i)) return {.backward = impulse, .forward = impulse};
   const double secant = scale / batch.velocity_at(i, scale);
   return {.backward = secant, .forward = secant, .beyond = [&batch, i](double w, double& slope) {
             const double f = batch.force_at(i, w);

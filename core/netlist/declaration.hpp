@@ -21,6 +21,7 @@ struct Parameter {
     value,    ///< a number with a dimension
     signal,   ///< a function of time
     initial,  ///< an initial value (`f0`, `d0`): optional, absent means "not given"
+    characteristic,  ///< a function of the displacement or velocity of the element; its value is 1 if it is given
   };
 
   /// How the unit of a parameter is determined. The unit of a block's parameter may depend on what the block is connected
@@ -42,12 +43,15 @@ struct Parameter {
   double upper = std::numeric_limits<double>::infinity();  ///< inclusive if finite; values are finite ...
   bool may_be_infinite = false;                            ///< ... unless the law has a limit at infinity: then "inf" is accepted
   std::string flow_index = {};        ///< for damping: the parameter that holds n in N*(s/m)^n; "" means n = 1
+  Quantity over = Quantity::position;  ///< of a characteristic: what it is a function of
+  bool resists = false;               ///< of a characteristic: it has the sign of its argument, and is 0 at 0
   bool may_vary = false;              ///< a signal may be given in place of a value; below `lower` it counts as `lower`
   bool optional = false;              ///< may be absent, without a default
   std::string coefficient_with = {};  ///< where that parameter is given, this one is a number that multiplies it
   std::string not_with = {};          ///< a parameter that may not be given together with this one
   std::string same_as = {};           ///< the parameter whose value is used if none is given (`breakaway` = `coulomb`)
   bool opposite = false;              ///< the value of `same_as` is negated (`lower` = -`upper`)
+  std::string turned = {};            ///< the parameter whose negative takes its place where the element is turned round (`lower`: `upper`)
   bool from_block = false;            ///< of a signal: the output of a block may be given instead
   std::string rotational_name = {};   ///< name in a rotational scene, if different (`inertia` for `mass`)
   std::string symbol = {};            ///< as in the law

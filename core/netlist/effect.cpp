@@ -9,7 +9,8 @@ namespace {
 
 const std::vector<std::pair<Effect, std::string>> names{
     {Effect::inertia, "inertia"},           {Effect::elasticity, "elasticity"}, {Effect::viscosity, "viscosity"},
-    {Effect::dry_friction, "dry_friction"}, {Effect::delay, "delay"},           {Effect::feedback, "feedback"}};
+    {Effect::dry_friction, "dry_friction"}, {Effect::contact, "contact"},       {Effect::delay, "delay"},
+    {Effect::feedback, "feedback"}};
 
 }  // namespace
 

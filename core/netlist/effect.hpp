@@ -8,7 +8,7 @@ namespace rheonet {
 
 /// Physical effects that a scene may leave out. Each element declares which of its parameters bring which effect
 /// (declaration.hpp). Blocks bring feedback if they sense the network and act on it.
-enum class Effect { inertia, elasticity, viscosity, dry_friction, delay, feedback };
+enum class Effect { inertia, elasticity, viscosity, dry_friction, contact, delay, feedback };
 
 /// All effects, in the order in which messages list them.
 const std::vector<Effect>& effects();

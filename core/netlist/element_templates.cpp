@@ -263,6 +263,10 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
       continue;
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
+    if (parameter.kind == Parameter::Kind::characteristic) {
+      plan.characteristic.emplace(entry->value, reader.find("smooth"), parameter, context_);
+      continue;
+    }
     if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && entry->value.is_table())) {
       if (const TomlEntry* feed = find_feed(entry->value)) {
         if (auto connection = read_feed(*feed, entry->value, declaration, i, context_)) plan.feeds.push_back(std::move(*connection));

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/netlist/characteristic_template.hpp"
 #include "core/netlist/context.hpp"
 #include "core/netlist/parameters.hpp"
 #include "core/netlist/signals.hpp"
@@ -51,6 +52,7 @@ struct ElementTemplate {
   std::vector<SignalTemplate> signals;  ///< of an element, one for each of signal_parameters
   std::vector<int> signal_parameters;
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
+  std::optional<CharacteristicTemplate> characteristic;  ///< of an element
   std::vector<SignalConnection> inputs;  ///< of a block
   std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
 

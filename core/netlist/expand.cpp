@@ -141,6 +141,12 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
 bool Expander::element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
+  if (parameter.kind == Parameter::Kind::characteristic) {
+    if (!plan.characteristic) return true;
+    values_[i] = 1;
+    element.given.set(i);
+    return true;
+  }
   if (!formula.given()) {
     if (parameter.fallback && parameter.kind == Parameter::Kind::value && !plan.varies(i)) values_[i] = *parameter.fallback;
     return true;
@@ -195,7 +201,8 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     }
   }
   element.values = shared_values(plan.declaration);
-  return element_signals(plan, environment, element) && good;
+  if (plan.characteristic) element.characteristic = plan.characteristic->evaluate(environment, context_);
+  return element_signals(plan, environment, element) && good && (!plan.characteristic || element.characteristic);
 }
 
 /// The values of the element being made; shared with the last element of its type if they are equal.

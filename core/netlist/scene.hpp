@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/netlist/characteristic.hpp"
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/dimension.hpp"
@@ -49,6 +51,7 @@ struct SceneElement {
   std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
   Shared<Signal> signals;       ///< signals of the parameters in signal_parameters, in order of declaration
   Shared<int> signal_parameters;  ///< indices into Declaration::parameters
+  std::shared_ptr<const Characteristic> characteristic;  ///< of its parameter of that kind; nullptr if not given
   Spot spot;           ///< of its name
 };
 

@@ -76,7 +76,9 @@ Json parameter_schema(const Parameter& parameter) {
     description += fmt::format("; if absent, {} `{}`", parameter.opposite ? "minus" : "as", parameter.same_as);
   if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
-  Json schema = described(reference(parameter.takes_signal() ? "signal" : "value"), description);
+  const bool characteristic = parameter.kind == Parameter::Kind::characteristic;
+  Json schema = described(reference(characteristic ? "characteristic" : parameter.takes_signal() ? "signal" : "value"), description);
+  if (characteristic) return schema;
   if (parameter.fallback && std::isfinite(*parameter.fallback)) schema["default"] = *parameter.fallback;
   // The bounds apply to numbers only; the value of a text is known only when the netlist is read.
   if (parameter.kind == Parameter::Kind::signal) return schema;
@@ -122,6 +124,8 @@ Json element_schema(const Declaration& declaration) {
   for (const Parameter& parameter : declaration.parameters) {
     const auto names = names_of(parameter);
     for (const std::string& name : names) properties[name] = parameter_schema(parameter);
+    if (parameter.kind == Parameter::Kind::characteristic)
+      properties["smooth"] = {{"type", "boolean"}, {"description", fmt::format("a monotone cubic spline through the points of `{}`", parameter.name)}};
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
     if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
@@ -172,6 +176,10 @@ Json body_schema(Declarations declarations) {
   return schema;
 }
 
+Json points_schema() {
+  return list_of({{"type", "array"}, {"prefixItems", {reference("value"), reference("value")}}, {"items", false}, {"minItems", 2}}, 1);
+}
+
 Json signal_schema() {
   Json properties{
       {"step", described(reference("value"), "height of a step at `time`")},
@@ -189,10 +197,7 @@ Json signal_schema() {
   std::vector<std::string> shapes;
   for (const auto& [shape, schema] : properties.items()) shapes.push_back(shape);
   shapes.emplace_back("table");
-  Json points = list_of(
-      {{"type", "array"}, {"prefixItems", {reference("value"), reference("value")}}, {"items", false}, {"minItems", 2}},
-      1);
-  properties["table"] = {{"anyOf", {std::move(points), text("name of a CSV file")}},
+  properties["table"] = {{"anyOf", {points_schema(), text("name of a CSV file")}},
                          {"description", "[time, value] points: linear between them, held after the last"}};
   properties["columns"] = list_of(text("of the times and of the values, as the first row of the CSV file of a `table` names them"), 2);
   properties["smooth"] = {{"type", "boolean"}, {"description", "a `table` runs along monotone cubics between its points"}};
@@ -216,6 +221,15 @@ Json signal_schema() {
   block["required"] = {"block"};
   return described({{"anyOf", {reference("value"), std::move(table), std::move(block)}}},
                    "a function of time: a constant, or a shape; or what a block puts out");
+}
+
+Json characteristic_schema() {
+  Json table = object({{"table", {{"anyOf", {points_schema(), text("name of a CSV file")}}}},
+                       {"columns", list_of(text("the two columns of the CSV file, as its first row names them"), 2)},
+                       {"smooth", {{"type", "boolean"}}}});
+  table["required"] = {"table"};
+  return described({{"anyOf", {points_schema(), text("name of a CSV file"), std::move(table)}}},
+                   "points [displacement or velocity, force]; straight between them and beyond");
 }
 
 Json repeat_schema() {
@@ -338,6 +352,7 @@ std::string json_schema(Declarations declarations) {
   Json definitions;
   definitions["value"] = value();
   definitions["signal"] = signal_schema();
+  definitions["characteristic"] = characteristic_schema();
   definitions["at"] = text("the node");
   definitions["between"] = described(list_of(text("a node; `ground` never moves"), 2),
                                      "its nodes: displacement, velocity and force count from the first to the second");

@@ -110,28 +110,12 @@ void SignalTemplate::read_table_signal(const TomlValue& source, Context& context
 
   if (shape_ == Shape::table) {
     read_points(main->value, context);
-    if (columns) read_columns(*columns, context.diagnostics);
+    if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), "\"time\", \"force\"", context.diagnostics);
     smooth_ = smooth && expect_boolean(smooth->value, "`smooth`", context.diagnostics, "smooth = true") && smooth->value.boolean;
   } else {
     main_ = Formula(main->value, "`" + main->key + "`", context.diagnostics);
     constant_ = constant_ && main_.identifiers().empty();
   }
-}
-
-void SignalTemplate::read_columns(const TomlEntry& columns, DiagnosticList& diagnostics) {
-  const std::string example = "columns = [\"time\", \"force\"]";
-  if (!file_name_) {
-    diagnostics.error(columns.spot, "`columns` names columns of a CSV file, but `table` names none", "table = \"measured.csv\", " + example);
-    return;
-  }
-  if (!expect_array(columns.value, "`columns`", diagnostics, example)) return;
-  if (columns.value.items.size() != 2) {
-    diagnostics.error(columns.value.spot, "`columns` names two columns, of the times and of the values", example);
-    return;
-  }
-  for (const TomlValue& name : columns.value.items)
-    if (!expect_string(name, "a column", diagnostics, example)) return;
-  columns_ = columns.value.items;
 }
 
 void SignalTemplate::read_points(const TomlValue& source, Context& context) {
@@ -244,7 +228,7 @@ bool SignalTemplate::is_unknown_name(const Environment& environment, Context& co
 
 const TableFile* SignalTemplate::table_file(Context& context) const {
   if (!file_) {
-    auto table = read_table_file(*file_name_, columns_, context);
+    auto table = read_table_file(*file_name_, columns_, {}, context);
     file_ = table ? std::make_shared<const TableFile>(std::move(*table)) : nullptr;
   }
   return file_->get();

@@ -43,7 +43,6 @@ class SignalTemplate {
   const TomlEntry* find_shape(const TomlValue& source, DiagnosticList& diagnostics) const;
   void read_table_signal(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
-  void read_columns(const TomlEntry& columns, DiagnosticList& diagnostics);
   /// `formula` times the amplitude, in SI; for a ramp its unit is that of the quantity per second.
   std::optional<double> scaled(const Formula& formula, const Environment& environment, Context& context) const;
   /// A remedy if both `formula` and the amplitude have a unit, else `hint`.

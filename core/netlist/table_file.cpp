@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/netlist/csv_fields.hpp"
+#include "core/netlist/table_reader.hpp"
 #include "core/netlist/units.hpp"
 
 namespace rheonet {
@@ -16,7 +17,8 @@ namespace {
 /// Reads the rows of a file, and reports the first mistakes in them.
 class TableFileReader {
  public:
-  TableFileReader(int file, const std::vector<TomlValue>& columns, Context& context) : file_(file), named_(columns), context_(context) {}
+  TableFileReader(int file, const std::vector<TomlValue>& columns, const TableAbscissa& abscissa, Context& context)
+      : file_(file), named_(columns), abscissa_(abscissa), context_(context) {}
 
   /// The table; absent if there are mistakes.
   std::optional<TableFile> read() {
@@ -51,7 +53,7 @@ class TableFileReader {
 
   void row(const std::vector<CsvField>& fields, bool may_be_header) {
     if (fields.size() != width_) {
-      refuse(1, named_.empty() ? fmt::format("a table of a signal has two columns, time and value; this row has {}", fields.size())
+      refuse(1, named_.empty() ? fmt::format("a table has two columns, {} and value; this row has {}", abscissa_.name, fields.size())
                                : fmt::format("the header has {} columns, this row has {}", width_, fields.size()),
              may_be_header ? how_to_choose(fields) : "");
       return;
@@ -71,10 +73,10 @@ class TableFileReader {
     }
     if (!good) return;
     auto& points = table_.points;
-    if (!points.empty() && multiplied(*time, second_) < points.back().first)
-      refuse(time_field.column, "the times of a table must not decrease");
+    if (!points.empty() && multiplied(*time, unit_) < points.back().first)
+      refuse(time_field.column, fmt::format("the {}s of a table must not decrease", abscissa_.name));
     else
-      points.emplace_back(multiplied(*time, second_), *value);
+      points.emplace_back(multiplied(*time, unit_), *value);
   }
 
   /// The hint for a first row with more than two fields.
@@ -107,11 +109,11 @@ class TableFileReader {
     const auto time_unit = unit_of_column(time);
     const auto value_unit = unit_of_column(value);
     if (!time_unit || !value_unit) return;
-    const auto seconds = as_quantity(*time_unit, Quantity::time, context_.domain);
-    if (const auto* wrong = std::get_if<TextError>(&seconds))
-      refuse(time.column, "the unit of the times: " + wrong->message);
+    const auto factor = as_quantity(*time_unit, abscissa_.quantity, context_.domain);
+    if (const auto* wrong = std::get_if<TextError>(&factor))
+      refuse(time.column, fmt::format("the unit of the {}s: {}", abscissa_.name, wrong->message));
     else
-      second_ = std::get<double>(seconds);
+      unit_ = std::get<double>(factor);
     table_.unit = *value_unit;
   }
 
@@ -135,11 +137,12 @@ class TableFileReader {
   }
 
   int file_;
-  const std::vector<TomlValue>& named_;  ///< the columns named by the signal; empty if it names none
+  const std::vector<TomlValue>& named_;  ///< the columns that are named; empty if none are
+  const TableAbscissa& abscissa_;
   Context& context_;
   std::size_t width_ = 2, time_column_ = 0, value_column_ = 1;
   TableFile table_{{}, {.value = 1, .dimension = {}}};
-  double second_ = 1;  ///< unit of the times [s]
+  double unit_ = 1;  ///< of the first column
   int line_ = 0;
   int diagnostics_ = 0;
   int first_untold_ = 0;  ///< line of the first mistake that is not listed
@@ -147,17 +150,34 @@ class TableFileReader {
 
 }  // namespace
 
-std::optional<TableFile> read_table_file(const TomlValue& name, const std::vector<TomlValue>& columns, Context& context) {
+std::optional<TableFile> read_table_file(const TomlValue& name, const std::vector<TomlValue>& columns, const TableAbscissa& abscissa,
+                                         Context& context) {
   const auto found = context.files.find(name, name.spot.file, context.diagnostics);
   if (!found) return {};
   const auto file = context.files.read(*found, Sources::Role::table, name.spot, context.diagnostics);
   if (!file) return {};
-  auto table = TableFileReader(*file, columns, context).read();
+  auto table = TableFileReader(*file, columns, abscissa, context).read();
   if (table && table->points.empty()) {
     context.diagnostics.error(name.spot, "the table `" + name.text + "` has no rows");
     return {};
   }
   return table;
+}
+
+std::vector<TomlValue> read_column_names(const TomlEntry& columns, bool from_file, const std::string& example, DiagnosticList& diagnostics) {
+  const std::string shown = "columns = [" + example + "]";
+  if (!from_file) {
+    diagnostics.error(columns.spot, "`columns` names columns of a CSV file, but `table` names none", "table = \"measured.csv\", " + shown);
+    return {};
+  }
+  if (!expect_array(columns.value, "`columns`", diagnostics, shown)) return {};
+  if (columns.value.items.size() != 2) {
+    diagnostics.error(columns.value.spot, "`columns` names two columns: that of the first value of each point, and that of the second", shown);
+    return {};
+  }
+  for (const TomlValue& name : columns.value.items)
+    if (!expect_string(name, "a column", diagnostics, shown)) return {};
+  return columns.value.items;
 }
 
 }  // namespace rheonet

@@ -25,6 +25,7 @@ Registry& registry() {
 RegisterComponent::RegisterComponent(Component component) {
   Registry& r = registry();
   r.owned.push_back(std::make_unique<Component>(std::move(component)));
+  if (r.owned.back()->hidden) return;
   r.sorted.push_back(r.owned.back().get());
   std::sort(r.sorted.begin(), r.sorted.end(), [](const Component* a, const Component* b) {
     return a->declaration.type < b->declaration.type;
@@ -44,8 +45,8 @@ const std::vector<const Component*>& components() { return registry().sorted; }
 Declarations declarations() { return registry().declarations; }
 
 const Component* find_component(const std::string& type) {
-  for (const Component* c : components()) {
-    if (c->declaration.type == type) return c;
+  for (const auto& c : registry().owned) {
+    if (c->declaration.type == type) return c.get();
   }
   return nullptr;
 }

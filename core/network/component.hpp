@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/netlist/characteristic.hpp"
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/signal.hpp"
 #include "core/network/dual.hpp"
@@ -42,6 +43,10 @@ class DeflectionBatch {
   virtual void evaluate(const double* p, double* f, double* c) const = 0;
   /// The same, with the derivatives with respect to p.
   virtual void linearise(const double* p, double* f, double* df, double* c, double* dc) const = 0;
+
+  /// Of a law with contacts: the side of element i that is in contact, -1, 1, or 0 for none. Absent for other laws. A mass may
+  /// touch a side and leave it within one step.
+  virtual std::optional<int> contact(std::size_t) const { return {}; }
 
   /// False if c is identically 0 for element i. Its deflection is then the relative displacement of its ends plus a
   /// constant, and a function of time alone if both ends are prescribed.
@@ -131,6 +136,8 @@ class RateBatch {
   /// Makes element i linear up to the velocity `w` if its slope would otherwise be infinite or 0 at rest: the integrator
   /// could not follow a mass that such an element brings to rest.
   virtual void regularise(std::size_t i, double w) = 0;
+  /// f = B w at all velocities.
+  virtual bool linear(std::size_t i) const = 0;
   /// Growth of the force of element i at large velocities.
   virtual Growth growth(std::size_t i) const = 0;
   /// Impulse per unit of a displacement step of an end [N s/m]: the damping of a linear dashpot; infinite for faster growth,
@@ -220,13 +227,21 @@ struct Symbol {
   bool empty() const { return outline.empty() && lines.empty() && thin.empty() && solid.empty(); }
 };
 
-using Values = std::vector<std::span<const double>>;  ///< for each element of a batch, its declared parameters
+/// What a law is made from: the values of its declared parameters, and its characteristic if it has one.
+struct LawValues : std::span<const double> {
+  const Characteristic* characteristic;
+
+  LawValues(std::span<const double> values, const Characteristic* of = nullptr) : std::span<const double>(values), characteristic(of) {}
+};
+using Values = std::vector<LawValues>;  ///< of each element of a batch
 
 /// Everything that the simulator knows about an element type. Each file in components/ defines and registers one.
 struct Component {
   Declaration declaration = {};
   Role role = Role::deflection;
+  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic
   std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
+  std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
@@ -245,11 +260,11 @@ struct Component {
 /// The box of a component whose parameters are constant; those that are left out at the end are not given.
 Box constant_box(const Component& component, std::span<const double> values);
 
-/// The components in alphabetical order of their types.
+/// The components that a netlist can name, in alphabetical order of their types.
 const std::vector<const Component*>& components();
 /// Their declarations, in the same order (an element's `declaration` is an index into both).
 Declarations declarations();
-/// nullptr if there is none.
+/// Any component; nullptr if there is none.
 const Component* find_component(const std::string& type);
 
 /// Registers a component. Define one at namespace scope in each file of components/.

@@ -122,8 +122,7 @@ class FreeEndSearch {
   /// A spring is stressed at the start if its ends are not at its rest length; a step at the start may stress it too.
   bool stressed(std::size_t e) const {
     if (laws_[e].component->role != Role::deflection) return false;
-    const Values one{laws_[e].values};
-    const auto batch = laws_[e].component->deflection(one);
+    const auto batch = laws_[e].component->deflection(laws_[e].batch());
     const double p = batch->start(0, 0);
     double force = 0, creep = 0;
     batch->evaluate(&p, &force, &creep);

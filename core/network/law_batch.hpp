@@ -25,7 +25,7 @@ namespace rheonet {
 /// Optional members: `force_reached(p)`, the force within its bounds, if `force` continues beyond a bound until the event
 /// there; `follow(p, step)` for a memory that also changes between reversals, as the deflection goes from p to p + step;
 /// `steady` and `settle` for a law that creeps; `delay()` [s] for a response to past velocities; `recentre(p)` for a
-/// deflection that may count from a reversal. See DeflectionBatch.
+/// deflection that may count from a reversal; `contact()` for a law with contacts. See DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
   int event_count() const { return 0; }
@@ -57,7 +57,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
  public:
   explicit DeflectionBatchOf(const Values& values) {
     laws_.reserve(values.size());
-    for (std::span<const double> v : values) laws_.emplace_back(v);
+    for (const LawValues& v : values) laws_.emplace_back(v);
   }
 
   std::size_t size() const override { return laws_.size(); }
@@ -116,6 +116,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
   void hold_rates(std::size_t i, const Dual& p, Dual& forward, Dual& backward) const override {
     laws_[i].hold_rates(p, forward, backward);
   }
+  std::optional<int> contact(std::size_t i) const override {
+    if constexpr (requires { laws_[i].contact(); }) return laws_[i].contact();
+    return {};
+  }
   double slope(std::size_t i, double p, int direction) const override {
     if constexpr (requires { laws_[i].slope_along(p, direction); }) return laws_[i].slope_along(p, direction);
     return laws_[i].force(Dual(p, 1)).derivative;
@@ -161,6 +165,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
 ///     struct Law {
 ///       explicit Law(std::span<const double> values);
 ///       bool by_force() const;
+///       bool linear() const;                                // optional: unless its growth says so
 ///       Growth growth() const;
 ///       void regularise(double w);                          // see RateBatch::regularise
 ///       template <class T> T force(const T& w) const;   // f = force(w)
@@ -171,7 +176,7 @@ class RateBatchOf final : public RateBatch {
  public:
   explicit RateBatchOf(const Values& values) {
     laws_.reserve(values.size());
-    for (std::span<const double> v : values) {
+    for (const LawValues& v : values) {
       laws_.emplace_back(v);
       by_force_.push_back(laws_.back().by_force());
     }
@@ -181,6 +186,10 @@ class RateBatchOf final : public RateBatch {
   bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
   void set_by_force(std::size_t i, bool by_force) override { by_force_[i] = by_force; }
   void regularise(std::size_t i, double w) override { laws_[i].regularise(w); }
+  bool linear(std::size_t i) const override {
+    if constexpr (requires { laws_[i].linear(); }) return laws_[i].linear();
+    return laws_[i].growth().exponent == 1;
+  }
   Growth growth(std::size_t i) const override { return laws_[i].growth(); }
 
   void evaluate(const double* in, double* out) const override {

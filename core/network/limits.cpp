@@ -14,9 +14,9 @@ Reduced take_limits(const Component* component, std::vector<double> values, std:
   while (true) {
     const auto limit = std::find_if(component->limits.begin(), component->limits.end(),
                                     [&](const Limit& l) { return l.applies(values); });
-    if (limit == component->limits.end()) return {component, std::move(values)};
+    if (limit == component->limits.end()) return {component, std::move(values), nullptr};
     if (taken) taken->push_back(&*limit);
-    if (limit->becomes.empty()) return {nullptr, {}};
+    if (limit->becomes.empty()) return {nullptr, {}, nullptr};
     values = limit->values(values);
     component = find_component(limit->becomes);
     values.resize(component->declaration.parameters.size(), not_given);
@@ -48,7 +48,7 @@ std::vector<std::size_t> without_meaning(const Component& component, const std::
   const std::vector<Parameter>& parameters = component.declaration.parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const Parameter& p = parameters[k];
-    if (p.kind == Parameter::Kind::signal || (p.kind == Parameter::Kind::initial && p.quantity == Quantity::position)) continue;
+    if (p.kind == Parameter::Kind::signal || p.kind == Parameter::Kind::characteristic || (p.kind == Parameter::Kind::initial && p.quantity == Quantity::position)) continue;
     const auto as_before = [&](double value) {
       std::vector<double> other = values;
       other[k] = value;

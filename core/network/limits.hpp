@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@ namespace rheonet {
 struct Reduced {
   const Component* component;  ///< nullptr: no force at all
   std::vector<double> values;
+  std::shared_ptr<const Characteristic> characteristic = nullptr;
+
+  /// For a batch of this element alone. This must outlive it.
+  Values batch() const { return {{values, characteristic.get()}}; }
 };
 
 /// Applies the limits of a component with these values one after the other, and appends them to `taken`.

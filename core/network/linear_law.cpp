@@ -9,7 +9,12 @@
 namespace rheonet {
 
 Reduced law_of(const Scene& scene, const SceneElement& element) {
-  return take_limits(components()[at(element.declaration)], resolved_values(scene, element));
+  Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene, element));
+  if (law.component && element.characteristic && !law.component->with_characteristic.empty()) {
+    law.component = find_component(law.component->with_characteristic);
+    law.characteristic = element.characteristic;
+  }
+  return law;
 }
 
 bool starts_by_itself(const SceneElement& element) {
@@ -28,9 +33,9 @@ std::optional<LinearLaw> linear_law(const Reduced& law) {
     return LinearLaw{true, spring.stiffness, spring.rest};
   }
   if (law.component->role != Role::rate) return {};
-  const Growth growth = law.component->rate(Values{law.values})->growth(0);
-  if (growth.exponent != 1) return {};
-  return LinearLaw{false, growth.coefficient};
+  const std::unique_ptr<RateBatch> batch = law.component->rate(law.batch());
+  if (!batch->linear(0)) return {};
+  return LinearLaw{false, batch->growth(0).coefficient};
 }
 
 }  // namespace rheonet

@@ -22,7 +22,7 @@ std::string describe(const std::string& what, const std::string& element, const 
 }
 
 /// Branches of one role, sorted by component.
-using ByComponent = std::map<std::string, std::vector<std::pair<Branch, std::vector<double>>>>;
+using ByComponent = std::map<std::string, std::vector<std::pair<Branch, Reduced>>>;
 
 template <class Batch, class Make>
 void batch_up(ByComponent& sorted, Role role, std::vector<Branch>& branches, std::vector<Laws<Batch>>& laws,
@@ -31,10 +31,10 @@ void batch_up(ByComponent& sorted, Role role, std::vector<Branch>& branches, std
     const Component* component = find_component(type);
     Values values;
     const int first = static_cast<int>(branches.size());
-    for (auto& [branch, v] : list) {
+    for (auto& [branch, law] : list) {
       places[static_cast<std::size_t>(branch.element)] = {role, static_cast<int>(branches.size())};
       branches.push_back(branch);
-      values.emplace_back(v);
+      values.emplace_back(law.values, law.characteristic.get());
     }
     laws.push_back({component, first, make(*component, values)});
   }
@@ -168,10 +168,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       }
       break;
     case Role::deflection:
-      gathered.deflections[law.component->declaration.type].push_back({ends, std::move(law.values)});
+      gathered.deflections[law.component->declaration.type].push_back({ends, std::move(law)});
       break;
     case Role::rate:
-      gathered.rates[law.component->declaration.type].push_back({ends, std::move(law.values)});
+      gathered.rates[law.component->declaration.type].push_back({ends, std::move(law)});
       break;
     case Role::slip:
       place_in(network.sliders);

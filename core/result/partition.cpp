@@ -204,7 +204,7 @@ class Divider {
       if (parameters[k].quantity == Quantity::mass) nature.mass = nature.mass > 0 ? std::min(nature.mass, law.values[k]) : law.values[k];
     }
     for (const Signal& signal : element.signals) nature.drive = std::max(nature.drive, fastest(signal));
-    const Values one{law.values};
+    const Values one = law.batch();
     switch (law.component->role) {
       case Role::slip:
         nature.switches = nature.may_fail = true;
@@ -218,7 +218,7 @@ class Divider {
         break;
       }
       case Role::rate:
-        nature.may_fail = nature.may_fail || law.component->rate(one)->growth(0).exponent != 1;
+        nature.may_fail = nature.may_fail || !law.component->rate(one)->linear(0);
         break;
       case Role::block:
         nature.may_fail = true;

@@ -26,6 +26,7 @@ class EventSearch {
         std::string kinds = "reversal";
         if (laws.batch->can_hold(i)) kinds += ", stop, start";
         if (laws.batch->events(i) > 1) kinds += ", yield, release";
+        if (laws.batch->contact(i)) kinds = "contact, release";
         add(kinds, network_.deflections[at(laws.first) + i].element);
       }
     }

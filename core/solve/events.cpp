@@ -236,15 +236,18 @@ double NetworkEvents::held_function(const Held& held, const Dae::View& view) con
   return g[at(held.which)] + law_margin_[held.event];
 }
 
-/// Collects the events of the laws that are held at rest.
+/// Collects the events of the laws that are held at rest, and of those that may just be touched.
 void NetworkEvents::find_held() {
   held_.clear();
+  any_held_ = false;
   std::size_t event = 0;
   for (std::size_t w = 0; w < watched_.size(); ++w) {
     const int events = watched_[w].batch->events(watched_[w].i);
     const bool held = events <= static_cast<int>(numerics::held_law_events) && watched_[w].batch->holds(watched_[w].i);
+    const bool looked_at = held || watched_[w].batch->contact(watched_[w].i) == 0;
+    any_held_ = any_held_ || held;
     for (int k = 0; k < events; ++k, ++event) {
-      if (held) held_.push_back({w, k, event});
+      if (looked_at) held_.push_back({w, k, event});
     }
   }
 }
@@ -266,7 +269,7 @@ void NetworkEvents::look_at_step(const Integrator& integrator, double a, double 
 }
 
 const Dae::View& NetworkEvents::seen_between(double t, const double* y, const double* yp) {
-  return held_.empty() ? dae_.view(t, y, yp) : resolved(t, y, yp);
+  return any_held_ ? resolved(t, y, yp) : dae_.view(t, y, yp);
 }
 
 double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
@@ -332,7 +335,7 @@ const Dae::View& NetworkEvents::resolved(double t, const double* y, const double
   // give y'. No polynomial follows a velocity that grows like a power of time. A law held at rest may be so near its guard
   // that a change of rates within one step matters, and a polynomial of order 1, as after a restart, has constant rates.
   const bool between_steps = dae_.rough() || dae_.follows_time();
-  if (!rates_needed_ && held_.empty() && !(between_steps && !events_.empty())) return dae_.view(t, y, yp);
+  if (!rates_needed_ && !any_held_ && !(between_steps && !events_.empty())) return dae_.view(t, y, yp);
   try {
     return resolved(t, y, between_steps);
   } catch (const SimulationError&) {  // the step itself reports the error

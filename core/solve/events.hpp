@@ -70,7 +70,8 @@ class NetworkEvents final : public EventFunctions {
   double at_time(const Integrator& integrator, double t, std::size_t k);
   /// View for the search of missed events within a step.
   const Dae::View& seen_between(double t, const double* y, const double* yp);
-  /// An event of a law that is held at rest: index of the watched law, its event, and the number among all events.
+  /// An event of a law that is held at rest, or not in contact (DeflectionBatch::contact): index of the watched law, its
+  /// event, and the number among all events.
   struct Held { std::size_t law; int which; std::size_t event; };
   void find_held();
   double held_function(const Held& held, const Dae::View& view) const;
@@ -99,6 +100,7 @@ class NetworkEvents final : public EventFunctions {
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
   std::vector<Held> held_;
+  bool any_held_ = false;  ///< at rest
   std::vector<Slipping> slipping_;
   std::vector<double> step_y_, step_yp_;
   std::vector<double> left_, middle_, right_;  ///< guards of sliders, limits and laws held at rest over a step

@@ -111,6 +111,9 @@ const std::vector<Event>& ModeChangeLog::follow(double t, const Modes& modes, co
     } else if (now.bound != law.last.bound) {
       events_.push_back({t, law.element, now.bound ? "yield" : "release", now.direction});
     }
+    if (now.contact != law.last.contact) {
+      events_.push_back({t, law.element, now.contact == 0 ? "release" : "contact", now.contact == 0 ? -law.last.contact : now.contact});
+    }
     law.last = now;
   }
   for (std::size_t k = 0; k < modes.slider.size(); ++k) {

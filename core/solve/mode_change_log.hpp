@@ -26,6 +26,7 @@ struct Event {
 ///   slider             "slip", "stick"; "breakaway": it begins to slip at more than its sliding force
 ///   law with a memory  "start", "stop": between rest and motion; "yield", "release": it reaches its bound, leaves it
 ///   both               "reversal"
+///   law with contacts  "contact", "release"
 ///   limiter            "limit", "release"
 ///
 /// A slider in a pair (core/network/pairs.hpp) is reported like any other, although its bundle causes no event of the
@@ -43,13 +44,13 @@ class ModeChangeLog {
                                         bool timed);
 
  private:
-  struct Condition { int direction; bool bound; };
+  struct Condition { int direction; bool bound; int contact; };
   struct Law {
     const DeflectionBatch* batch;
     std::size_t i;
     int element;
     Condition last;
-    Condition now() const { return {batch->direction(i), batch->constant(i)}; }
+    Condition now() const { return {batch->direction(i), batch->constant(i), batch->contact(i).value_or(0)}; }
   };
   /// The pairs of a bundle as last reported.
   struct Bundle {

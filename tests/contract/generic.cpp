@@ -39,7 +39,9 @@ Signal continuous_table(double scale, double until, bool jumps, Random& random) 
 
 }  // namespace
 
-std::vector<double> draw_values(const Component& component, Domain domain, Choice choice, Random& random) {
+namespace {
+
+std::vector<double> draw_once(const Component& component, Domain domain, Choice choice, Random& random) {
   const Declaration& d = component.declaration;
   std::vector<double> values(d.parameters.size(), not_given);
   const auto draw = [&](std::size_t k) {
@@ -70,6 +72,18 @@ std::vector<double> draw_values(const Component& component, Domain domain, Choic
              d.parameters.begin();
     };
     values[static_cast<std::size_t>(index(p.name))] = values[static_cast<std::size_t>(index(p.same_as))];
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> draw_values(const Component& component, Domain domain, Choice choice, Random& random) {
+  const Declaration& d = component.declaration;
+  std::vector<double> values = draw_once(component, domain, choice, random);
+  for (int drawn = 0; d.check && d.check(values); ++drawn) {
+    REQUIRE_MESSAGE(drawn < 60, d.type << " accepts no values");
+    values = draw_once(component, domain, choice == Choice::fallbacks ? Choice::random : choice, random);
   }
   if (choice == Choice::fallbacks) return values;
 

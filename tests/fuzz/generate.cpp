@@ -64,6 +64,12 @@ TomlValue parameter_value(const Parameter& parameter, const std::vector<std::str
       return table_value({{"block", string_value(blocks[static_cast<std::size_t>(random.below(static_cast<int>(blocks.size())))])}});
     return signal(random);
   }
+  if (parameter.kind == Parameter::Kind::characteristic) {
+    std::vector<TomlValue> points;
+    double x = random.sign() * value(random);
+    for (int k = random.below(6); k >= 0; --k, x += value(random)) points.push_back(array_value({number_value(x), number_value(random.sign() * value(random))}));
+    return random.below(3) == 0 ? table_value({{"table", array_value(std::move(points))}}) : array_value(std::move(points));
+  }
   if (parameter.may_be_infinite && random.below(10) == 0) return string_value("inf");
   if (parameter.quantity == Quantity::number && random.below(2) == 0) return number_value(random.below(4));
   return number_value(value(random));

@@ -65,6 +65,11 @@ void negate_oriented(SceneElement& element) {
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     if (oriented(parameters[k])) element.values.own()[k] = -element.values[k];
   }
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other) {
+      if (parameters[other].name == parameters[k].turned) std::swap(element.values.own()[k], element.values.own()[other]);
+    }
+  }
   for (std::size_t k = 0; k < element.signals.size(); ++k) {
     if (oriented(parameters[at(element.signal_parameters[k])])) element.signals.own()[k] = transformed(element.signals[k], -1);
   }

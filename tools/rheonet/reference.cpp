@@ -60,6 +60,7 @@ std::string quantity(const Parameter& parameter) {
 
 std::string bounds(const Parameter& p) {
   if (p.kind == Parameter::Kind::signal) return "a signal";
+  if (p.kind == Parameter::Kind::characteristic) return "points";
   std::string text;
   if (std::isinf(p.lower)) {
     text = std::isinf(p.upper) ? "any" : "<= " + short_number(p.upper);

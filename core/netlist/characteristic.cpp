@@ -1,0 +1,123 @@
+#include "core/netlist/characteristic.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/numerics.hpp"
+
+namespace rheonet {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The number between two of equal sign at which a test that fails at `out` and holds at `in` begins to hold, to the last digit.
+template <class Holds>
+double boundary(double out, double in, Holds holds) {
+  while (true) {
+    const double middle = out + (in - out) / 2;
+    if (middle == out || middle == in) return in;
+    (holds(middle) ? in : out) = middle;
+  }
+}
+
+}  // namespace
+
+Characteristic::Characteristic(std::vector<double> x, std::vector<double> force, bool smooth) {
+  first_ = x.front();
+  last_ = x.back();
+  for (std::size_t i = 0; i + 1 < x.size(); ++i) {
+    if (!falls_at_ && force[i + 1] < force[i]) falls_at_ = x[i + 1];
+    const double slope = (force[i + 1] - force[i]) / (x[i + 1] - x[i]);
+    const bool straight_on = !lines_.empty() && std::abs(slope - lines_.back().slope) <=
+                                                    numerics::equal_values * (std::abs(slope) + std::abs(lines_.back().slope));
+    if (straight_on) continue;
+    if (!lines_.empty()) corners_.push_back(x[i]);
+    lines_.push_back({x[i], force[i], slope});
+  }
+  if (!smooth || corners_.empty()) return;
+  corners_.clear();
+  lines_.clear();
+  curve_.emplace(std::move(x), std::move(force));
+}
+
+double Characteristic::force_on(std::size_t piece, double x, double& slope) const {
+  const Line& line = lines_[piece];
+  slope = line.slope;
+  return line.force + line.slope * (x - line.x);
+}
+
+std::size_t Characteristic::piece(double x) const {
+  return static_cast<std::size_t>(std::upper_bound(corners_.begin(), corners_.end(), x) - corners_.begin());
+}
+
+double Characteristic::force(double x, double& slope) const {
+  if (function_) return function_(x, slope);
+  if (!curve_) return force_on(piece(x), x, slope);
+  const double inside = std::clamp(x, first_, last_);
+  slope = curve_->rate(inside);
+  return curve_->value(inside) + slope * (x - inside);
+}
+
+double Characteristic::integral(double x) const {
+  if (curve_) {
+    const double inside = std::clamp(x, first_, last_), beyond = x - inside;
+    return curve_->area(inside) + beyond * (curve_->value(inside) + curve_->rate(inside) * beyond / 2);
+  }
+  double sum = 0, from = first_;
+  const auto add = [&](std::size_t piece, double to) {
+    double slope;
+    sum += (to - from) * force_on(piece, from + (to - from) / 2, slope);
+    from = to;
+  };
+  if (x < first_) {
+    add(0, x);
+    return sum;
+  }
+  std::size_t k = 0;
+  for (; k < corners_.size() && corners_[k] < x; ++k) add(k, corners_[k]);
+  add(k, x);
+  return sum;
+}
+
+double Characteristic::work(double x) const {
+  if (!function_) return integral(x) - integral(0);
+  const auto force_at = [this](double at) {
+    double slope;
+    return function_(at, slope);
+  };
+  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+  const double whole = x == 0 ? 0 : Rule::integrate(force_at, std::min(x, 0.0), std::max(x, 0.0), numerics::work_halvings, numerics::work_tolerance);
+  return x < 0 ? -whole : whole;
+}
+
+double Characteristic::where(double wanted) const {
+  if (wanted == 0) return 0;
+  const double side = wanted < 0 ? -1 : 1;
+  const auto reached = [&](double x) {
+    double slope;
+    return side * force(x, slope) >= side * wanted;
+  };
+  double far = side;
+  while (!reached(far)) {
+    far *= 2;
+    if (std::isinf(far)) return far;
+  }
+  while (far != 0 && reached(far / 2)) far /= 2;
+  return boundary(far / 2, far, reached);
+}
+
+double Characteristic::last_slope(int side) const {
+  double slope;
+  if (function_ || curve_) {
+    force(function_ ? side * numerics::far_out : side < 0 ? first_ : last_, slope);
+  } else {
+    force_on(side < 0 ? 0 : lines_.size() - 1, 0, slope);
+  }
+  return slope;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/netlist/curve.hpp"
+
+namespace rheonet {
+
+/// The force of an element as a function of its displacement or velocity, x: straight lines between points, a monotone cubic
+/// spline through them (curve.hpp), or an expression. Beyond its points it goes on straight, with the slope that it has there.
+class Characteristic {
+ public:
+  /// At least two points; `x` increases.
+  Characteristic(std::vector<double> x, std::vector<double> force, bool smooth);
+  /// `function(x, slope)` is the force at x; it sets the slope. Its corners are not known.
+  using Function = std::function<double(double x, double& slope)>;
+  explicit Characteristic(Function function) : function_(std::move(function)) {}
+
+  /// Force [N | N m] and its slope at x.
+  double force(double x, double& slope) const;
+  /// Work from 0 to x [J]: the integral of the force.
+  double work(double x) const;
+  /// The least x >= 0 with this force for a force above 0, the greatest x <= 0 for one below, where the force never falls.
+  /// Infinite if there is none.
+  double where(double force) const;
+  /// Slope in the limit of large x, in the direction of `side` (-1 or 1).
+  double last_slope(int side) const;
+
+  /// Where the slope jumps, in order.
+  const std::vector<double>& corners() const { return corners_; }
+  /// Number of corners up to x.
+  std::size_t piece(double x) const;
+  /// The force on the straight line between corners number `piece - 1` and `piece`, extended beyond them.
+  double force_on(std::size_t piece, double x, double& slope) const;
+
+  /// The first point whose force is less than that of the point before it; absent if there is none.
+  std::optional<double> falls_at() const { return falls_at_; }
+
+ private:
+  struct Line { double x, force, slope; };
+  double integral(double x) const;
+
+  Function function_;
+  std::vector<Line> lines_;           ///< one more than corners; each goes through (x, force)
+  std::vector<double> corners_;
+  std::optional<Curve> curve_;
+  std::optional<double> falls_at_;
+  double first_ = 0, last_ = 0;       ///< abscissae of the first and the last point
+};
+
+}  // namespace rheonet

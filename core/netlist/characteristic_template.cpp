@@ -1,0 +1,139 @@
+#include "core/netlist/characteristic_template.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/base/numerics.hpp"
+#include "core/netlist/table_file.hpp"
+
+namespace rheonet {
+
+namespace {
+
+const char* const example = "[[0, 0], [0.01, 5], [0.02, 20]]";
+
+}  // namespace
+
+CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const Parameter& parameter, Context& context)
+    : source_(&source), parameter_(&parameter) {
+  const std::size_t before = context.diagnostics.errors();
+  if (source.is_table()) {
+    read_table(source, context);
+  } else if (source.is_string()) {
+    file_name_ = source;
+  } else {
+    read_points(source, context);
+  }
+  const auto take = [&](const TomlEntry& entry) {
+    smooth_ = expect_boolean(entry.value, "`smooth`", context.diagnostics, "smooth = true") && entry.value.boolean;
+  };
+  if (smooth) take(*smooth);
+  if (const TomlEntry* inside = source.is_table() ? source.find("smooth") : nullptr) {
+    if (smooth) refuse_both(*smooth, *inside, "`" + parameter.name + "`", context.diagnostics);
+    take(*inside);
+  }
+  sound_ = context.diagnostics.errors() == before;
+}
+
+void CharacteristicTemplate::read_table(const TomlValue& source, Context& context) {
+  TableReader reader(source, "`" + parameter_->name + "`");
+  const TomlEntry* table = reader.require("table", source.spot, fmt::format("{} = {{ table = {} }}", parameter_->name, example));
+  const TomlEntry* columns = reader.find("columns");
+  reader.find("smooth");
+  reader.finish(context.diagnostics);
+  if (!table) return;
+  if (table->value.is_string()) {
+    file_name_ = table->value;
+  } else {
+    read_points(table->value, context);
+  }
+  if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), "\"d\", \"force\"", context.diagnostics);
+}
+
+void CharacteristicTemplate::read_points(const TomlValue& source, Context& context) {
+  const std::string& name = parameter_->name;
+  if (!source.is_array()) {
+    context.diagnostics.error(source.spot, fmt::format("`{}` must be an array of points or the name of a CSV file, but is {}", name, describe(source)),
+                              fmt::format("{} = {}", name, example));
+    return;
+  }
+  for (const TomlValue& item : source.items) {
+    if (!item.is_array() || item.items.size() != 2) {
+      context.diagnostics.error(item.spot, fmt::format("a point of `{}` is an array of two values, [{}, force], but this {}", name,
+                                                       name_of(parameter_->over, context.domain),
+                                                       item.is_array() ? fmt::format("has {}", item.items.size()) : "is " + describe(item)));
+      return;
+    }
+    const std::string over = name_of(parameter_->over, context.domain), force = name_of(parameter_->quantity, context.domain);
+    points_.push_back({Formula(item.items[0], "the " + over + " of a point", context.diagnostics),
+                       Formula(item.items[1], "the " + force + " of a point", context.diagnostics)});
+    constant_ = constant_ && points_.back().x.identifiers().empty() && points_.back().force.identifiers().empty();
+  }
+}
+
+std::shared_ptr<const Characteristic> CharacteristicTemplate::evaluate(const Environment& environment, Context& context) const {
+  if (!sound_) return nullptr;
+  if (constant_ && made_) return made_;
+  std::optional<Numbers> found = file_name_ ? numbers_of_file(context) : numbers(environment, context);
+  made_ = nullptr;
+  if (found && check(*found, context)) made_ = std::make_shared<const Characteristic>(std::move(found->x), std::move(found->force), smooth_);
+  return made_;
+}
+
+std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers(const Environment& environment, Context& context) const {
+  Numbers result;
+  for (const Point& point : points_) {
+    const auto x = point.x.evaluate_finite(environment, parameter_->over, context.domain, context.diagnostics);
+    const auto force = point.force.evaluate_finite(environment, parameter_->quantity, context.domain, context.diagnostics);
+    if (!x || !force) return {};
+    result.x.push_back(*x);
+    result.force.push_back(*force);
+  }
+  return result;
+}
+
+std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers_of_file(Context& context) const {
+  const auto file = read_table_file(*file_name_, columns_, {parameter_->over, name_of(parameter_->over, context.domain)}, context);
+  if (!file) return {};
+  const auto factor = as_quantity(file->unit, parameter_->quantity, context.domain);
+  if (const auto* wrong = std::get_if<TextError>(&factor)) {
+    context.diagnostics.error(file_name_->spot, fmt::format("`{}`: {}", parameter_->name, wrong->message), "the unit is that of the header of the file");
+    return {};
+  }
+  Numbers result;
+  for (const auto& [x, force] : file->points) {
+    result.x.push_back(x);
+    result.force.push_back(multiplied(force, std::get<double>(factor)));
+  }
+  return result;
+}
+
+Spot CharacteristicTemplate::spot_of(std::size_t point) const {
+  return points_.empty() ? (file_name_ ? file_name_->spot : source_->spot) : points_[point].x.source().spot;
+}
+
+bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) const {
+  const std::string& name = parameter_->name;
+  const std::string over = name_of(parameter_->over, context.domain);
+  const auto refuse = [&](std::size_t point, const std::string& what, const std::string& hint = {}) {
+    context.diagnostics.error(spot_of(point), fmt::format("`{}` {}", name, what), hint);
+    return false;
+  };
+  if (numbers.x.size() < 2) return refuse(0, "needs at least two points", fmt::format("{} = {}", name, example));
+  for (std::size_t i = 1; i < numbers.x.size(); ++i) {
+    const double slope = (numbers.force[i] - numbers.force[i - 1]) / (numbers.x[i] - numbers.x[i - 1]);
+    if (!(numbers.x[i] > numbers.x[i - 1]))
+      return refuse(i, fmt::format("must have points of increasing {}, but {} follows {}", over, number_text(numbers.x[i]), number_text(numbers.x[i - 1])));
+    if (!std::isfinite(slope)) return refuse(i, "has a slope beyond the range of numbers");
+    if (parameter_->resists && numbers.x[i] * numbers.force[i] < 0)
+      return refuse(i, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(numbers.force[i]), over, number_text(numbers.x[i])));
+  }
+  if (!parameter_->resists) return true;
+  double slope;
+  const double at_rest = Characteristic(numbers.x, numbers.force, smooth_).force(0, slope), largest = std::max(std::abs(numbers.force.front()), std::abs(numbers.force.back()));
+  if (std::abs(at_rest) <= numerics::equal_values * largest) return true;
+  return refuse(0, fmt::format("is {} at a {} of 0, where it must be 0", number_text(at_rest), over), "add the point [0, 0]");
+}
+
+}  // namespace rheonet

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/netlist/characteristic.hpp"
+#include "core/netlist/context.hpp"
+#include "core/netlist/table_reader.hpp"
+#include "core/netlist/values.hpp"
+
+namespace rheonet {
+
+/// A characteristic as given by the file: points, or the name of a CSV file with points. Its numbers are evaluated in an
+/// environment.
+class CharacteristicTemplate {
+ public:
+  /// `smooth` is the entry of that name beside it in the element, nullptr if there is none.
+  CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const Parameter& parameter, Context& context);
+
+  /// nullptr, with a mistake, if anything in it is wrong.
+  std::shared_ptr<const Characteristic> evaluate(const Environment& environment, Context& context) const;
+
+ private:
+  struct Point { Formula x, force; };
+  struct Numbers { std::vector<double> x, force; };
+
+  void read_table(const TomlValue& source, Context& context);
+  void read_points(const TomlValue& source, Context& context);
+  std::optional<Numbers> numbers(const Environment& environment, Context& context) const;
+  std::optional<Numbers> numbers_of_file(Context& context) const;
+  bool check(const Numbers& numbers, Context& context) const;
+  Spot spot_of(std::size_t point) const;
+
+  const TomlValue* source_;
+  const Parameter* parameter_;
+  bool sound_ = true, constant_ = true, smooth_ = false;
+  std::vector<Point> points_;
+  std::optional<TomlValue> file_name_;
+  std::vector<TomlValue> columns_;
+  mutable std::shared_ptr<const Characteristic> made_;
+};
+
+}  // namespace rheonet

@@ -1,0 +1,172 @@
+// Springs and dashpots whose force is given over the displacement or the velocity.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "tests/analytic/slider_checks.hpp"
+
+using namespace rheonet;
+using namespace rheonet::test;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+}  // namespace
+
+// A spring that is soft up to a corner and hard beyond it: two arcs of oscillators.
+TEST_CASE("characteristic: a mass on a spring of two stiffnesses") {
+  const double k1 = 71, k2 = 830, corner = 0.023, m = 1.3, v0 = 0.71;
+  const double soft = std::sqrt(k1 / m), hard = std::sqrt(k2 / m);
+  // x = v0/soft sin(soft t) up to the corner at t1, with the velocity v1 there.
+  const double t1 = std::asin(corner * soft / v0) / soft, v1 = v0 * std::cos(soft * t1);
+  // Beyond it m x'' = -k1 corner - k2 (x - corner): an oscillator about corner - k1/k2 corner.
+  const double centre = corner - k1 / k2 * corner, amplitude = std::hypot(corner - centre, v1 / hard), phase = std::atan2(corner - centre, v1 / hard);
+  const double stay = (pi - 2 * phase) / hard, t2 = t1 + stay, half = 2 * t1 + stay;
+  const auto first_half = [=](double t) {
+    if (t < t1) return v0 / soft * std::sin(soft * t);
+    if (t < t2) return centre + amplitude * std::sin(hard * (t - t1) + phase);
+    return v0 / soft * std::sin(soft * (half - t));
+  };
+  // The table is the same on both sides; the second half is the mirror image of the first.
+  const auto x = [=](double t) {
+    const double u = std::fmod(t, 2 * half);
+    return u < half ? first_half(u) : -first_half(u - half);
+  };
+  const auto force = [=](double t) { return std::abs(x(t)) < corner ? k1 * x(t) : std::copysign(k1 * corner + k2 * (std::abs(x(t)) - corner), x(t)); };
+  const auto energy = [=](double t) {
+    const double d = std::min(std::abs(x(t)), corner), more = std::abs(x(t)) - d;
+    return k1 * d * d / 2 + more * (k1 * corner + k2 * more / 2);
+  };
+  const Expectations expected = {{"x.position", x}, {"s.force", force}, {"s.energy", energy}};
+  // The rest length shifts the displacement; points along a straight line are no corners.
+  for (const double rest : {0.0, 0.17}) {
+    check_at_all_accuracies(netlist({{"k1", k1}, {"k2", k2}, {"c", corner}, {"m", m}, {"v0", v0}, {"rest", rest}}, R"(
+[nodes]
+x = { velocity = "v0" }
+base = { position = "-rest" }
+[elements]
+mass = { type = "mass", at = "x", mass = "m" }
+hold = { type = "motion", at = "base", velocity = 0 }
+s = { type = "spring", between = ["x", "base"], rest = "rest", force = [["-2*c", "-k1*c - k2*c"], ["-c", "-k1*c"], ["c/3", "k1*c/3"], ["c", "k1*c"], ["1.1*c", "k1*c + k2*c*0.1"], ["3*c", "k1*c + 2*k2*c"]] }
+)", 1.37 * 2 * half) + record(expected), expected);
+  }
+}
+
+TEST_CASE("characteristic: a straight one is a linear spring or dashpot") {
+  const auto scene = [](const std::string& spring, const std::string& dashpot) {
+    return simulate(netlist({}, fmt::format(R"(
+[nodes]
+x = {{ position = 0.02, velocity = -0.31 }}
+[elements]
+drive = {{ type = "motion", at = "a", velocity = {{ sine = 0.3, frequency = 0.7 }} }}
+m = {{ type = "mass", at = "x", mass = 1.3 }}
+k = {{ type = "spring", between = ["x", "n"], {} }}
+c = {{ type = "dashpot", between = ["n", "a"], {} }}
+)", spring, dashpot), 1.9), 1e-9);
+  };
+  const RunTable linear = scene("stiffness = 210", "damping = 37");
+  CHECK_LT(largest_error(scene("force = [[-0.1, -21], [0.2, 42]]", "damping = 37"), linear), 1e-8);
+  CHECK_LT(largest_error(scene("stiffness = 210", "force = [[-1, -37], [0, 0], [2, 74]]"), linear), 1e-8);
+  CHECK_LT(largest_error(scene("force = { table = [[-0.1, -21], [0, 0], [0.2, 42]], smooth = true }", "force = [[-1, -37], [2, 74]], smooth = true"), linear), 1e-8);
+}
+
+// A damper with a blow-off valve: c1 up to w1, then c2. A mass slows down: two exponentials.
+TEST_CASE("characteristic: a mass on a dashpot of two slopes") {
+  const double c1 = 11, c2 = 1.7, w1 = 0.43, m = 0.9, v0 = 3.1, lift = (c1 - c2) * w1;  // f = lift + c2 w beyond w1
+  const double t1 = m / c2 * std::log((v0 + lift / c2) / (w1 + lift / c2));
+  const auto v = [=](double t) { return t < t1 ? (v0 + lift / c2) * std::exp(-c2 / m * t) - lift / c2 : w1 * std::exp(-c1 / m * (t - t1)); };
+  const auto force = [=](double t) { return v(t) > w1 ? lift + c2 * v(t) : c1 * v(t); };
+  for (const double s : {1.0, -1.0}) {
+    const Expectations expected = {{"x.velocity", [&](double t) { return s * v(t); }}, {"d.force", [&](double t) { return s * force(t); }},
+                                   {"d.dissipated", [&](double t) { return force(t) * v(t); }}};
+    check_at_all_accuracies(netlist({{"c1", c1}, {"c2", c2}, {"w1", w1}, {"m", m}, {"v0", s * v0}}, R"(
+[nodes]
+x = { velocity = "v0" }
+[elements]
+mass = { type = "mass", at = "x", mass = "m" }
+d = { type = "dashpot", between = ["x", "ground"], force = [["-2*w1", "-c1*w1 - c2*w1"], ["-w1", "-c1*w1"], ["w1", "c1*w1"], ["2*w1", "c1*w1 + c2*w1"]] }
+)", 1.7 * t1) + record(expected), expected);
+  }
+}
+
+// Without masses: a spring relaxes through such a dashpot, p' = -w(k p).
+TEST_CASE("characteristic: a spring relaxes through a dashpot of two slopes, and one that saturates carries no more") {
+  const double k = 130, c1 = 11, c2 = 1.7, w1 = 0.43, lift = (c1 - c2) * w1, f0 = 9.3;
+  // Beyond w1: c2 w = f - lift, f' = -k w.
+  const double t1 = c2 / k * std::log((f0 - lift) / (c1 * w1 - lift));
+  const auto force = [=](double t) { return t < t1 ? lift + (f0 - lift) * std::exp(-k / c2 * t) : c1 * w1 * std::exp(-k / c1 * (t - t1)); };
+  const Expectations expected = {{"s.force", force}, {"d.force", [=](double t) { return -force(t); }}};
+  check_at_all_accuracies(netlist({{"c1", c1}, {"c2", c2}, {"w1", w1}, {"k", k}, {"f0", f0}}, R"(
+[elements]
+s = { type = "spring", between = ["ground", "n"], stiffness = "k", f0 = "-f0" }
+d = { type = "dashpot", between = ["n", "ground"], force = [["-2*w1", "-c1*w1 - c2*w1"], ["-w1", "-c1*w1"], ["w1", "c1*w1"], ["2*w1", "c1*w1 + c2*w1"]] }
+)", 4 * t1) + record({{"s.force", force}}), {{"s.force", [=](double t) { return -force(t); }}});
+
+  // A base moves on at V: the force rises to the bound of the damper, and its node follows the base.
+  const double most = 5.2, V = 2.1;
+  const std::string toml = netlist({{"most", most}, {"w1", w1}, {"k", k}, {"V", V}}, R"(
+[elements]
+drive = { type = "motion", at = "a", velocity = "V" }
+s = { type = "spring", between = ["a", "n"], stiffness = "k" }
+d = { type = "dashpot", between = ["n", "ground"], force = [["-2*w1", "-most"], ["-w1", "-most"], ["w1", "most"], ["2*w1", "1.01*most"]] }
+)", 2.0);
+  const double c = most / w1, flat = 0.01 * most / w1, t2 = -c / k * std::log(1 - w1 / V);  // f = c V (1 - exp(-k t/c)) up to most
+  const auto rises = [=](double t) {
+    if (t < t2) return c * V * -std::expm1(-k * t / c);
+    const double end = most + flat * (V - w1);  // steady: w = V
+    return end + (most - end) * std::exp(-k / flat * (t - t2));
+  };
+  check_at_all_accuracies(toml, {{"d.force", rises}});
+}
+
+TEST_CASE("characteristic: steady motion and rest on a curve") {
+  const double ks = 71, F = 7.7, a = 410, b = 9.1e4;  // points on a x + b x^3, straight between them
+  (void)a;
+  (void)b;
+  const Expectations rest = {{"x.position", [=](double) { return 0.02 + (F - 3) / 700; }}};
+  check_at_all_accuracies(netlist({{"F", F}, {"ks", ks}}, R"(
+[elements]
+mass = { type = "mass", at = "x", mass = 1.3 }
+load = { type = "force", at = "x", force = "F" }
+s = { type = "spring", between = ["x", "ground"], force = [[0, 0], [0.02, 3], [0.03, 10]] }
+)", 1.0) + "start_from = \"rest\"\n" + record(rest), rest);
+
+  const Expectations steady = {{"x.velocity", [=](double) { return 0.5 + (F - 3) / 8; }}};
+  check_at_all_accuracies(netlist({{"F", F}}, R"(
+[elements]
+mass = { type = "mass", at = "x", mass = 1.3 }
+load = { type = "force", at = "x", force = "F" }
+d = { type = "dashpot", between = ["x", "ground"], force = [[-1, -4], [0, 0], [0.5, 3], [1, 7]] }
+)", 1.0) + "start_from = \"steady\"\n" + record(steady), steady);
+}
+
+TEST_CASE("characteristic: mistakes are refused") {
+  const auto says = [](const std::string& element, const std::string& words) {
+    const std::string text = refusal("[elements]\nm = { type = \"mass\", at = \"x\", mass = 1 }\ns = { between = [\"x\", \"ground\"], " + element + " }\n[simulate]\nstop = 1\n");
+    CHECK_MESSAGE((words.empty() ? text.empty() : text.find(words) != std::string::npos), element << ": " << text);
+  };
+  says("type = \"spring\"", "needs `stiffness` or `force`");
+  says("type = \"spring\", stiffness = 1, force = [[0, 0], [1, 1]]", "`stiffness`");
+  says("type = \"spring\", force = [[0, 0]]", "needs at least two points");
+  says("type = \"spring\", force = [[0, 0], [0, 1]]", "points of increasing displacement, but 0 follows 0");
+  says("type = \"spring\", force = [[0, 0], [-1, 1]]", "but -1 follows 0");
+  says("type = \"spring\", force = [[0, 0], [1]]", "array of two values");
+  says("type = \"spring\", force = [[0, 0], [\"1 s\", 1]]", "the displacement of a point");
+  says("type = \"spring\", force = [[0, 0], [1, \"1 m\"]]", "the force of a point");
+  says("type = \"spring\", force = 3", "array of points");
+  says("type = \"spring\", force = { points = [[0, 0], [1, 1]] }", "table");
+  says("type = \"spring\", force = \"no-such.csv\"", "no-such.csv");
+  says("type = \"dashpot\", force = [[0, 0], [1, -2]]", "is -2 at a velocity of 1: it must resist");
+  says("type = \"dashpot\", force = [[-1, 2], [0, 0]]", "is 2 at a velocity of -1: it must resist");
+  says("type = \"dashpot\", force = [[-1, 1], [1, 2]]", "where it must be 0");
+  says("type = \"dashpot\", force = [[0, 0], [1, 2]], smooth = 1", "`smooth`");
+  says("type = \"spring\", force = [[0, 0], [1, 2], [2, 1]]", "");
+  says("type = \"dashpot\", force = [[0, 0], [1, 2], [2, 1]]", "");
+  says("type = \"spring\", force = [[0, 0], [1, 2]], f0 = 1", "");
+}
