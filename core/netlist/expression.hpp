@@ -39,9 +39,6 @@ struct Environment {
 /// Unknown names are errors with the nearest name as hint.
 std::variant<Number, TextError> evaluate_expression(std::string_view text, const Environment& environment);
 
-/// The same, for the unit of the result alone: its value may be infinite or no number.
-std::variant<Number, TextError> unit_of_expression(std::string_view text, const Environment& environment);
-
 /// Evaluates a value given as a string: "10", "2 in*ozf" (a number, a space, a unit), "inf" (plain), or an expression.
 std::variant<Number, TextError> evaluate_text(std::string_view text, const Environment& environment);
 

@@ -194,7 +194,7 @@ class ExpressionParser {
     Part whole = either();
     if (take("?")) {
       const std::size_t test = emit({.op = Op::unless_jump});
-      choice();
+      const Part yes = choice();
       const std::size_t skip = emit({.op = Op::jump});
       code_.instructions[test].index = code_.instructions.size();
       if (!take(":")) {
@@ -202,7 +202,10 @@ class ExpressionParser {
           refuse_at(text_.size(), text_, "the expression ends too early", "a choice is written `a > b ? x : y`");
         unexpected();
       }
-      whole.end = choice().end;
+      const Part no = choice();
+      code_.instructions[test].left = yes;
+      code_.instructions[test].right = no;
+      whole.end = no.end;
       code_.instructions[skip].index = code_.instructions.size();
     }
     --depth_;

@@ -28,7 +28,7 @@ struct ExpressionCode {
     std::size_t index = 0;                         ///< of the variable; target of a jump; position of a call's first argument
     std::size_t count = 0;                         ///< of the arguments
     const ExpressionFunction* function = nullptr;  ///< of `call`
-    Part left = {}, right = {};                    ///< operands, for messages: of a sum the first term and the next
+    Part left = {}, right = {};                    ///< operands, for messages: of a sum the first term and the next, of `unless_jump` the branches
     Part whole = {};
   };
   /// A name that is no function call, with the place of its first use.

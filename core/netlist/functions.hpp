@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -17,6 +18,14 @@ enum class FunctionRule {
   alike_angle,   ///< two of one dimension -> an angle
 };
 
+/// Where a function has a kink or a jump. Between these places it is smooth.
+enum class FunctionSwitch {
+  none,
+  abs, sign,           ///< at x = 0
+  floor, ceil, round,  ///< at whole numbers; halfway between them
+  min, max,            ///< where two arguments are equal
+};
+
 /// A function that expressions may call.
 struct ExpressionFunction {
   std::string_view name;
@@ -24,6 +33,10 @@ struct ExpressionFunction {
   int most_arguments;  ///< -1: no limit
   FunctionRule rule;
   double (*value)(std::span<const double> arguments);
+  /// Its partial derivative with respect to argument `k`; infinite or NaN where it has none. nullptr: `switches` is not
+  /// none, and the derivative follows from the side of the switch.
+  double (*slope)(std::span<const double> arguments, std::size_t k);
+  FunctionSwitch switches;
   std::string_view arguments;  ///< as the reference prints them: "x", "a, b, ..."
   std::string_view meaning;
   std::string_view example;    ///< an expression over pure numbers

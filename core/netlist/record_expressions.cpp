@@ -3,18 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 
-#include "core/base/numerics.hpp"
 #include "core/netlist/characters.hpp"
-#include "core/netlist/counting.hpp"
 #include "core/netlist/dependency_order.hpp"
 #include "core/netlist/functions.hpp"
 #include "core/netlist/records.hpp"
+#include "core/netlist/run_time_expression.hpp"
 #include "core/netlist/scene_index.hpp"
 #include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
@@ -32,51 +28,29 @@ struct RecordEntry {
   std::vector<std::string> names;    ///< that occur in the expression
 };
 
-void copy_names(const Environment& environment, Environment& all) {
-  all.names.insert(environment.names.begin(), environment.names.end());  // inner names hide outer ones
-  if (environment.outer) copy_names(*environment.outer, all);
-}
-
 /// An expression over operands, and over other expressions with operands of their own. Its function may be called by several
 /// threads at once.
 struct RecordFormula {
   struct Variable {
-    std::string name;
-    Number unit;              ///< 1 in its unit
     std::size_t first;        ///< of its operands
     std::size_t count;
     std::function<double(std::span<const double>)> value;  ///< empty: the value of its only operand
   };
-  std::string text;
+  RunTimeExpression expression;
   std::vector<Variable> variables;
-  std::shared_ptr<const Environment> parameters;
-
-  Environment at(std::span<const double> values) const {
-    Environment environment;
-    for (const Variable& variable : variables) {
-      Number number = variable.unit;
-      number.value = variable.value ? variable.value(values.subspan(variable.first, variable.count)) : values[variable.first];
-      environment.names.emplace(variable.name, number);
-    }
-    environment.outer = parameters.get();
-    return environment;
-  }
 
   double operator()(std::span<const double> values) const {
-    const auto result = evaluate_expression(text, at(values));
-    const Number* number = std::get_if<Number>(&result);
-    return number && std::isfinite(number->value) ? number->value : not_given;
+    std::vector<double> arguments;
+    for (const Variable& variable : variables)
+      arguments.push_back(variable.value ? variable.value(values.subspan(variable.first, variable.count)) : values[variable.first]);
+    return expression.value(arguments).value_or(not_given);
   }
 };
 
 class ExpressionReader {
  public:
   ExpressionReader(const Environment& environment, std::set<std::string>& doubtful, Context& context, Scene& scene)
-      : environment_(environment), doubtful_(doubtful), context_(context), diagnostics_(context.diagnostics), scene_(scene) {
-    auto parameters = std::make_shared<Environment>();
-    copy_names(environment, *parameters);
-    parameters_ = std::move(parameters);
-  }
+      : environment_(environment), doubtful_(doubtful), context_(context), diagnostics_(context.diagnostics), scene_(scene) {}
 
   std::vector<std::optional<Record>> run(const std::vector<const TomlValue*>& tables) {
     for (const TomlValue* table : tables) entries_.push_back(read(*table));
@@ -162,9 +136,16 @@ class ExpressionReader {
   std::optional<Record> make(const RecordEntry& entry) {
     const TomlValue& source = entry.value->value;
     SceneExpression expression{.name = entry.name->value.text, .operands = {}, .unit = {}};
-    RecordFormula formula{.text = source.text, .variables = {}, .parameters = parameters_};
-    if (!find_variables(entry, expression, formula)) return {};
-    if (!find_unit(source, expression, formula)) return {};
+    std::vector<RunTimeExpression::Variable> variables;
+    RecordFormula formula;
+    if (!find_variables(entry, expression, variables, formula)) return {};
+    auto compiled = RunTimeExpression::compile(source.text, variables, environment_);
+    if (const auto* wrong = std::get_if<TextError>(&compiled)) {
+      diagnostics_.error(diagnostics_.inside(source, wrong->offset), fmt::format("`{}`: {}", expression.name, wrong->message), wrong->hint);
+      return {};
+    }
+    formula.expression = std::get<RunTimeExpression>(std::move(compiled));
+    expression.unit = unit_of(formula.expression.unit());
     if (expression.operands.empty()) {
       diagnostics_.error(source.spot, fmt::format("`{}` is computed from no record", expression.name), expression_example);
       return {};
@@ -174,8 +155,9 @@ class ExpressionReader {
     return find_expression(scene_, entry.name->value.text);
   }
 
-  /// Resolves the records and expressions that an expression names. Parameters remain to its evaluation, unknown names too.
-  bool find_variables(const RecordEntry& entry, SceneExpression& expression, RecordFormula& formula) {
+  /// Resolves the records and expressions that an expression names. Parameters and unknown names remain.
+  bool find_variables(const RecordEntry& entry, SceneExpression& expression, std::vector<RunTimeExpression::Variable>& variables,
+                      RecordFormula& formula) {
     const TomlValue& source = entry.value->value;
     std::vector<TomlValue> paths;
     for (const std::string& name : entry.names) {
@@ -192,7 +174,8 @@ class ExpressionReader {
     if (diagnostics_.errors() > before) return false;
     for (const std::optional<Record>& record : found) {
       if (!record) return false;
-      RecordFormula::Variable variable{.name = record->path, .unit = one_of(unit_of(scene_, *record)), .first = expression.operands.size(), .count = 1, .value = {}};
+      variables.push_back({record->path, one_of(unit_of(scene_, *record))});
+      RecordFormula::Variable variable{.first = expression.operands.size(), .count = 1, .value = {}};
       if (record->subject == Record::Subject::expression) {
         const SceneExpression& inner = scene_.expressions[static_cast<std::size_t>(record->index)];
         variable.count = inner.operands.size();
@@ -214,39 +197,11 @@ class ExpressionReader {
     return 0;
   }
 
-  /// The unit of the result, from values of either sign and different sizes, so that each branch of a choice is evaluated.
-  bool find_unit(const TomlValue& source, SceneExpression& expression, const RecordFormula& formula) {
-    std::vector<double> values(expression.operands.size());
-    std::optional<Number> unit;
-    std::uint32_t state = 1;
-    for (int sample = 0; sample < numerics::unit_samples; ++sample) {
-      for (double& value : values) {
-        state = state * 1664525u + 1013904223u;  // Numerical Recipes, 3rd edition, section 7.1
-        const double uniform = static_cast<double>(state >> 8) / (1 << 24);
-        value = (uniform < 0.5 ? -1 : 1) * std::pow(10, 8 * uniform - 4);
-      }
-      const auto result = unit_of_expression(source.text, formula.at(values));
-      if (const auto* wrong = std::get_if<TextError>(&result)) {
-        diagnostics_.error(diagnostics_.inside(source, wrong->offset), fmt::format("`{}`: {}", expression.name, wrong->message), wrong->hint);
-        return false;
-      }
-      const Number& number = std::get<Number>(result);
-      if (unit && likeness(*unit, number) != Likeness::alike) {
-        diagnostics_.error(source.spot, fmt::format("`{}` is {} or {}: a record has one unit", expression.name, describe(*unit), describe(number)));
-        return false;
-      }
-      if (!unit) unit = number;
-    }
-    expression.unit = unit_of(*unit);
-    return true;
-  }
-
   const Environment& environment_;
   std::set<std::string>& doubtful_;
   Context& context_;
   DiagnosticList& diagnostics_;
   Scene& scene_;
-  std::shared_ptr<const Environment> parameters_;
   std::vector<RecordEntry> entries_;
 };
 

@@ -98,7 +98,7 @@ TEST_CASE("record expressions: mistakes") {
   CHECK(contains_all(said("{ name = \"u\", value = 3 }"), {"`value` must be a string"}));
   CHECK(contains_all(said("{ name = \"u\" }"), {"needs `value`"}));
   CHECK(contains_all(said("{ name = \"u\", value = \"x.position\", unit = \"mm\" }"), {"unknown key `unit`"}));
-  CHECK(contains_all(said("{ name = \"u\", value = \"x.position > limit ? x.velocity : k.force\" }"), {"a record has one unit"}));
+  CHECK(contains_all(said("{ name = \"u\", value = \"x.position > limit ? x.velocity : k.force\" }"), {"`x.velocity` is a velocity (m/s), `k.force` is a force (N): they cannot be the two values of one choice"}));
   CHECK(contains_all(said("\"y.power\""), {"`y` has no `power`", "it has `position`, `velocity` and `acceleration`"}));
   CHECK(contains_all(said("\"k.acceleration\""), {"`k` has no `acceleration`"}));
   CHECK(contains_all(said("\"g.acceleration\""), {"`g` has no `acceleration`"}));
