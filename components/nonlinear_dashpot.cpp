@@ -6,7 +6,7 @@
 namespace rheonet {
 namespace {
 
-// A dashpot whose force is a characteristic of its velocity. It never falls and is 0 at rest.
+// A dashpot whose force is a characteristic of its velocity, 0 at rest.
 struct NonlinearDashpot {
   const Characteristic& curve;
 
@@ -14,6 +14,7 @@ struct NonlinearDashpot {
 
   static bool by_force() { return false; }
   static bool linear() { return false; }
+  bool falls() const { return curve.falls_at().has_value(); }
   /// Far out it is linear, with the larger of its two slopes there.
   Growth growth() const { return {std::max(curve.last_slope(-1), curve.last_slope(1)), 1}; }
   void regularise(double) {}

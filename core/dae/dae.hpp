@@ -233,6 +233,7 @@ class Dae {
   void couple_sliders(PatternBuilder& builder);
   void move_by_blocks(const double* y);
   double acceleration_by(const Network::Motion& motion) const;
+  double known_acceleration(NodeId node) const;
   void feel_blocks(const double* y);
   void block_jacobian(double* values) const;
 

@@ -134,6 +134,12 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
   return motion.sign * sum;
 }
 
+/// Of a node whose motion is given, by a block too [m/s^2].
+double Dae::known_acceleration(NodeId node) const {
+  const int m = structure_->motion[at(node)];
+  return a_[at(node)] + (m >= 0 && network_->motions[at(m)].block >= 0 ? acceleration_by(network_->motions[at(m)]) : 0);
+}
+
 /// Evaluates the states and sensor values; then all outputs.
 void Dae::feel_blocks(const double* y) {
   BlockSignals& blocks = inputs_->blocks();

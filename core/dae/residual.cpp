@@ -98,7 +98,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
     const Branch& b = structure_->inerters[k];
     if (b.a == b.b) continue;
-    const auto acceleration = [&](NodeId node) { return iv_[at(node)] >= 0 ? yp[iv_[at(node)]] : a_[at(node)]; };
+    const auto acceleration = [&](NodeId node) { return iv_[at(node)] >= 0 ? yp[iv_[at(node)]] : known_acceleration(node); };
     const double f = network_->inerters[k].inertance * (acceleration(b.a) - acceleration(b.b));
     if (iv_[at(b.a)] >= 0) r[iv_[at(b.a)]] += f;
     if (iv_[at(b.b)] >= 0) r[iv_[at(b.b)]] -= f;

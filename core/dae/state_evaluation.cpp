@@ -48,12 +48,12 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       view_.acceleration[n] = (view_.applied[n] - view_.nodal[n]) / structure_->mass[n];
     }
   }
+  for (const Network::Motion& m : network_->motions) {
+    if (m.block >= 0) view_.acceleration[at(m.node)] = known_acceleration(m.node);
+  }
   if (inertia_.coupled()) {
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
     inertia_.accelerate(work_, view_.acceleration);
-  }
-  for (const Network::Motion& m : network_->motions) {
-    if (m.block >= 0) view_.acceleration[at(m.node)] += acceleration_by(m);
   }
   if (!stick_forces_.empty()) {
     for (std::size_t n = 0; n < v_.size(); ++n) {

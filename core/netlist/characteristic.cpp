@@ -44,6 +44,27 @@ Characteristic::Characteristic(std::vector<double> x, std::vector<double> force,
   curve_.emplace(std::move(x), std::move(force));
 }
 
+std::vector<double> Characteristic::samples() {
+  std::vector<double> result{0};
+  const int steps = static_cast<int>(std::log10(numerics::far_out)) * numerics::samples_per_decade;
+  for (int k = -steps; k <= steps; ++k) {
+    const double x = std::pow(10.0, static_cast<double>(k) / numerics::samples_per_decade);
+    result.insert(result.begin(), -x);
+    result.push_back(x);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+Characteristic::Characteristic(Function function) : function_(std::move(function)) {
+  double before = -infinite, slope;
+  for (const double x : samples()) {
+    const double now = function_(x, slope);
+    if (!falls_at_ && now < before) falls_at_ = x;
+    before = now;
+  }
+}
+
 double Characteristic::force_on(std::size_t piece, double x, double& slope) const {
   const Line& line = lines_[piece];
   slope = line.slope;

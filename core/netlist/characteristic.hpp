@@ -16,9 +16,12 @@ class Characteristic {
  public:
   /// At least two points; `x` increases.
   Characteristic(std::vector<double> x, std::vector<double> force, bool smooth);
-  /// `function(x, slope)` is the force at x; it sets the slope. Its corners are not known.
+  /// `function(x, slope)` is the force at x; it sets the slope. Its corners are not known, and whether it falls is known from
+  /// samples only.
   using Function = std::function<double(double x, double& slope)>;
-  explicit Characteristic(Function function) : function_(std::move(function)) {}
+  explicit Characteristic(Function function);
+  /// Where an expression is sampled: from 1e-9 to 1e9 on both sides of 0, and at 0.
+  static std::vector<double> samples();
 
   /// Force [N | N m] and its slope at x.
   double force(double x, double& slope) const;

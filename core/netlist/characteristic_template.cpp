@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "core/base/numerics.hpp"
+#include "core/netlist/run_time_expression.hpp"
+#include "core/netlist/scene.hpp"
 #include "core/netlist/table_file.hpp"
 
 namespace rheonet {
@@ -21,7 +23,12 @@ CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const To
   if (source.is_table()) {
     read_table(source, context);
   } else if (source.is_string()) {
-    file_name_ = source;
+    expression_ = !source.text.ends_with(".csv");
+    if (expression_) {
+      if (smooth) context.diagnostics.error(smooth->spot, "an expression has no points for `smooth`", "leave it out");
+    } else {
+      file_name_ = source;
+    }
   } else {
     read_points(source, context);
   }
@@ -74,6 +81,7 @@ void CharacteristicTemplate::read_points(const TomlValue& source, Context& conte
 
 std::shared_ptr<const Characteristic> CharacteristicTemplate::evaluate(const Environment& environment, Context& context) const {
   if (!sound_) return nullptr;
+  if (expression_) return of_expression(environment, context);
   if (constant_ && made_) return made_;
   std::optional<Numbers> found = file_name_ ? numbers_of_file(context) : numbers(environment, context);
   made_ = nullptr;
@@ -109,6 +117,38 @@ std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers_o
   return result;
 }
 
+std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(const Environment& environment, Context& context) const {
+  const auto refuse = [&](std::size_t at, const std::string& what, const std::string& hint) {
+    context.diagnostics.error(context.diagnostics.inside(*source_, at), fmt::format("`{}`: {}", parameter_->name, what), hint);
+    return nullptr;
+  };
+  const std::string variable = parameter_->over == Quantity::velocity ? "w" : "d", over = name_of(parameter_->over, context.domain);
+  const RunTimeExpression::Variable argument{variable, number_in(1, std::get<Unit>(parse_unit(unit_of(parameter_->over, context.domain))))};
+  auto compiled = RunTimeExpression::compile(source_->text, {&argument, 1}, environment);
+  if (const auto* wrong = std::get_if<TextError>(&compiled)) return refuse(wrong->offset, wrong->message, wrong->hint);
+  auto expression = std::get<RunTimeExpression>(std::move(compiled));
+  const auto factor = as_quantity(expression.unit(), parameter_->quantity, context.domain);
+  if (const auto* wrong = std::get_if<TextError>(&factor)) return refuse(0, wrong->message, wrong->hint);
+  if (!expression.uses(0))
+    return refuse(0, fmt::format("does not depend on `{}`, the {}", variable, over), "write an expression over `" + variable + "`, or points");
+  auto function = [expression = std::move(expression)](double x, double& slope) {
+    std::vector<double> sides(expression.switches());
+    expression.find_sides({&x, 1}, sides);
+    const std::optional<double> force = expression.value({&x, 1}, sides, {&slope, 1});
+    if (!force) slope = not_given;
+    return force.value_or(not_given);
+  };
+  double slope;
+  for (const double x : Characteristic::samples()) {
+    const double force = function(x, slope);
+    // Far out it may leave the range of numbers, as a high power does.
+    if (!std::isfinite(force) && std::abs(x) <= 1) return refuse(0, fmt::format("has no finite value or slope at `{}` = {}", variable, number_text(x)), "");
+    if (parameter_->resists && x == 0 && force != 0) return refuse(0, fmt::format("is {} at a {} of 0, where it must be 0", number_text(force), over), "");
+    if (parameter_->resists && force * x < 0) return refuse(0, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(force), over, number_text(x)), "");
+  }
+  return std::make_shared<const Characteristic>(std::move(function));
+}
+
 Spot CharacteristicTemplate::spot_of(std::size_t point) const {
   return points_.empty() ? (file_name_ ? file_name_->spot : source_->spot) : points_[point].x.source().spot;
 }
@@ -121,13 +161,17 @@ bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) con
     return false;
   };
   if (numbers.x.size() < 2) return refuse(0, "needs at least two points", fmt::format("{} = {}", name, example));
+  const auto resists = [&](std::size_t i) {
+    return !parameter_->resists || numbers.x[i] * numbers.force[i] >= 0 ||
+           refuse(i, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(numbers.force[i]), over, number_text(numbers.x[i])));
+  };
+  if (!resists(0)) return false;
   for (std::size_t i = 1; i < numbers.x.size(); ++i) {
     const double slope = (numbers.force[i] - numbers.force[i - 1]) / (numbers.x[i] - numbers.x[i - 1]);
     if (!(numbers.x[i] > numbers.x[i - 1]))
       return refuse(i, fmt::format("must have points of increasing {}, but {} follows {}", over, number_text(numbers.x[i]), number_text(numbers.x[i - 1])));
     if (!std::isfinite(slope)) return refuse(i, "has a slope beyond the range of numbers");
-    if (parameter_->resists && numbers.x[i] * numbers.force[i] < 0)
-      return refuse(i, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(numbers.force[i]), over, number_text(numbers.x[i])));
+    if (!resists(i)) return false;
   }
   if (!parameter_->resists) return true;
   double slope;

@@ -12,8 +12,8 @@
 
 namespace rheonet {
 
-/// A characteristic as given by the file: points, or the name of a CSV file with points. Its numbers are evaluated in an
-/// environment.
+/// A characteristic as given by the file: points, the name of a CSV file with points, or an expression over `d` or `w`. Its
+/// numbers are evaluated in an environment.
 class CharacteristicTemplate {
  public:
   /// `smooth` is the entry of that name beside it in the element, nullptr if there is none.
@@ -31,12 +31,14 @@ class CharacteristicTemplate {
   std::optional<Numbers> numbers(const Environment& environment, Context& context) const;
   std::optional<Numbers> numbers_of_file(Context& context) const;
   bool check(const Numbers& numbers, Context& context) const;
+  std::shared_ptr<const Characteristic> of_expression(const Environment& environment, Context& context) const;
   Spot spot_of(std::size_t point) const;
 
   const TomlValue* source_;
   const Parameter* parameter_;
   bool sound_ = true, constant_ = true, smooth_ = false;
   std::vector<Point> points_;
+  bool expression_ = false;
   std::optional<TomlValue> file_name_;
   std::vector<TomlValue> columns_;
   mutable std::shared_ptr<const Characteristic> made_;

@@ -136,6 +136,8 @@ class RateBatch {
   /// Makes element i linear up to the velocity `w` if its slope would otherwise be infinite or 0 at rest: the integrator
   /// could not follow a mass that such an element brings to rest.
   virtual void regularise(std::size_t i, double w) = 0;
+  /// The force falls with the velocity somewhere: no balance of forces then determines the velocity.
+  virtual bool falls(std::size_t) const { return false; }
   /// f = B w at all velocities.
   virtual bool linear(std::size_t i) const = 0;
   /// Growth of the force of element i at large velocities.

@@ -186,6 +186,10 @@ class RateBatchOf final : public RateBatch {
   bool by_force(std::size_t i) const override { return by_force_[i] != 0; }
   void set_by_force(std::size_t i, bool by_force) override { by_force_[i] = by_force; }
   void regularise(std::size_t i, double w) override { laws_[i].regularise(w); }
+  bool falls(std::size_t i) const override {
+    if constexpr (requires { laws_[i].falls(); }) return laws_[i].falls();
+    return false;
+  }
   bool linear(std::size_t i) const override {
     if constexpr (requires { laws_[i].linear(); }) return laws_[i].linear();
     return laws_[i].growth().exponent == 1;

@@ -221,12 +221,35 @@ void feed_sources(Network& network) {
 /// The acceleration of a node that a block moves is not known beforehand: an inerter there has no force to be computed.
 void refuse_inerters_at_blocks(const Network& network) {
   for (const Network::Motion& motion : network.motions) {
+    const std::vector<SceneFeed>& feeds = network.scene->feeds;
+    const bool fed = std::any_of(feeds.begin(), feeds.end(), [&](const SceneFeed& feed) { return feed.element == motion.element; });
     for (const Network::Inerter& inerter : network.inerters) {
-      if (motion.block < 0 || (inerter.branch.a != motion.node && inerter.branch.b != motion.node)) continue;
+      if (!fed || (inerter.branch.a != motion.node && inerter.branch.b != motion.node)) continue;
       throw SimulationError(network.spot_of(inerter.branch.element),
                             fmt::format("inerter `{}` ends at node `{}`, which a block moves: its acceleration, and with it the force of the "
                                         "inerter, is not known; put a stiff spring between",
                                         network.name_of(inerter.branch), network.node_name(motion.node)));
+    }
+  }
+}
+
+/// Between masses and motions any dashpot has its force. At a node without mass the balance of forces gives its velocity.
+void refuse_falling_dashpots(const Network& network) {
+  std::vector<char> firm(network.nodes(), 0);
+  firm[ground] = 1;
+  for (const Network::Mass& mass : network.masses) firm[static_cast<std::size_t>(mass.node)] = 1;
+  for (const Network::Motion& motion : network.motions) firm[static_cast<std::size_t>(motion.node)] = 1;
+  for (const Laws<RateBatch>& laws : network.rate_laws) {
+    for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+      const Branch& b = network.rates[static_cast<std::size_t>(laws.first) + i];
+      if (!laws.batch->falls(i)) continue;
+      for (const NodeId node : {b.a, b.b}) {
+        if (firm[static_cast<std::size_t>(node)]) continue;
+        throw SimulationError(network.spot_of(b.element),
+                              fmt::format("the force of dashpot `{}` falls with the velocity, and node `{}` has no mass: no balance of forces "
+                                          "determines its velocity; give it a mass",
+                                          network.name_of(b), network.node_name(node)));
+      }
     }
   }
 }
@@ -279,6 +302,7 @@ Network build_network(const Scene& scene) {
   feed_sources(network);
   network.blocks = find_blocks(network);
   refuse_inerters_at_blocks(network);
+  refuse_falling_dashpots(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;
 }

@@ -126,9 +126,7 @@ d = { type = "dashpot", between = ["n", "ground"], force = [["-2*w1", "-most"], 
 }
 
 TEST_CASE("characteristic: steady motion and rest on a curve") {
-  const double ks = 71, F = 7.7, a = 410, b = 9.1e4;  // points on a x + b x^3, straight between them
-  (void)a;
-  (void)b;
+  const double ks = 71, F = 7.7;
   const Expectations rest = {{"x.position", [=](double) { return 0.02 + (F - 3) / 700; }}};
   check_at_all_accuracies(netlist({{"F", F}, {"ks", ks}}, R"(
 [elements]
@@ -144,6 +142,68 @@ mass = { type = "mass", at = "x", mass = 1.3 }
 load = { type = "force", at = "x", force = "F" }
 d = { type = "dashpot", between = ["x", "ground"], force = [[-1, -4], [0, 0], [0.5, 3], [1, 7]] }
 )", 1.0) + "start_from = \"steady\"\n" + record(steady), steady);
+}
+
+// The first integral of m x'' = -k1 x - k3 x^3 gives the velocity at each place, and the energy in the spring.
+TEST_CASE("characteristic: a cubic spring by an expression") {
+  const double k1 = 71, k3 = 9.1e4, m = 1.3, v0 = 1.9;
+  const auto work = [=](double x) { return k1 * x * x / 2 + k3 * x * x * x * x / 4; };
+  const std::string toml = R"(
+[parameters]
+k1 = "71 N/m"
+k3 = "9.1e4 N/m^3"
+[nodes]
+x = { velocity = 1.9 }
+[elements]
+mass = { type = "mass", at = "x", mass = 1.3 }
+s = { type = "spring", between = ["x", "ground"], force = "k1*d + k3*d^3" }
+[simulate]
+stop = 2
+output = { points = 201 }
+record = ["x.position", "x.velocity", "s.force", "s.energy"]
+)";
+  for (const double accuracy : accuracies) {
+    const RunTable rows = simulate(toml, accuracy);
+    const double energy = m * v0 * v0 / 2;
+    for (std::size_t row = 0; row < rows.time().size(); ++row) {
+      const double x = rows["x.position"][row], v = rows["x.velocity"][row];
+      CHECK_LE(std::abs(m * v * v / 2 + work(x) - energy), 30 * accuracy * energy);
+      CHECK_LE(std::abs(rows["s.force"][row] - (k1 * x + k3 * x * x * x)), 1e-9 * rows.scale("s.force"));
+      CHECK_LE(std::abs(rows["s.energy"][row] - work(x)), 1e-9 * energy);
+    }
+    CHECK_GT(rows.scale("x.position"), 0.05);
+  }
+}
+
+// An eddy-current brake: f = 2 F/(w/w1 + w1/w) falls beyond w1. m w' = -f: (w^2 - v0^2)/2 + w1^2 ln(w/v0) = -2 F w1 t/m.
+TEST_CASE("characteristic: a brake whose force falls with the speed") {
+  const double F = 3.3, w1 = 0.7, m = 1.9, v0 = 4.1;
+  const std::string toml = R"_(
+[parameters]
+F = "3.3 N"
+w1 = "0.7 m/s"
+[nodes]
+x = { velocity = 4.1 }
+[elements]
+mass = { type = "mass", at = "x", mass = 1.9 }
+d = { type = "dashpot", between = ["x", "ground"], force = "2*F*w*w1/(w^2 + w1^2)" }
+[simulate]
+stop = 7
+output = { points = 201 }
+)_";
+  for (const double accuracy : accuracies) {
+    const RunTable rows = simulate(toml, accuracy);
+    for (std::size_t row = 1; row < rows.time().size(); ++row) {
+      const double w = rows["x.velocity"][row], t = rows.time()[row];
+      const double when = m / (2 * F * w1) * ((v0 * v0 - w * w) / 2 + w1 * w1 * std::log(v0 / w));
+      // The error of the velocity as one of the time at which it would be right.
+      CHECK_LE(std::abs(when - t), 10 * accuracy * v0 * m / (2 * F * w1) * (w + w1 * w1 / w));
+    }
+  }
+  const std::string massless = "[parameters]\nF = \"3.3 N\"\nw1 = \"0.7 m/s\"\n[elements]\nm = { type = \"motion\", at = \"a\", velocity = 1 }\n"
+                               "s = { type = \"spring\", between = [\"a\", \"n\"], stiffness = 3 }\n"
+                               "d = { type = \"dashpot\", between = [\"n\", \"ground\"], force = \"2*F*w*w1/(w^2 + w1^2)\" }\n[simulate]\nstop = 1\n";
+  CHECK(refusal(massless).find("node `n` has no mass") != std::string::npos);
 }
 
 TEST_CASE("characteristic: mistakes are refused") {
@@ -169,4 +229,7 @@ TEST_CASE("characteristic: mistakes are refused") {
   says("type = \"spring\", force = [[0, 0], [1, 2], [2, 1]]", "");
   says("type = \"dashpot\", force = [[0, 0], [1, 2], [2, 1]]", "");
   says("type = \"spring\", force = [[0, 0], [1, 2]], f0 = 1", "");
+  says("type = \"spring\", force = \"3*w\"", "`w`");
+  says("type = \"spring\", force = \"d\"", "force");
+  says("type = \"spring\", force = \"1\"", "does not depend on `d`");
 }

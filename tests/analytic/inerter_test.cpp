@@ -164,3 +164,18 @@ TEST_CASE("inerters that nothing can follow are refused") {
                     .find("inerter `i` ends at node `a`, which a block moves") != std::string::npos,
                 "moved by a block");
 }
+
+// m a1 = b (a - a1): the mass follows with the share b/(m + b) of a given acceleration.
+TEST_CASE("an inerter passes on an acceleration that is given as such") {
+  const double a = 1.7, f = 0.43, share = b / (m + b), omega = 2 * std::numbers::pi * f;
+  const auto v = [=](double t) { return a / omega * (1 - std::cos(omega * t)); };
+  const Expectations expected = {{"one.velocity", [=](double t) { return share * v(t); }},
+                                 {"outer.force", [=](double t) { return m * share * a * std::sin(omega * t); }},
+                                 {"drive.force", [=](double t) { return m * share * a * std::sin(omega * t); }}};
+  check_at_all_accuracies(netlist({{"b", b}, {"m", m}, {"a", a}}, fmt::format(R"(
+[elements]
+drive = {{ type = "motion", at = "end", acceleration = {{ sine = "a", frequency = {} }} }}
+outer = {{ type = "inerter", between = ["end", "one"], inertance = "b" }}
+m1    = {{ type = "mass", at = "one", mass = "m" }}
+)", f), 3.1) + record(expected), expected);
+}
