@@ -1,5 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
+#include <string>
+#include <vector>
 #include <utility>
 
 #include "core/dae/block_signals.hpp"
@@ -91,7 +95,15 @@ double BlockSignals::settle(int index, std::vector<char>& on_way) {
   if (block.generates) return out_[at(index)].value;
   if (std::exchange(on_way[at(index)], 1)) refuse_steady(index, "is in a loop of blocks");
   double u = 0;
-  for (const Blocks::Input& in : block.inputs) u += in.sign * settle(in.index, on_way);
+  if (block.function) {
+    FunctionBlock function(*block.function);
+    function.begin(network_->scene->start);
+    for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign * settle(in.index, on_way)));
+    u = function.value(false).value;
+    if (std::isnan(u)) refuse_steady(index, "has no finite value there");
+  } else {
+    for (const Blocks::Input& in : block.inputs) u += in.sign * settle(in.index, on_way);
+  }
   on_way[at(index)] = 0;
   if (block.law.delay > 0) return u;
   if (!block.law.state) return limited(block, block.law.gain * u).value;
@@ -99,6 +111,21 @@ double BlockSignals::settle(int index, std::vector<char>& on_way) {
   if (block.law.leak > 0) z = block.law.gain / block.law.leak * u;
   if (block.law.leak == 0 && block.law.gain * u != 0) refuse_steady(index, "would go on for ever: its input is not 0");
   return z.value;
+}
+
+void BlockSignals::refuse_undefined(double since) const {
+  if (undefined_ < 0 || undefined_at_ < since) return;
+  const Blocks::Block& block = blocks_->blocks[at(undefined_)];
+  std::vector<std::string> arguments;
+  for (std::size_t k = 0; k + 1 < block.function->variables(); ++k) {
+    double u = 0;
+    for (const Blocks::Input& in : block.inputs) u += in.argument == k ? in.sign * source(in).value : 0;
+    arguments.push_back(fmt::format("u{} = {:.6g}", k + 1, u));
+  }
+  throw SimulationError(network_->spot_of(block.element),
+                        fmt::format("{}, the output `{}` of block `{}` has no finite value, or no finite slope ({}, in SI)",
+                                    at_time(*network_->scene, undefined_at_), block.function->text(),
+                                    network_->scene->elements[at(block.element)].name, fmt::join(arguments, ", ")));
 }
 
 void BlockSignals::refuse_steady(int index, const char* why) const {

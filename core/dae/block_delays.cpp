@@ -144,22 +144,31 @@ Dual BlockSignals::earlier(int index, double t, Look& look) const {
     if (then + look.aside >= 0) return earlier_input(block, then, look);
     return before_run_.empty() ? block.law.initial : before_run_[at(index)];
   }
+  if (block.function) return earlier_function(block, t, look);
   return limited(block, Dual(block.law.gain) * earlier_input(block, t, look));
+}
+
+Dual BlockSignals::earlier_function(const Blocks::Block& block, double t, Look& look) const {
+  FunctionBlock then(*block.function);
+  then.begin(network_->scene->start + t);
+  for (const Blocks::Input& in : block.inputs) then.add(in.argument, Dual(in.sign) * earlier_source(in, t, look));
+  Dual value = then.value(false);
+  if (look.atom >= 0) value.derivative -= then.partial(block.function->variables() - 1);  // the time does not change with the atom
+  return value;
+}
+
+Dual BlockSignals::earlier_source(const Blocks::Input& in, double t, Look& look) const {
+  if (in.from_block) return earlier(in.index, t, look);
+  const std::size_t k = at(in.index);
+  if (sensor_channel_[k] >= 0) return remembered_at(state.size() + k, sensor_channel_[k], t, look);
+  const Stretch* stretch = current(moved_[k], t + look.aside);
+  const Dual told = motion_at(blocks_->sensors[k], stretch ? *stretch : moved_[k].front(), t);
+  return look.seen(told.value, told.derivative);
 }
 
 Dual BlockSignals::earlier_input(const Blocks::Block& block, double t, Look& look) const {
   Dual u;
-  for (const Blocks::Input& in : block.inputs) {
-    const auto value = [&]() -> Dual {
-      if (in.from_block) return earlier(in.index, t, look);
-      const std::size_t k = at(in.index);
-      if (sensor_channel_[k] >= 0) return remembered_at(state.size() + k, sensor_channel_[k], t, look);
-      const Stretch* stretch = current(moved_[k], t + look.aside);
-      const Dual told = motion_at(blocks_->sensors[k], stretch ? *stretch : moved_[k].front(), t);
-      return look.seen(told.value, told.derivative);
-    }();
-    u = u + Dual(in.sign) * value;
-  }
+  for (const Blocks::Input& in : block.inputs) u = u + Dual(in.sign) * earlier_source(in, t, look);
   return u;
 }
 

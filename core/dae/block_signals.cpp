@@ -25,6 +25,12 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
       state_blocks_.push_back(block);
     }
     if (law.delay > 0) delays_.push_back(law.delay);
+    function_of_.push_back(-1);
+    if (const RunTimeExpression* expression = blocks_->blocks[k].function.get()) {
+      function_of_.back() = static_cast<int>(functions_.size());
+      functions_.emplace_back(*expression);
+      for (std::size_t which = 0; which < expression->switches(); ++which) limits_.push_back({block, false, which});
+    }
     if (std::isfinite(law.upper)) limits_.push_back({block, true});
     if (std::isfinite(law.lower)) limits_.push_back({block, false});
   }
@@ -132,7 +138,7 @@ void BlockSignals::evaluate_time(TimePoint now, const DelayHistory& history) {
 
 Dual BlockSignals::input(const Blocks::Block& block) const {
   Dual u;
-  for (const Blocks::Input& in : block.inputs) u = u + Dual(in.sign) * (in.from_block ? out_[at(in.index)] : sensed[at(in.index)]);
+  for (const Blocks::Input& in : block.inputs) u = u + Dual(in.sign) * source(in);
   return u;
 }
 
@@ -140,13 +146,31 @@ Dual BlockSignals::limited(const Blocks::Block& block, Dual v) const {
   return v.value > block.law.upper ? Dual(block.law.upper) : v.value < block.law.lower ? Dual(block.law.lower) : v;
 }
 
+Dual BlockSignals::of_function(int index, bool held) {
+  const Blocks::Block& block = blocks_->blocks[at(index)];
+  FunctionBlock& function = functions_[at(function_of_[at(index)])];
+  function.begin(network_->scene->start + now_);
+  for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign) * source(in));
+  const Dual value = function.value(held);
+  if (std::isnan(value.value)) {
+    undefined_ = index;
+    undefined_at_ = now_;
+  }
+  return value;
+}
+
 void BlockSignals::run(bool sides) {
+  stale_ = stale_ || has_functions();
   for (const int index : blocks_->order) {
     const std::size_t k = at(index);
     const Blocks::Block& block = blocks_->blocks[k];
     if (block.generates || block.law.delay > 0) continue;
     if (block.law.state) {
       out_[k] = state[at(state_of_[k])];
+      continue;
+    }
+    if (block.function) {
+      out_[k] = of_function(index, sides);
       continue;
     }
     const Dual v = Dual(block.law.gain) * input(block);
@@ -166,9 +190,13 @@ void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_de
   const std::size_t n = atoms();
   slope.assign(out_.size() * n, 0);
   rate_slope.assign(state.size() * n, 0);
-  const auto add_inputs = [&](const Blocks::Block& block, double* row) {
+  const auto add_inputs = [&](const Blocks::Block& block, double* row, const FunctionBlock* function = nullptr) {
     for (const Blocks::Input& in : block.inputs) {
-      const double factor = magnitudes ? std::abs(block.law.gain) : block.law.gain * in.sign;
+      const double gain = !function      ? block.law.gain
+                          : magnitudes ? (block.function->uses(in.argument) ? 1 : 0)
+                                       : function->partial(in.argument);
+      if (gain == 0) continue;
+      const double factor = magnitudes ? std::abs(gain) : gain * in.sign;
       if (!in.from_block) {
         if (blocks_->sensors[at(in.index)].motion < 0) row[state.size() + at(in.index)] += factor;
         continue;
@@ -184,7 +212,7 @@ void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_de
     } else if (block.law.delay > 0) {
       std::copy_n(of_delays.begin() + index * static_cast<std::ptrdiff_t>(n), n, row);
     } else if (!block.generates && side_[at(index)] == 0) {
-      add_inputs(block, row);
+      add_inputs(block, row, function(index));
     }
   }
   for (std::size_t k = 0; k < state.size(); ++k) {
@@ -195,26 +223,38 @@ void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_de
   }
 }
 
-double BlockSignals::event_function(std::size_t limit) const {
-  const auto [index, upper] = limits_[limit];
+double BlockSignals::event_function(std::size_t limit) {
+  const auto [index, upper, which] = limits_[limit];
+  if (function_of_[at(index)] >= 0) return functions_[at(function_of_[at(index)])].event_function(which);
   const BlockLaw& law = blocks_->blocks[at(index)].law;
   const double v = before_limits_[at(index)].value;
   const double beyond = upper ? v - law.upper : law.lower - v;
   return side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond;
 }
 
-void BlockSignals::fire(const std::vector<int>& limits) {
+bool BlockSignals::fire(const std::vector<int>& limits) {
   fired_.clear();
+  std::vector<std::vector<std::size_t>> switches(functions_.size());
   for (const int k : limits) {
-    const auto [block, upper] = limits_[at(k)];
+    const auto [block, upper, which] = limits_[at(k)];
+    if (function_of_[at(block)] >= 0) {
+      switches[at(function_of_[at(block)])].push_back(which);
+      continue;
+    }
     const signed char beyond = upper ? 1 : -1;
     fired_.push_back({block, side_[at(block)] == beyond ? static_cast<signed char>(0) : beyond});
   }
+  jumps_ = false;
+  for (std::size_t f = 0; f < functions_.size(); ++f) jumps_ = functions_[f].fire(switches[f]) || jumps_;
+  return jumps_;
 }
 
 void BlockSignals::choose() {
   const std::vector<signed char> before = side_;
+  refuse_undefined(now_);
+  for (FunctionBlock& function : functions_) stale_ = function.choose() || stale_;
   for (const Limit& limit : limits_) {
+    if (function_of_[at(limit.block)] >= 0) continue;
     const BlockLaw& law = blocks_->blocks[at(limit.block)].law;
     const double v = before_limits_[at(limit.block)].value;
     side_[at(limit.block)] = v > law.upper ? 1 : v < law.lower ? -1 : 0;

@@ -6,6 +6,7 @@
 
 #include "core/base/index.hpp"
 #include "core/dae/delay_history.hpp"
+#include "core/dae/function_block.hpp"
 #include "core/netlist/time_point.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
@@ -15,8 +16,8 @@ namespace rheonet {
 /// The blocks of a network in operation: computes the output of each block from the functions of time, the states, the sensor
 /// values and the past.
 ///
-/// At an event a limiter switches between following its input and holding a bound. Between events it keeps its side, beyond the
-/// bound too, so that its output stays smooth.
+/// At an event a limiter switches between following its input and holding a bound, and a function carries a switch over to its
+/// other side. Between events both keep their sides, beyond the bound too, so that their outputs stay smooth.
 class BlockSignals {
  public:
   /// `classified` says which nodes have a velocity or position of their own in every mode. Throws SimulationError if a force
@@ -63,7 +64,8 @@ class BlockSignals {
   int block_of_state(std::size_t state) const { return state_blocks_[state]; }
   double initial(std::size_t k) const { return blocks_->blocks[at(state_blocks_[k])].law.initial; }
 
-  /// Evaluates all outputs. With `sides` each limiter keeps its side; otherwise it limits its input.
+  /// Evaluates all outputs. With `sides` each limiter and switch keeps its side; otherwise a limiter limits its input, and a
+  /// function has its value.
   void run(bool sides);
   Dual out(int block) const { return out_[at(block)]; }
   /// Rate of a state [unit/s].
@@ -71,8 +73,14 @@ class BlockSignals {
 
   // --- Derivatives of outputs and of rates of states by atoms: the states first, then the sensor values.
   std::size_t atoms() const { return state.size() + sensed.size(); }
-  double slope(int block, std::size_t atom) const { return slope_[at(block) * atoms() + atom]; }
-  double rate_slope(std::size_t k, std::size_t atom) const { return rate_slope_[k * atoms() + atom]; }
+  double slope(int block, std::size_t atom) const {
+    refresh_slopes();
+    return slope_[at(block) * atoms() + atom];
+  }
+  double rate_slope(std::size_t k, std::size_t atom) const {
+    refresh_slopes();
+    return rate_slope_[k * atoms() + atom];
+  }
   /// Recomputes them if the derivatives of delayed outputs by the present atoms have changed.
   void update_slopes(const DelayHistory& history);
   /// Whether an output can depend on an atom at the same time.
@@ -87,16 +95,29 @@ class BlockSignals {
   }
   bool rate_couples(std::size_t k, std::size_t atom) const { return rate_couples_[k * atoms() + atom] != 0; }
 
-  // --- Limiters. Each finite bound has an event.
-  struct Limit { int block; bool upper; };
+  // --- Limiters and functions. Each finite bound and each switch has an event.
+  struct Limit {
+    int block;
+    bool upper;              ///< of a limiter
+    std::size_t which = 0;   ///< of the switches of a function
+  };
   const std::vector<Limit>& limits() const { return limits_; }
-  /// Guard: positive while the limiter keeps its side [unit of the output].
-  double event_function(std::size_t limit) const;
-  /// The guards of these limits have fired: the next `choose` switches these limiters, whatever round-off says of their inputs.
-  void fire(const std::vector<int>& limits);
-  /// After `run(false)`: each limiter takes the side on which its input is now, except for those that have fired.
+  /// Guard: positive while the limiter or switch keeps its side [unit of the output, of what the switch compares].
+  double event_function(std::size_t limit);
+  /// The guards of these limits have fired: the next `choose` switches them, whatever round-off says of their inputs. Returns whether
+  /// the output of a function jumps by that.
+  bool fire(const std::vector<int>& limits);
+  /// What the last `fire` returned.
+  bool jumps() const { return jumps_; }
+  /// After `run(false)`: each limiter and switch takes the side on which its input is now, except for those that have fired.
   void choose();
+  /// Side of a limiter: -1 or 1 if its output is at the lower or upper bound.
   int side(int block) const { return side_[at(block)]; }
+  /// nullptr if the block is no function.
+  const FunctionBlock* function(int block) const { return function_of_[at(block)] < 0 ? nullptr : &functions_[at(function_of_[at(block)])]; }
+  bool has_functions() const { return !functions_.empty(); }
+  /// Throws SimulationError if a function had no finite value or slope at its last evaluation, at `since` [s] or later.
+  void refuse_undefined(double since = 0) const;
 
   /// Sets the states to their equilibrium under the present outputs of the generators. Throws SimulationError if there is none,
   /// or if it depends on how the network moves.
@@ -114,6 +135,12 @@ class BlockSignals {
   bool of_time_alone(int block) const;
   void find_slopes(bool magnitudes, const std::vector<double>& of_delays, std::vector<double>& slope,
                    std::vector<double>& rate_slope) const;
+  void refresh_slopes() const {
+    if (stale_) find_slopes(false, delay_slope_, slope_, rate_slope_);
+    stale_ = false;
+  }
+  Dual source(const Blocks::Input& in) const { return in.from_block ? out_[at(in.index)] : sensed[at(in.index)]; }
+  Dual of_function(int block, bool held);
   void find_dependence();
   bool feeds_motion(int block) const;
   void find_longest_step(const Network& network, const Structure& classified);
@@ -128,6 +155,8 @@ class BlockSignals {
     Dual seen(double value, double rate) const { return atom < 0 ? Dual(value, rate) : Dual(value); }
   };
   Dual earlier(int block, double t, Look& look) const;
+  Dual earlier_source(const Blocks::Input& in, double t, Look& look) const;
+  Dual earlier_function(const Blocks::Block& block, double t, Look& look) const;
   Dual earlier_input(const Blocks::Block& block, double t, Look& look) const;
   Dual remembered_at(std::size_t atom, int channel, double t, Look& look) const;
   Dual motion_at(const Blocks::Sensor& sensor, const Stretch& stretch, double t) const;
@@ -152,7 +181,14 @@ class BlockSignals {
   std::vector<Limit> limits_;
   struct Fired { int block; signed char side; };
   std::vector<Fired> fired_;
-  std::vector<double> slope_, rate_slope_, delay_slope_;
+  bool jumps_ = false;
+  std::vector<int> function_of_;          ///< of each block: index into functions_, or -1
+  std::vector<FunctionBlock> functions_;
+  int undefined_ = -1;                    ///< block without a finite value
+  double undefined_at_ = 0;               ///< when [s]
+  mutable std::vector<double> slope_, rate_slope_;
+  mutable bool stale_ = false;            ///< derivatives of functions have changed since they were found
+  std::vector<double> delay_slope_;
   std::vector<char> depends_, couples_, rate_couples_;
   std::vector<char> present_;       ///< of each block: a delay that depends on the present too
   struct Pair { std::size_t delay, atom; };

@@ -185,7 +185,7 @@ void Dae::block_jacobian(double* values) const {
 
 void Dae::choose_limits(double t, const double* y, const double* yp) {
   BlockSignals& blocks = inputs_->blocks();
-  if (blocks.limits().empty()) return;
+  if (blocks.limits().empty() && !blocks.has_functions()) return;
   view(t, y, yp);
   blocks.run(false);
   blocks.choose();

@@ -64,7 +64,7 @@ bool Inputs::refine(TimePoint t) {
   return true;
 }
 
-void Inputs::enter(double t) {
+void Inputs::enter(double t, bool jumps) {
   // An event within the present pieces changes none of them.
   const bool fresh = t >= next_break_.t;
   const TimePoint now = exact(t);
@@ -89,7 +89,7 @@ void Inputs::enter(double t) {
     f.piece = f.signal.piece(t);
     next_break_ = std::min(next_break_, exact_end(f.signal, t));
   }
-  mark(t, fresh);
+  mark(t, fresh || jumps);
 }
 
 void Inputs::mark(double t, bool fresh) {

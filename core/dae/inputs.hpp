@@ -22,8 +22,9 @@ class Inputs {
   /// Before the run, which begins at `start` [s], nodes are at `positions` [m] (one for each node of the network).
   Inputs(const Network& network, const Structure& classified, double start, const std::vector<double>& positions);
 
-  /// Selects the pieces of the signals that begin at t. The positions of velocity-driven nodes continue without a jump.
-  void enter(double t);
+  /// Selects the pieces of the signals that begin at t. The positions of velocity-driven nodes continue without a jump. `jumps`: the
+  /// output of a function jumps at t, as an input may.
+  void enter(double t, bool jumps = false);
   /// Time of the next discontinuity of a signal or of one of its derivatives, or of its arrival through a delay [s]; infinite
   /// if there is none.
   double next_break() const { return std::min(next_break_.t, history_.next_break()); }

@@ -22,6 +22,7 @@ struct Parameter {
     signal,   ///< a function of time
     initial,  ///< an initial value (`f0`, `d0`): optional, absent means "not given"
     characteristic,  ///< a function of the displacement or velocity of the element; its value is 1 if it is given
+    expression,  ///< the output of a block as an expression over its inputs `u1`, `u2`, ... and the time `t`
   };
 
   /// How the unit of a parameter is determined. The unit of a block's parameter may depend on what the block is connected
@@ -97,11 +98,12 @@ struct Declaration {
     at_or_between,
     block,  ///< no node: a block computes a signal from its inputs
   };
-  /// The inputs of a block, all in one unit. The output unit is that unit, times the block's `own` units, times s if the
-  /// block integrates.
+  /// The inputs of a block. The output unit is that of the inputs, times the block's `own` units, times s if the block
+  /// integrates; or that of its expression.
   struct Inputs {
     std::size_t least = 1, most = 1;
     bool integrates = false;
+    bool alike = true;  ///< all in one unit
   };
 
   std::string type = {};
@@ -119,6 +121,10 @@ struct Declaration {
   std::string source = {};   ///< citation
   std::string notes = {};    ///< sign, range of validity, stored and dissipated energy
 
+  /// An expression gives its output.
+  bool is_function() const {
+    return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::expression; });
+  }
   /// It applies a force or a motion that a signal gives.
   bool is_source() const {
     return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::signal; });

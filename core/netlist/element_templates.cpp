@@ -20,11 +20,14 @@ const Parameter* find_parameter(const Declaration& declaration, const std::strin
   return nullptr;
 }
 
+const char* const function_example = "an expression over the inputs and the time: \"u1*u2\"";
+
 /// Describes a valid value of a missing parameter.
 std::string wanted(const Parameter& parameter, Domain domain) {
   const std::string unit = unit_of(parameter.quantity, domain);
   if (parameter.kind == Parameter::Kind::signal)
     return "a signal: a number or a table such as { step = \"1 " + unit + "\" }";
+  if (parameter.kind == Parameter::Kind::expression) return function_example;
   return parameter.quantity == Quantity::number ? "a number"
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
@@ -265,6 +268,10 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
     if (parameter.kind == Parameter::Kind::characteristic) {
       plan.characteristic.emplace(entry->value, reader.find("smooth"), parameter, context_);
+      continue;
+    }
+    if (parameter.kind == Parameter::Kind::expression) {
+      if (expect_string(entry->value, "`" + name + "`", diagnostics, function_example)) plan.function = &entry->value;
       continue;
     }
     if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && entry->value.is_table())) {

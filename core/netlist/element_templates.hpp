@@ -54,6 +54,7 @@ struct ElementTemplate {
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
   std::optional<CharacteristicTemplate> characteristic;  ///< of an element
   std::vector<SignalConnection> inputs;  ///< of a block
+  const TomlValue* function = nullptr;   ///< of a block: the expression of its output
   std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
 
   std::vector<ElementTemplate> members;  ///< of a group

@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "core/netlist/expand.hpp"
 #include "core/netlist/records.hpp"
 
@@ -18,6 +20,12 @@ void Expander::connection(const ElementTemplate& plan, const Environment& enviro
   if (declaration.ports != Declaration::Ports::block) return;
   const int block = static_cast<int>(scene_.blocks.size());
   scene_.blocks.push_back({.element = element, .inputs = {}, .unit = {}});
+  if (plan.function) {
+    const auto parameters = std::make_shared<Environment>();
+    for (const Environment* level = &environment; level; level = level->outer)
+      parameters->names.insert(level->names.begin(), level->names.end());  // inner names hide outer ones
+    loose_.functions.push_back({block, plan.function, parameters, inside_.path});
+  }
   for (const SignalConnection& input : plan.inputs) loose_.ends.push_back({&input, path_of(input), inside_.path, block, element});
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Formula& formula = plan.values[i];

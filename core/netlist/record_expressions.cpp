@@ -6,7 +6,6 @@
 #include <span>
 #include <utility>
 
-#include "core/netlist/characters.hpp"
 #include "core/netlist/dependency_order.hpp"
 #include "core/netlist/functions.hpp"
 #include "core/netlist/records.hpp"
@@ -166,7 +165,7 @@ class ExpressionReader {
       TomlValue path;
       path.kind = TomlValue::Kind::string;
       path.text = name;
-      path.spot = diagnostics_.inside(source, place_of(name, source.text));
+      path.spot = diagnostics_.inside(source, place_of_name(name, source.text));
       paths.push_back(std::move(path));
     }
     const std::size_t before = diagnostics_.errors();
@@ -185,16 +184,6 @@ class ExpressionReader {
       formula.variables.push_back(std::move(variable));
     }
     return true;
-  }
-
-  /// Number of the character at which a name stands by itself.
-  static std::size_t place_of(const std::string& name, std::string_view text) {
-    for (std::size_t at = 0; at < text.size();) {
-      const std::size_t length = name_length(text.substr(at));
-      if (text.substr(at, length) == name) return count_characters(text.substr(0, at));
-      at += std::max<std::size_t>(length, 1);
-    }
-    return 0;
   }
 
   const Environment& environment_;

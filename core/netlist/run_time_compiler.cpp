@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/netlist/counting.hpp"
 #include "core/netlist/expression_rules.hpp"
@@ -16,7 +17,7 @@ Environment with_variables(std::span<const RunTimeExpression::Variable> variable
   Environment all;
   for (const RunTimeExpression::Variable& variable : variables) {
     Number number = variable.unit;
-    number.value = 1;
+    number.value = number.plain ? std::numeric_limits<double>::infinity() : 1;  // of unknown dimension, as "inf" is
     all.names.emplace(variable.name, number);
   }
   all.outer = &parameters;
@@ -36,10 +37,11 @@ class RunTimeCompiler {
  public:
   RunTimeCompiler(std::string_view text, const ExpressionCode& code, std::span<const RunTimeExpression::Variable> variables,
                   const Environment& environment)
-      : code_(code), variables_(variables), rules_(text, code, environment) {}
+      : text_(text), code_(code), variables_(variables), rules_(text, code, environment) {}
 
   RunTimeExpression run() {
     if (code_.error) throw *code_.error;
+    result_.text_ = text_;
     result_.variable_count_ = variables_.size();
     result_.slots_.assign(variables_.size(), 0);
     result_.uses_.assign(variables_.size(), 0);
@@ -255,6 +257,7 @@ class RunTimeCompiler {
     result.discrete = true;
   }
 
+  std::string_view text_;
   const ExpressionCode& code_;
   std::span<const RunTimeExpression::Variable> variables_;
   ExpressionRules rules_;

@@ -230,29 +230,30 @@ std::optional<double> RunTimeExpression::value(std::span<const double> arguments
 }
 
 bool RunTimeExpression::find_sides(std::span<const double> arguments, std::span<double> sides) const {
-  Workspace& work = start(arguments);
   std::fill_n(sides.begin(), switch_count_, no_side);
-  run<false>(work, {}, sides, {});
+  return complete_sides(arguments, sides);
+}
+
+bool RunTimeExpression::complete_sides(std::span<const double> arguments, std::span<double> sides) const {
+  Workspace& work = start(arguments);
+  std::copy_n(sides.begin(), switch_count_, work.sides.begin());
+  std::fill_n(sides.begin(), switch_count_, no_side);
+  run<false>(work, std::span(work.sides).first(switch_count_), sides, {});
   return work.ordered;
 }
 
 bool RunTimeExpression::cross(std::size_t k, std::span<const double> arguments, std::span<double> sides) const {
   const Step& step = steps_[step_of_switch_[k]];
   Workspace& work = start(arguments);
-  std::copy_n(sides.begin(), switch_count_, work.sides.begin());
-  const std::span<double> held(work.sides.data(), switch_count_);
-  run<false>(work, held, {}, {});
+  run<false>(work, sides, {}, {});
   const double a = work.slots[step.left], g = step.arguments > 1 ? a - work.slots[step.right] : a;
-  double& side = held[k];
+  double& side = sides[k];
   if (step.kind == Step::Kind::whole) {
     side -= margin_of(step, side, g).second;
   } else {
     side = side == 0 ? sign_of(g) : -side;
   }
-  std::copy(slots_.begin() + static_cast<std::ptrdiff_t>(variable_count_), slots_.end(), work.slots.begin() + static_cast<std::ptrdiff_t>(variable_count_));
-  std::fill_n(sides.begin(), switch_count_, no_side);
-  run<false>(work, held, sides, {});
-  return work.ordered;
+  return complete_sides(arguments, sides);
 }
 
 bool RunTimeExpression::switching_functions(std::span<const double> arguments, std::span<const double> sides,

@@ -30,7 +30,7 @@ class RunTimeExpression {
  public:
   struct Variable {
     std::string name;  ///< may be a path: "a.position"
-    Number unit;       ///< 1 in its unit; plain if the unit is not known
+    Number unit;       ///< 1 in its unit; plain if the unit is not known: it then fits every other
   };
   /// Side of a switch in a branch that is not taken, or that is to be chosen anew.
   static constexpr double no_side = std::numeric_limits<double>::quiet_NaN();
@@ -42,6 +42,7 @@ class RunTimeExpression {
 
   /// 1 in the unit of the result; plain if no variable or parameter has a unit.
   const Number& unit() const { return unit_; }
+  const std::string& text() const { return text_; }
   std::size_t variables() const { return variable_count_; }
   std::size_t switches() const { return switch_count_; }
   /// Whether the text names the variable.
@@ -56,6 +57,8 @@ class RunTimeExpression {
 
   /// The sides at given arguments. Returns false if a switching function is not a number.
   bool find_sides(std::span<const double> arguments, std::span<double> sides) const;
+  /// The same for sides that are `no_side`; keeps the others, but for switches in branches that are not taken.
+  bool complete_sides(std::span<const double> arguments, std::span<double> sides) const;
   /// Carries switch `k` over its threshold, to the side on which it is about to be. Switches in a branch that is now taken
   /// get their sides at `arguments`. If this made other switching functions jump, these fall below 0 in turn.
   bool cross(std::size_t k, std::span<const double> arguments, std::span<double> sides) const;
@@ -101,6 +104,7 @@ class RunTimeExpression {
   std::vector<std::uint32_t> step_of_switch_;
   std::vector<char> uses_;
   Number unit_;
+  std::string text_;
 };
 
 }  // namespace rheonet

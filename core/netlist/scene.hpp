@@ -73,6 +73,8 @@ struct BlockUnit {
   bool open = true;
 };
 
+class RunTimeExpression;
+
 /// An element that computes a signal from others; name, declaration and values are stored in the element.
 struct SceneBlock {
   struct Input {
@@ -83,6 +85,7 @@ struct SceneBlock {
   int element = 0;
   std::vector<Input> inputs;
   BlockUnit unit;
+  std::shared_ptr<const RunTimeExpression> function = {};  ///< of the inputs and the time in the scene; nullptr: none
 };
 
 /// The signal of `element` for one of its parameters is the output of `block`, times `sign`.

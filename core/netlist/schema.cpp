@@ -53,6 +53,7 @@ std::vector<std::string> types_of(const Declaration& declaration) {
 }
 
 std::string units_of(const Parameter& parameter) {
+  if (parameter.kind == Parameter::Kind::expression) return "an expression over u1, u2, ... and t";
   if (parameter.unit == Parameter::Unit::own) return "any unit";
   if (parameter.unit == Parameter::Unit::input) return "the unit of the input";
   if (parameter.unit == Parameter::Unit::output) return "the unit of the output";

@@ -1,11 +1,15 @@
 #include "core/netlist/signal_connections.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <utility>
+#include <variant>
 
 #include "core/netlist/counting.hpp"
 #include "core/netlist/expression.hpp"
 #include "core/netlist/records.hpp"
+#include "core/netlist/run_time_expression.hpp"
 #include "core/netlist/scene_index.hpp"
 
 namespace rheonet {
@@ -46,7 +50,9 @@ class Connection {
 
   void make() {
     if (!find_sources()) return;
+    for (const BlockFunction& function : loose_.functions) functions_[function.block] = &function;
     find_units();
+    for (const BlockFunction& function : loose_.functions) compile(function);
     for (std::size_t k = 0; k < scene_.blocks.size(); ++k) check_block(static_cast<int>(k));
     for (std::size_t k = 0, feed = 0; k < loose_.ends.size(); ++k)
       if (loose_.ends[k].block < 0) check_feed(loose_.ends[k], scene_.feeds[feed++]);
@@ -145,8 +151,66 @@ class Connection {
     return {};
   }
 
-  /// Unit of the output, from the inputs and `own` parameters.
-  BlockUnit made(int block) const {
+  /// The expression of a block with the present units of its inputs; the last variable is the time.
+  std::variant<RunTimeExpression, TextError> expression_of(const BlockFunction& function) const {
+    std::vector<RunTimeExpression::Variable> variables;
+    bool plain = std::all_of(function.parameters->names.begin(), function.parameters->names.end(), [](const auto& named) { return named.second.plain; });
+    for (const SceneBlock::Input& input : scene_.blocks[at(function.block)].inputs) {
+      variables.push_back({"u" + std::to_string(variables.size() + 1), one_of(unit_of_input(input))});
+      plain = plain && variables.back().unit.plain;
+    }
+    Number time{.value = 1, .dimension = dimension_of(Quantity::time, context_.domain), .plain = false, .typed_time = 1};
+    variables.push_back({"t", plain ? Number{} : time});
+    return RunTimeExpression::compile(function.source->text, variables, *function.parameters);
+  }
+
+  BlockUnit made_by(const BlockFunction& function, bool any) const {
+    const auto& inputs = scene_.blocks[at(function.block)].inputs;
+    const bool open = std::any_of(inputs.begin(), inputs.end(), [&](const SceneBlock::Input& input) { return unit_of_input(input).open; });
+    if (open && !any) return {};
+    const auto expression = expression_of(function);
+    const auto* sound = std::get_if<RunTimeExpression>(&expression);
+    return sound ? unit_of(sound->unit()) : BlockUnit{};
+  }
+
+  /// Reports a `u3` of a block with two inputs, which would be an unknown name or even a unit. True if there is one.
+  bool refuse_input(const BlockFunction& function) {
+    const std::size_t inputs = scene_.blocks[at(function.block)].inputs.size();
+    const std::string& text = function.source->text;
+    for (const std::string& name : identifiers_of(text)) {
+      const bool numbered = name.size() > 1 && name[0] == 'u' && name.find_first_not_of("0123456789", 1) == name.npos;
+      if (!numbered || function.parameters->find(name)) continue;
+      std::size_t k = 1;
+      while (k <= inputs && name != "u" + std::to_string(k)) ++k;
+      if (k <= inputs) continue;
+      diagnostics_.error(diagnostics_.inside(*function.source, place_of_name(name, text)),
+                         "the output of `" + this->name(function.block) + "`: there is no `" + name + "`: the block takes in " + std::to_string(inputs) + (inputs == 1 ? " signal" : " signals"));
+      return true;
+    }
+    return false;
+  }
+
+  void compile(const BlockFunction& function) {
+    std::optional<DiagnosticList::Within> within;
+    if (!function.within.empty()) within.emplace(diagnostics_, function.within);
+    if (refuse_input(function)) return;
+    auto expression = expression_of(function);
+    if (const auto* wrong = std::get_if<TextError>(&expression)) {
+      diagnostics_.error(diagnostics_.inside(*function.source, wrong->offset), "the output of `" + name(function.block) + "`: " + wrong->message, wrong->hint);
+      return;
+    }
+    auto& sound = std::get<RunTimeExpression>(expression);
+    SceneBlock& block = scene_.blocks[at(function.block)];
+    for (std::size_t k = 0; k < block.inputs.size(); ++k) {
+      if (sound.uses(k)) continue;
+      diagnostics_.warning(function.source->spot, "`" + name(function.block) + "` does not use its input u" + std::to_string(k + 1));
+    }
+    block.function = std::make_shared<const RunTimeExpression>(std::move(sound));
+  }
+
+  /// Unit of the output, from the inputs and `own` parameters. `any`: an expression may have inputs of unknown unit.
+  BlockUnit made(int block, bool any) const {
+    if (const auto function = functions_.find(block); function != functions_.end()) return made_by(*function->second, any);
     const Declaration::Inputs& inputs = declaration(scene_.blocks[at(block)].element).inputs;
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
     for (const OwnUnit& own : loose_.units) {
@@ -161,12 +225,14 @@ class Connection {
 
   /// Passes units from block to block until nothing changes.
   void find_units() {
-    for (bool again = true; again;) {
+    // An expression of which one input comes back from its own output is first looked at when all other units are known.
+    bool any = false;
+    for (bool again = true; again || !std::exchange(any, true);) {
       again = false;
       for (std::size_t k = 0; k < scene_.blocks.size(); ++k) {
         BlockUnit& unit = scene_.blocks[k].unit;
         if (!unit.open) continue;
-        unit = made(static_cast<int>(k));
+        unit = made(static_cast<int>(k), any);
         if (unit.open) unit = given(static_cast<int>(k), Parameter::Unit::output);
         again = again || !unit.open;
       }
@@ -174,7 +240,8 @@ class Connection {
   }
 
   void check_block(int block) {
-    const BlockUnit in = taken_in(block), out = made(block);
+    if (functions_.contains(block)) return;
+    const BlockUnit in = taken_in(block), out = made(block, true);
     const auto differs = [](const BlockUnit& a, const BlockUnit& b) {
       return !fits(one_of(a), one_of(b));
     };
@@ -228,6 +295,7 @@ class Connection {
   Context& context_;
   DiagnosticList& diagnostics_;
   Scene& scene_;
+  std::map<int, const BlockFunction*> functions_;  ///< of blocks
 };
 
 }  // namespace

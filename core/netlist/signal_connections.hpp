@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -36,9 +37,17 @@ struct OwnUnit {
   BlockUnit unit;
   const TomlValue* source;
 };
+/// The expression of a block's output. It is compiled when the units of the inputs are known.
+struct BlockFunction {
+  int block;
+  const TomlValue* source;
+  std::shared_ptr<const Environment> parameters;
+  std::string within;  ///< as of LooseEnd
+};
 struct LooseEnds {
   std::vector<LooseEnd> ends;
   std::vector<OwnUnit> units;
+  std::vector<BlockFunction> functions;
 };
 
 /// Finds the sources of the wires, and checks that their units fit. `doubtful` are names that already have a mistake.

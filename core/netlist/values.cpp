@@ -86,6 +86,15 @@ std::string number_text(double value) {
   return std::abs(value) < 1e15 && value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{}", value);
 }
 
+std::size_t place_of_name(std::string_view name, std::string_view expression) {
+  for (std::size_t at = 0; at < expression.size();) {
+    const std::size_t length = name_length(expression.substr(at));
+    if (expression.substr(at, length) == name) return count_characters(expression.substr(0, at));
+    at += std::max<std::size_t>(length, 1);
+  }
+  return 0;
+}
+
 std::vector<std::string> identifiers_of(std::string_view text) {
   return is_quantity(text) ? std::vector<std::string>{} : words_of(text);
 }

@@ -47,6 +47,9 @@ class Formula {
 /// The identifiers of an expression, each once, in alphabetical order; none if the text is a quantity.
 std::vector<std::string> identifiers_of(std::string_view text);
 
+/// Number of the character at which `name` stands by itself in an expression; 0 if it does not.
+std::size_t place_of_name(std::string_view name, std::string_view expression);
+
 /// A number as shown in messages: "5000000", "0.1".
 std::string number_text(double value);
 

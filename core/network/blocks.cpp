@@ -140,12 +140,16 @@ class Finder {
                         .signal = {},
                         .inputs = {}};
     if (block.generates) block.signal = element.signals.front().seen_from(scene_.start);
-    for (const SceneBlock::Input& input : made.inputs) {
+    block.function = made.function;
+    for (std::size_t argument = 0; argument < made.inputs.size(); ++argument) {
+      const SceneBlock::Input& input = made.inputs[argument];
+      const std::size_t first = block.inputs.size();
       if (input.from_block) {
         block.inputs.push_back({true, input.index, input.sign});
       } else {
         take_in(block, input);
       }
+      for (std::size_t k = first; k < block.inputs.size(); ++k) block.inputs[k].argument = argument;
     }
     result_.blocks.push_back(std::move(block));
   }

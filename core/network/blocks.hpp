@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/netlist/scene.hpp"
@@ -22,14 +23,17 @@ struct Blocks {
     bool from_block;  ///< otherwise `index` is a sensor
     int index;
     double sign;
+    std::size_t argument = 0;  ///< of a function, to which it adds
   };
-  /// The input u of the law is the sum of `inputs`, or `signal` if the block generates one.
+  /// The input u of the law is the sum of `inputs`, or `signal` if the block generates one. If there is a `function`, the
+  /// output is its value; each argument is the sum of some inputs, and the last one is the time in the scene.
   struct Block {
     int element;
     BlockLaw law;
     bool generates = false;
     Signal signal;
     std::vector<Input> inputs;
+    std::shared_ptr<const RunTimeExpression> function = {};
     /// Its present output does not depend on its present input.
     bool breaks_loops() const { return law.state || law.delay > 0; }
   };

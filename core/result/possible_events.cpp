@@ -6,6 +6,7 @@
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/netlist/run_time_expression.hpp"
 #include "core/network/rigid_links.hpp"
 #include "core/result/grouped.hpp"
 
@@ -32,6 +33,7 @@ class EventSearch {
     }
     for (const Blocks::Block& block : network_.blocks.blocks) {
       if (block.law.limits()) add("limit, release", block.element);
+      if (block.function && block.function->switches() > 0) add("switch", block.element);
     }
     for (const Network::Motion& motion : network_.motions) add_breaks(motion.signal, motion.element, motion.block);
     for (const Network::Force& force : network_.forces) add_breaks(force.signal, force.element, force.block);

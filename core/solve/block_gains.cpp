@@ -36,7 +36,7 @@ BlockGains::BlockGains(const Network& network) : blocks_(network.blocks) {
 }
 
 /// Propagates the derivative from the output back to sensors and states. A loop through delays is followed once.
-BlockGains::Derivatives BlockGains::derivatives_of(int output) const {
+BlockGains::Derivatives BlockGains::derivatives_of(int output, const BlockSignals& signals) const {
   const std::size_t count = blocks_.blocks.size();
   Derivatives result{std::vector<double>(count, 0), std::vector<double>(blocks_.sensors.size(), 0)};
   std::vector<double> pending(count, 0);
@@ -54,8 +54,10 @@ BlockGains::Derivatives BlockGains::derivatives_of(int output) const {
       // The input of a delay may come later in the order of evaluation.
       if (block.law.delay > 0 && std::exchange(passed[at(*k)], 1)) continue;
       more = more || block.law.delay > 0;
+      const FunctionBlock* function = signals.function(*k);
       for (const Blocks::Input& input : block.inputs) {
-        (input.from_block ? pending : result.of_sensor)[at(input.index)] += factor * block.law.gain * input.sign;
+        const double gain = function ? function->partial(input.argument) : block.law.gain;
+        (input.from_block ? pending : result.of_sensor)[at(input.index)] += factor * gain * input.sign;
       }
     }
   }
@@ -65,10 +67,10 @@ BlockGains::Derivatives BlockGains::derivatives_of(int output) const {
 void BlockGains::follow(const BlockSignals& signals) {
   std::vector<int> sides(blocks_.blocks.size());
   for (std::size_t b = 0; b < sides.size(); ++b) sides[b] = signals.side(static_cast<int>(b));
-  if (sides == sides_) return;
+  if (sides == sides_ && !signals.has_functions()) return;
   sides_ = std::move(sides);
   for (auto& [output, gains] : gains_) {
-    const Derivatives derivatives = derivatives_of(output);
+    const Derivatives derivatives = derivatives_of(output, signals);
     const auto raise = [&gains = gains](Of of, int index, double derivative) {
       if (derivative == 0) return;
       double& gain = gains[{of, index}];

@@ -10,11 +10,12 @@
 namespace rheonet {
 
 /// Sensitivity of the recorded outputs of blocks (recorded directly, or as forces) to the quantities that they depend on:
-/// the largest magnitude so far of each derivative. A delay has gain 1; a limiter at its bound has gain 0.
+/// the largest magnitude so far of each derivative. A delay has gain 1; a limiter at its bound has gain 0; a function has those of
+/// its derivatives.
 class BlockGains {
  public:
   explicit BlockGains(const Network& network);
-  /// Call whenever a limiter may have reached or left a bound.
+  /// Call whenever a limiter may have reached or left a bound, or a function may have another slope.
   void follow(const BlockSignals& signals);
 
   /// Visits (block, sort, index, gain, number of quantities that the output depends on). `index` is that of a node of the
@@ -29,7 +30,7 @@ class BlockGains {
 
  private:
   struct Derivatives { std::vector<double> of_state, of_sensor; };
-  Derivatives derivatives_of(int output) const;
+  Derivatives derivatives_of(int output, const BlockSignals& signals) const;
 
   const Blocks& blocks_;
   std::vector<int> sides_;  ///< of each block, at the last `follow`

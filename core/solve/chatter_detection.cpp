@@ -68,6 +68,12 @@ std::string ChatterDetection::describe(const Network& network, double t) const {
   std::vector<std::string> names;
   for (int cause : busy) names.push_back(elements[static_cast<std::size_t>(cause)].name);
   const bool several = busy.size() > 1;
+  const auto is_function = [&](const Blocks::Block& block) { return block.function && !busy.empty() && block.element == busy.front(); };
+  if (!several && std::any_of(network.blocks.blocks.begin(), network.blocks.blocks.end(), is_function)) {
+    return fmt::format("the function {} switches over and over without getting anywhere, {} times within {:.2g} s: what it switches on takes it back at "
+                       "once; a `lag` before it or a continuous expression would end it, and dry friction is a `slider`",
+                       format_list(names, numerics::chatter_names), numerics::chatter_events, t - since_);
+  }
   return fmt::format(
       "element{} {} switch{} over and over without getting anywhere, {} times within {:.2g} s; a dashpot beside {}, a mass "
       "at {} ends or a looser accuracy would end it",

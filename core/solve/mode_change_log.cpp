@@ -77,7 +77,7 @@ class WithinStep {
 }  // namespace
 
 ModeChangeLog::ModeChangeLog(const Network& network, const Inputs& inputs)
-    : network_(network), inputs_(inputs), blocks_(inputs.blocks()), sides_(network.blocks.blocks.size(), 0) {
+    : network_(network), inputs_(inputs), blocks_(inputs.blocks()), sides_(network.blocks.blocks.size(), 0), switches_(sides_.size()) {
   last_.slider.assign(network.sliders.size(), Modes::stuck);
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     if (laws.batch.get() == network.bundles) continue;
@@ -130,6 +130,18 @@ const std::vector<Event>& ModeChangeLog::follow(double t, const Modes& modes, co
 
 void ModeChangeLog::follow_blocks(double t) {
   for (std::size_t k = 0; k < sides_.size(); ++k) {
+    if (const FunctionBlock* function = blocks_.function(static_cast<int>(k))) {
+      std::vector<double>& before = switches_[k];
+      before.resize(function->sides().size(), RunTimeExpression::no_side);
+      double change = 0;
+      for (std::size_t i = 0; i < before.size() && change == 0; ++i) {
+        const double now = function->sides()[i];
+        if (!std::isnan(now) && !std::isnan(before[i])) change = now - before[i];
+      }
+      if (change != 0) events_.push_back({t, network_.blocks.blocks[k].element, "switch", change < 0 ? -1 : 1});
+      before = function->sides();
+      continue;
+    }
     const int side = blocks_.side(static_cast<int>(k));
     if (side == sides_[k]) continue;
     events_.push_back({t, network_.blocks.blocks[k].element, side == 0 ? "release" : "limit", side});

@@ -20,7 +20,7 @@ struct Event {
   int direction;     ///< of its motion afterwards (of an input: of the jump of its signal or slope): 1, -1; or 0
 };
 
-/// Tracks the modes of sliders, laws with a memory and limiters, and turns their changes into events. Only a net change at an
+/// Tracks the modes of sliders, laws with a memory, limiters and functions, and turns their changes into events. Only a net change at an
 /// event time is an event: an element that reverses twice at the same time has none.
 ///
 ///   slider             "slip", "stick"; "breakaway": it begins to slip at more than its sliding force
@@ -28,6 +28,7 @@ struct Event {
 ///   both               "reversal"
 ///   law with contacts  "contact", "release"
 ///   limiter            "limit", "release"
+///   function           "switch": a comparison or the like changes over
 ///
 /// A slider in a pair (core/network/pairs.hpp) is reported like any other, although its bundle causes no event of the
 /// integrator: the time at which it yields within a step follows from the deflection of the bundle.
@@ -71,6 +72,7 @@ class ModeChangeLog {
   const Inputs& inputs_;
   const BlockSignals& blocks_;
   std::vector<int> sides_;  ///< of each block: see BlockSignals::side
+  std::vector<std::vector<double>> switches_;  ///< of each block: sides of the switches of its function
   std::vector<Law> laws_;
   std::vector<Bundle> bundles_;
   Modes last_;

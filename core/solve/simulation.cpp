@@ -149,7 +149,7 @@ class Run {
   /// both.
   void cross(double t, bool stepped, const EventTransition::Fired& fired) {
     if (stepped) {
-      inputs_.enter(t);
+      inputs_.enter(t, inputs_.blocks().jumps());
     } else {
       inputs_.mark(t);
     }
@@ -326,8 +326,8 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
-    inputs_.blocks().fire(fired.limits);
-    cross(t, false, fired.sudden);
+    const bool jumps = inputs_.blocks().fire(fired.limits);
+    cross(t, jumps, fired.sudden);
   }
 
   void soften_laws() {
@@ -384,6 +384,7 @@ class Run {
   }
 
   [[noreturn]] void fail(Integrator::Outcome outcome) {
+    inputs_.blocks().refuse_undefined(system_->integrator.time());
     y_ = system_->integrator.y();
     yp_ = system_->integrator.yp();
     leave(system_->integrator.time());

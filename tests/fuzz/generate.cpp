@@ -70,6 +70,11 @@ TomlValue parameter_value(const Parameter& parameter, const std::vector<std::str
     for (int k = random.below(6); k >= 0; --k, x += value(random)) points.push_back(array_value({number_value(x), number_value(random.sign() * value(random))}));
     return random.below(3) == 0 ? table_value({{"table", array_value(std::move(points))}}) : array_value(std::move(points));
   }
+  if (parameter.kind == Parameter::Kind::expression) {
+    const std::vector<std::string> texts{"u1", "-2*u1", "u1*abs(u1)", "u1 > 0.3 ? 1 : u1", "min(max(u1, -0.5), 2)", "sqrt(u1)", "sign(u1)*u1^2",
+                                         "floor(3*u1)", "1/u1", "u1*u2", "sin(t)*u1", "u1 > 0 && u1 < 1 ? -1 : exp(-u1^2)"};
+    return string_value(texts[static_cast<std::size_t>(random.below(static_cast<int>(texts.size())))]);
+  }
   if (parameter.may_be_infinite && random.below(10) == 0) return string_value("inf");
   if (parameter.quantity == Quantity::number && random.below(2) == 0) return number_value(random.below(4));
   return number_value(value(random));

@@ -237,4 +237,56 @@ scene.toml:5:57: error: `torque` from block `t`: expected a torque (N*m), found 
   for (const Bad& bad : cases) check_messages(bad);
 }
 
+TEST_CASE("bad netlists: functions of blocks") {
+  const Bad cases[] = {
+      {R"~(f = { type = "function", in = ["shaft.velocity", "j.force"] }
+)~",
+       R"~(
+scene.toml:4:1: error: a `function` needs `out`
+    4 | f = { type = "function", in = ["shaft.velocity", "j.force"] }
+      | ^
+  an expression over the inputs and the time: "u1*u2"
+)~"},
+      {R"~(f = { type = "function", in = "shaft.velocity", out = 3 }
+)~",
+       R"~(
+scene.toml:4:55: error: `out` must be a string, but is the number 3
+    4 | f = { type = "function", in = "shaft.velocity", out = 3 }
+      |                                                       ^
+  an expression over the inputs and the time: "u1*u2"
+)~"},
+      {R"~(f = { type = "function", in = ["shaft.velocity", "shaft.position"], out = "2*u1 + u2" }
+)~",
+       R"~(
+scene.toml:4:83: error: the output of `f`: `2*u1` is an angular velocity (rad/s), `u2` is an angle (rad): they cannot be added
+    4 | f = { type = "function", in = ["shaft.velocity", "shaft.position"], out = "2*u1 + u2" }
+      |                                                                                   ^
+)~"},
+      {R"~(f = { type = "function", in = "shaft.velocity", out = "u1*u2" }
+)~",
+       R"~(
+scene.toml:4:59: error: the output of `f`: there is no `u2`: the block takes in 1 signal
+    4 | f = { type = "function", in = "shaft.velocity", out = "u1*u2" }
+      |                                                           ^
+)~"},
+      {R"~(f = { type = "function", in = "shaft.velocity", out = "-u1" }
+n = { type = "torque", at = "shaft", torque = { block = "f" } }
+)~",
+       R"~(
+scene.toml:5:57: error: `torque` from block `f`: expected a torque (N*m), found an angular velocity (rad/s)
+    5 | n = { type = "torque", at = "shaft", torque = { block = "f" } }
+      |                                                         ^
+)~"},
+      {R"~(f = { type = "function", in = ["shaft.velocity", "l"], out = "u1 + 2*u2" }
+l = { type = "integrator", in = "f", gain = "2 N*m/rad" }
+)~",
+       R"~(
+scene.toml:4:68: error: the output of `f`: `u1` is an angular velocity (rad/s), `2*u2` is a torque or an energy (N*m): they cannot be added
+    4 | f = { type = "function", in = ["shaft.velocity", "l"], out = "u1 + 2*u2" }
+      |                                                                    ^
+)~"},
+  };
+  for (const Bad& bad : cases) check_messages(bad);
+}
+
 }  // namespace rheonet::test

@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/netlist/run_time_expression.hpp"
 #include "core/network/component.hpp"
 #include "core/result/run.hpp"
 #include "tests/netlist/reading.hpp"
@@ -113,6 +115,42 @@ stop = 1
   CHECK_EQ(unit_text(scene, record(scene, "back.out")), "rad");
   CHECK(scene.blocks[4].unit.open);
   CHECK_EQ(unit_text(scene, record(scene, "both.out")), "N*m");
+}
+
+TEST_CASE("a function: units of the inputs, of the output, and through a loop; the parameters of a model") {
+  const Scene scene = sound(R"~(
+[parameters]
+c = "3 N*s/m"
+v = "1 m/s"
+L = "1 m"
+[models.damper]
+ports      = ["a"]
+parameters = { c = "2 N*s/m" }
+[models.damper.elements]
+law = { type = "function", in = "a.velocity", out = "-c*u1*(1 + abs(u1)/v)" }
+f   = { type = "force", at = "a", force = { block = "law" } }
+[elements]
+m     = { type = "mass", at = "x", mass = "1 kg" }
+d     = { type = "damper", at = "x" }
+power = { type = "function", in = ["x.velocity", "-push.force"], out = "u1*u2" }
+push  = { type = "force", at = "x", force = "1 N" }
+slow  = { type = "lag", in = "error", time_constant = "1 s" }
+error = { type = "function", in = ["x.velocity", "slow"], out = "u1 - 0.5*u2" }
+late  = { type = "function", in = "x.position", out = "u1 > L ? t : 0" }
+open  = { type = "gain", in = "power", gain = 3 }
+more  = { type = "function", in = ["open", "power"], out = "u1 + u2" }
+[simulate]
+stop = 1
+)~");
+  CHECK_EQ(unit_text(scene, record(scene, "power.out")), "W");
+  CHECK_EQ(unit_text(scene, record(scene, "slow.out")), "m/s");
+  CHECK_EQ(unit_text(scene, record(scene, "late.out")), "s");
+  CHECK_EQ(unit_text(scene, record(scene, "more.out")), "W");
+  const auto law = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const SceneBlock& block) { return scene.elements[static_cast<std::size_t>(block.element)].name == "d.law"; });
+  REQUIRE(law != scene.blocks.end());
+  REQUIRE(law->function);
+  const std::array<double, 2> arguments{0.7, 0};
+  CHECK(law->function->value(arguments).value() == doctest::Approx(-2 * 0.7 * 1.7).epsilon(1e-15));
 }
 
 TEST_CASE("claims on outputs have the unit of the output") {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/netlist/run_time_expression.hpp"
 #include "core/network/component.hpp"
 #include "tools/plot/units.hpp"
 
@@ -182,6 +183,15 @@ const SceneFeed* feed_of(const Scene& scene, int element, int parameter) {
   return found == scene.feeds.end() ? nullptr : &*found;
 }
 
+/// The expression of a block, cut off where it would run into what is beside the block.
+std::string shortened(const std::string& expression) {
+  constexpr std::size_t most = 28;  // bytes
+  if (expression.size() <= most) return expression;
+  std::size_t end = most - 1;
+  while ((static_cast<unsigned char>(expression[end]) & 0xc0) == 0x80) --end;  // within a character of UTF-8
+  return expression.substr(0, end) + "…";
+}
+
 /// The lines that say what the signal of an element is.
 std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t which, const Typed& typed) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
@@ -243,6 +253,9 @@ Caption caption_of(const Scene& scene, int index, bool with_values, const Typed&
     else if (!goes_without_saying(element, i))
       said.push_back({symbol, {(both_ways(element, i) ? "±" : "") +
                                say(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i]), typed)}});
+  }
+  for (const SceneBlock& block : scene.blocks) {
+    if (block.element == index && block.function) said.push_back({"", {shortened(block.function->text())}});
   }
   const bool several = said.size() > 1;
   for (auto& [symbol, lines] : said) {

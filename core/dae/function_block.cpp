@@ -1,0 +1,75 @@
+#include "core/dae/function_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/numerics.hpp"
+
+namespace rheonet {
+
+FunctionBlock::FunctionBlock(const RunTimeExpression& expression)
+    : expression_(&expression),
+      arguments_(expression.variables(), 0),
+      rates_(arguments_),
+      partials_(arguments_),
+      sides_(expression.switches(), RunTimeExpression::no_side),
+      fresh_(sides_),
+      fired_(sides_),
+      guards_(sides_) {}
+
+void FunctionBlock::begin(double time) {
+  std::fill(arguments_.begin(), arguments_.end(), 0.0);
+  std::fill(rates_.begin(), rates_.end(), 0.0);
+  arguments_.back() = time;
+  rates_.back() = 1;
+}
+
+void FunctionBlock::add(std::size_t argument, Dual value) {
+  arguments_[argument] += value.value;
+  rates_[argument] += value.derivative;
+}
+
+Dual FunctionBlock::value(bool held) {
+  bool ordered = true;
+  if (!held) {
+    fresh_ = fired_;
+    ordered = expression_->complete_sides(arguments_, fresh_);
+  }
+  const auto value = ordered ? expression_->value(arguments_, held ? sides_ : fresh_, partials_) : std::nullopt;
+  if (!value) {
+    // The partial derivatives enter the Jacobian, where a number that is not finite would spoil the equations of others.
+    std::fill(partials_.begin(), partials_.end(), 0.0);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  Dual result(*value);
+  for (std::size_t k = 0; k < arguments_.size(); ++k) result.derivative += partials_[k] * rates_[k];
+  return result;
+}
+
+double FunctionBlock::event_function(std::size_t which) {
+  expression_->switching_functions(arguments_, sides_, guards_);
+  return std::isfinite(guards_[which]) ? guards_[which] : 1;
+}
+
+bool FunctionBlock::fire(const std::vector<std::size_t>& switches) {
+  std::fill(fired_.begin(), fired_.end(), RunTimeExpression::no_side);
+  if (switches.empty()) return false;
+  std::vector<double> crossed = sides_;
+  for (const std::size_t k : switches) {
+    expression_->cross(k, arguments_, crossed);
+    fired_[k] = crossed[k];
+  }
+  const double before = expression_->value(arguments_, sides_).value_or(0), after = expression_->value(arguments_, crossed).value_or(0);
+  largest_ = std::max({largest_, std::abs(before), std::abs(after)});
+  return std::abs(after - before) > numerics::function_jump * largest_;
+}
+
+bool FunctionBlock::choose() {
+  const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+  if (std::equal(sides_.begin(), sides_.end(), fresh_.begin(), same)) return false;
+  sides_ = fresh_;
+  return true;
+}
+
+}  // namespace rheonet
