@@ -196,7 +196,7 @@ void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_de
                           : magnitudes ? (block.function->uses(in.argument) ? 1 : 0)
                                        : function->partial(in.argument);
       if (gain == 0) continue;
-      const double factor = magnitudes ? std::abs(gain) : gain * in.sign;
+      const double factor = magnitudes ? std::abs(gain * in.sign) : gain * in.sign;
       if (!in.from_block) {
         if (blocks_->sensors[at(in.index)].motion < 0) row[state.size() + at(in.index)] += factor;
         continue;

@@ -161,7 +161,7 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
       notes.push_back(fmt::format(
           "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
           "at once, before the energy account begins",
-          network_.name_of(link.branch), with_unit(*network_.scene, after, Quantity::velocity), lost));
+          network_.name_of(link.branch), with_unit(*network_.scene, network_.element_of(link.branch), after, Quantity::velocity), lost));
     }
   }
   return std::max(0.0, heat);

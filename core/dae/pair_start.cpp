@@ -29,7 +29,7 @@ std::vector<std::string> start_pairs(const Network& network, const std::vector<d
     if (slid != 0) {
       chosen.push_back(
           fmt::format("node `{}` starts at position {}: it has no mass, and there the forces balance", node.name,
-                      with_unit(*network.scene, middle + slid, Quantity::position)));
+                      with_unit(*network.scene, node, middle + slid, Quantity::position)));
     }
   }
   for (std::size_t b = 0; b < forces.size(); ++b) (*network.bundles)[b].begin(0, std::move(forces[b]), 1);

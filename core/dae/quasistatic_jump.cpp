@@ -28,7 +28,7 @@ void EventTransition::position_steps(double t, std::vector<double>& dx, std::vec
                           fmt::format("{} a step in position stretches inerter `{}` by {} in no time, which takes a force beyond any bound; "
                                       "give the step a time to rise in",
                                       at_time(*network_.scene, t), network_.name_of(b),
-                                      with_unit(*network_.scene, dx[at(b.a)] - dx[at(b.b)], Quantity::position)));
+                                      with_unit(*network_.scene, network_.element_of(b), dx[at(b.a)] - dx[at(b.b)], Quantity::position)));
   }
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
@@ -38,14 +38,14 @@ void EventTransition::position_steps(double t, std::vector<double>& dx, std::vec
     throw SimulationError(network_.spot_of(b.element),
                           fmt::format("{} a step in position turns `{}` backwards by {} in no time, which takes a force beyond any bound; give "
                                       "the step a time to rise in",
-                                      at_time(*network_.scene, t), network_.name_of(b), with_unit(*network_.scene, std::abs(by), Quantity::position)));
+                                      at_time(*network_.scene, t), network_.name_of(b), with_unit(*network_.scene, network_.element_of(b), std::abs(by), Quantity::position)));
   }
   const auto tell = [&](int element, const std::string& what, double by, const char* whose) {
     char& told = impulse_told_[at(element)];
     if (std::exchange(told, 1)) return;
     notes.push_back(fmt::format("{} a step in position moves {} by {} in no time: {} force at such a step is an "
                                 "impulse, which no row shows and the energy account leaves out",
-                                at_time(*network_.scene, t), what, with_unit(*network_.scene, by, Quantity::position), whose));
+                                at_time(*network_.scene, t), what, with_unit(*network_.scene, network_.scene->elements[at(element)], by, Quantity::position), whose));
   };
   for (const Laws<RateBatch>& laws : network_.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {

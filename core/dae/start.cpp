@@ -10,6 +10,7 @@
 #include "core/dae/pair_start.hpp"
 #include "core/dae/start_balance.hpp"
 #include "core/network/rigid_links.hpp"
+#include "core/network/transmission.hpp"
 
 namespace rheonet {
 
@@ -62,8 +63,8 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
               network.spot_of(b->element),
               fmt::format("element `{}` cannot start with the displacement d0 = {}: nodes `{}` and `{}` start {} "
                           "apart; leave out `d0` or a position",
-                          network.name_of(*b), with_unit(scene, d0, Quantity::position), network.node_name(b->a),
-                          network.node_name(b->b), with_unit(scene, x[a] - x[c], Quantity::position)));
+                          network.name_of(*b), with_unit(scene, network.element_of(*b), d0, Quantity::position), network.node_name(b->a),
+                          network.node_name(b->b), with_unit(scene, network.element_of(*b), x[a] - x[c], Quantity::position)));
         }
         b = nullptr;
       } else if (fixed[a] || fixed[c]) {
@@ -92,7 +93,7 @@ double initial_velocity(const Network::Motion& motion) {
 
 [[noreturn]] void refuse_velocity(const Network& network, const SceneNode& node, const std::string& why) {
   throw SimulationError(node.spot, fmt::format("node `{}` cannot start with velocity {}: {}", node.name,
-                                               with_unit(*network.scene, node.velocity, Quantity::velocity), why));
+                                               with_unit(*network.scene, node, node.velocity, Quantity::velocity), why));
 }
 
 bool contradicts(const SceneNode& node, double velocity) {
@@ -109,8 +110,8 @@ void follow_block(const Network& network, const Network::Motion& motion, double&
   if (given && std::abs(x - motion.from) > numerics::equal_given_values * std::abs(motion.from))
     throw SimulationError(node.spot, fmt::format("node `{}` cannot start at position {}: the block of motion `{}` begins at {}; leave out "
                                                  "one of them",
-                                                 node.name, with_unit(*network.scene, x, Quantity::position), name,
-                                                 with_unit(*network.scene, motion.from, Quantity::position)));
+                                                 node.name, with_unit(*network.scene, node, x, Quantity::position), name,
+                                                 with_unit(*network.scene, node, motion.from, Quantity::position)));
   x = motion.from;
 }
 
@@ -146,13 +147,13 @@ void follow_motion(const Network& network, const Network::Motion& motion, Places
     if (given && !there_already && std::abs(x - before) > tolerance) {
       throw SimulationError(
           node.spot, fmt::format("node `{}` cannot start at position {}: motion `{}` puts it at {}; leave out one of them", node.name,
-                                 with_unit(scene, x, Quantity::position), name, with_unit(scene, after, Quantity::position)));
+                                 with_unit(scene, node, x, Quantity::position), name, with_unit(scene, node, after, Quantity::position)));
     }
     x = there_already ? after : before;
   }
   if (const double velocity = initial_velocity(motion); contradicts(node, velocity)) {
     refuse_velocity(network, node,
-                    fmt::format("motion `{}` gives it {}; leave out one of them", name, with_unit(scene, velocity, Quantity::velocity)));
+                    fmt::format("motion `{}` gives it {}; leave out one of them", name, with_unit(scene, node, velocity, Quantity::velocity)));
   }
 }
 
@@ -193,7 +194,7 @@ void refuse_velocities_against_links(const Network& network) {
     const double velocity = initial_velocity(m);
     leader_of(m.node) = {m.node, velocity, fmt::format("node `{}`, which motion `{}` gives {}", network.node_name(m.node),
                                                network.scene->elements[static_cast<std::size_t>(m.element)].name,
-                                               with_unit(*network.scene, velocity, Quantity::velocity))};
+                                               with_unit(*network.scene, network.node(m.node), velocity, Quantity::velocity))};
   }
   for (NodeId n = 1; static_cast<std::size_t>(n) < network.nodes(); ++n) {
     const auto& [leading, velocity, words] = leader_of(n);
@@ -232,17 +233,17 @@ StartWords describe_start(const Start& start, const Network& network, const Stru
       words.notes.push_back(
           fmt::format("node `{}` starts with a velocity of {}, not with the {:.6g} that is given: it has "
                       "no mass, and the elements there decide",
-                      node.name, with_unit(scene, velocity[n], Quantity::velocity), node.velocity));
+                      node.name, with_unit(scene, node, velocity[n], Quantity::velocity), node.velocity * own_unit(Quantity::velocity, node.scale)));
     }
     const double x = start.state.position[n];
     if (floating && std::abs(x - node.position) > numerics::equal_given_values * (std::abs(x) + std::abs(node.position))) {
       words.notes.push_back(fmt::format("node `{}` starts at position {}, not at {}, which is given: it has no mass, and there the forces balance",
-                                        node.name, with_unit(scene, x, Quantity::position), with_unit(scene, node.position, Quantity::position)));
+                                        node.name, with_unit(scene, node, x, Quantity::position), with_unit(scene, node, node.position, Quantity::position)));
     }
     if (floating && std::isnan(node.position) && x != 0) {
       words.chosen.push_back(
           fmt::format("node `{}` starts at position {}: it has no mass, and there the forces balance", node.name,
-                      with_unit(scene, x, Quantity::position)));
+                      with_unit(scene, node, x, Quantity::position)));
     }
   }
   return words;

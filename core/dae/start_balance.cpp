@@ -200,7 +200,7 @@ class StartBalance {
       chosen_.push_back(
           fmt::format("element `{}` starts with a force of {}: it has no f0, and has to balance what is given at node "
                       "`{}`",
-                      network_.name_of(m.ends), with_unit(*network_.scene, f, Quantity::force), name(g)));
+                      network_.name_of(m.ends), with_unit(*network_.scene, network_.element_of(m.ends), f, Quantity::force), name(g)));
     }
     m.given = m.forced = true;
     return true;
@@ -371,7 +371,7 @@ class StartBalance {
       if (m.forced && m.ends.element < first) spot = network_.spot_of(first = m.ends.element);
       forces += fmt::format("{}`{}` {}with {}", forces.empty() ? "" : ", ", network_.name_of(m.ends),
                             forces.empty() ? "begins " : "",
-                            with_unit(*network_.scene, force(m, deflection(m)), Quantity::force));
+                            with_unit(*network_.scene, network_.element_of(m.ends), force(m, deflection(m)), Quantity::force));
     }
     throw SimulationError(
         spot, fmt::format("the initial forces at node `{}` do not balance, and it has no mass: {}; leave one "

@@ -114,8 +114,8 @@ void SteadyStateSolver::report_stretching(NodeId first, NodeId last, const std::
   throw SimulationError(network_.spot_of(from[at(last)]->element), fmt::format(
       "{}: {} between `{}`, which moves at {}, and `{}`, at {}, would stretch for ever; make the velocities equal or "
       "put something between them that gives way",
-      kind(), format_list(path), network_.node_name(first), with_unit(velocity_[at(first)], Quantity::velocity),
-      network_.node_name(last), with_unit(velocity_[at(last)], Quantity::velocity)));
+      kind(), format_list(path), network_.node_name(first), with_unit(network_.node(first), velocity_[at(first)], Quantity::velocity),
+      network_.node_name(last), with_unit(network_.node(last), velocity_[at(last)], Quantity::velocity)));
 }
 
 /// Nodes that nothing joins to a prescribed motion or to ground keep the velocity of their centre of mass.
@@ -148,7 +148,7 @@ void SteadyStateSolver::hold_what_is_free() {
     pinned_.push_back(static_cast<NodeId>(n));
     if (!resting_ && mass[n] > 0) velocity_[n] = momentum[n] / mass[n];
     note(fmt::format("nothing joins node `{}` to ground or to a motion: it moves at {}",
-                     network_.node_name(static_cast<NodeId>(n)), with_unit(velocity_[n], Quantity::velocity)));
+                     network_.node_name(static_cast<NodeId>(n)), with_unit(network_.node(static_cast<NodeId>(n)), velocity_[n], Quantity::velocity)));
   }
 }
 
@@ -173,7 +173,7 @@ void SteadyStateSolver::note_what_gave_way() {
     if (n == 0 || std::isnan(node.velocity) || known(static_cast<NodeId>(n))) continue;
     if (std::abs(node.velocity - velocity_[n]) <= numerics::equal_values * std::abs(node.velocity)) continue;
     note(fmt::format("node `{}` moves at {}, not at its start value, {}", node.name,
-                     with_unit(velocity_[n], Quantity::velocity), with_unit(node.velocity, Quantity::velocity)));
+                     with_unit(node, velocity_[n], Quantity::velocity), with_unit(node, node.velocity, Quantity::velocity)));
   }
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const SceneElement& element = network_.scene->elements[at(network_.deflections[j].element)];
@@ -185,8 +185,8 @@ void SteadyStateSolver::note_what_gave_way() {
       if (parameters[k].kind != Parameter::Kind::initial || parameters[k].quantity != Quantity::force) continue;
       // The initial force of a spring says where it is free of force.
       if (std::isnan(f0) || laws_[j].rigid() || std::abs(f - f0) <= numerics::balance_roundoff * std::abs(f0)) continue;
-      note(fmt::format("`{}` has the force {}, not its start value, {}", element.name, with_unit(f, Quantity::force),
-                       with_unit(f0, Quantity::force)));
+      note(fmt::format("`{}` has the force {}, not its start value, {}", element.name, with_unit(element, f, Quantity::force),
+                       with_unit(element, f0, Quantity::force)));
     }
   }
 }

@@ -40,8 +40,9 @@ class SteadyStateSolver {
   };
 
   std::string kind() const { return resting_ ? "no state of rest to start from" : "no steady state to start from"; }
-  std::string with_unit(double x, Quantity quantity) const {
-    return rheonet::with_unit(*network_.scene, x, quantity);
+  template <class Subject>
+  std::string with_unit(const Subject& of, double x, Quantity quantity) const {
+    return rheonet::with_unit(*network_.scene, of, x, quantity);
   }
   std::string name(const Branch& b) const { return network_.name_of(b); }
   void note(const std::string& text) {

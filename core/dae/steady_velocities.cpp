@@ -183,7 +183,7 @@ void SteadyStateSolver::refuse_motion() const {
     throw SimulationError(network_.spot_of_node(static_cast<NodeId>(n)), fmt::format(
         "{}: the forces are more than holds node `{}`, which goes on at {} under them; start from \"steady\", or apply "
         "less force",
-        kind(), network_.node_name(static_cast<NodeId>(n)), with_unit(velocity_[n], Quantity::velocity)));
+        kind(), network_.node_name(static_cast<NodeId>(n)), with_unit(network_.node(static_cast<NodeId>(n)), velocity_[n], Quantity::velocity)));
   }
 }
 

@@ -55,7 +55,7 @@ void EventTransition::refuse_torn_links(double t) const {
     if (!torn) continue;
     const LinksBetween links = links_between(network_, other, node);
     const auto with_velocity = [&](NodeId n, double v) {
-      return moved_node(n, " at " + with_unit(*network_.scene, v, Quantity::velocity));
+      return moved_node(n, " at " + with_unit(*network_.scene, network_.node(n), v, Quantity::velocity));
     };
     throw SimulationError(network_.spot_of(links.first),
                           fmt::format("{} join{} {} to {} {}; leave out {} or {}", links.words, links.several ? "" : "s",
@@ -112,7 +112,7 @@ void EventTransition::refuse_tearing_step(double t, NodeId first, NodeId node, d
   const LinksBetween links = links_between(network_, first, node);
   throw SimulationError(network_.spot_of(links.first), fmt::format("{} a step in position tears {} from {} by {}, and {} join{} them; leave out {} or {}",
                                     at_time(*network_.scene, t), moved_node(node, ""), moved_node(first, ""),
-                                    with_unit(*network_.scene, std::abs(by), Quantity::position), links.words,
+                                    with_unit(*network_.scene, network_.node(node), std::abs(by), Quantity::position), links.words,
                                     links.several ? "" : "s", links.several ? "a link" : "the link",
                                     first == ground ? "the motion" : "one of the motions"));
 }

@@ -14,6 +14,7 @@ struct Context {
   Domain domain = Domain::translation;
   Files& files;
   DiagnosticList& diagnostics;
+  bool several_domains = false;  ///< some element may be in the other domain than `domain`: see domains.hpp
   bool models_missing = false;  ///< an included file could not be read, which may be why a type is unknown
 };
 

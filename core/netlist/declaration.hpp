@@ -107,8 +107,9 @@ struct Declaration {
   };
 
   std::string type = {};
-  std::string rotational_type = {};  ///< an alias in rotational scenes (`inertia`, `torque`); "" if none
+  std::string rotational_type = {};  ///< an alias that puts its nodes in rotation (`inertia`, `torque`); "" if none
   Ports ports = Ports::between;
+  std::vector<Domain> domains = {};  ///< of its two nodes, if the type determines them (`rack`); else both are in one domain
   Inputs inputs = {};  ///< of a block
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)

@@ -43,6 +43,8 @@ Dimension dimension_of(Quantity quantity, Domain domain, double flow_index) {
       return time.power(-1);
     case Quantity::position:
       return length;
+    case Quantity::length:
+      return {1, 0, 0};
     case Quantity::velocity:
       return length / time;
     case Quantity::force:
@@ -76,6 +78,8 @@ std::string name_of(Quantity quantity, Domain domain) {
       return "angle";
     case Quantity::position:
       return rotation ? "angle" : "length";
+    case Quantity::length:
+      return "length";
     case Quantity::velocity:
       return rotation ? "angular velocity" : "velocity";
     case Quantity::force:
@@ -109,6 +113,8 @@ std::string unit_of(Quantity quantity, Domain domain, double flow_index) {
       return "rad";
     case Quantity::position:
       return rotation ? "rad" : "m";
+    case Quantity::length:
+      return "m";
     case Quantity::velocity:
       return rotation ? "rad/s" : "m/s";
     case Quantity::force:

@@ -31,6 +31,7 @@ enum class Quantity {
   frequency,  ///< Hz (cycles a second); a unit with rad is an angular frequency and is divided by 2 pi
   angle,      ///< rad in both domains (the phase of a signal)
   position,   ///< m | rad; displacements too
+  length,     ///< m in both domains (the radius of a pinion)
   velocity,   ///< m/s | rad/s
   force,      ///< N | N*m
   stiffness,  ///< N/m | N*m/rad

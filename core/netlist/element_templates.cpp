@@ -95,6 +95,16 @@ bool refuse_other_names(const Parameter& parameter, const std::string& name, boo
 
 }  // namespace
 
+/// The name by which a parameter is given, or may be. Where the domain of an element is not known yet, and in models, which have
+/// none, either name does.
+const std::string& TemplateReader::name_given(const Parameter& parameter, const ElementTemplate& plan, Domain domain, TableReader& reader) const {
+  const std::string& usual = parameter.name_in(domain);
+  if (parameter.rotational_name.empty()) return usual;
+  const std::string& other = domain == Domain::rotation ? parameter.name : parameter.rotational_name;
+  const bool open = (plan.in_model && domain == Domain::rotation) || (context_.several_domains && !plan.domain);
+  return open && reader.find_quietly(other) && !reader.find_quietly(usual) ? other : usual;
+}
+
 bool ElementTemplate::varies(std::size_t parameter) const {
   const int p = static_cast<int>(parameter);
   return std::find(signal_parameters.begin(), signal_parameters.end(), p) != signal_parameters.end() ||
@@ -155,6 +165,7 @@ ElementTemplate TemplateReader::read_entry(std::string name, Spot spot, const To
     TableReader reader(source, article(kind->key) + " group");
     read_name(reader);
     read_place(plan, scope, 2, false, true, reader);
+    read_domain(plan, reader);
     read_repeat(plan, reader);
     read_group(plan, *kind, reader);
     reader.finish(diagnostics);
@@ -177,7 +188,7 @@ ElementTemplate TemplateReader::read_entry(std::string name, Spot spot, const To
     } else if (context_.models_missing) {
       return plan;  // the type may be a model of that file
     } else {
-      refuse_type(*kind, source, !scope);
+      refuse_type(*kind);
     }
   }
   plan.sound = diagnostics.errors() == before;
@@ -186,35 +197,15 @@ ElementTemplate TemplateReader::read_entry(std::string name, Spot spot, const To
 
 const Declaration* TemplateReader::find_type(const std::string& type) const {
   for (const Declaration* d : context_.declarations)
-    if (d->type == type ||
-        (context_.domain == Domain::rotation && !d->rotational_type.empty() && d->rotational_type == type))
-      return d;
+    if (d->type == type || (!d->rotational_type.empty() && d->rotational_type == type)) return d;
   return nullptr;
 }
 
-void TemplateReader::refuse_type(const TomlEntry& type, const TomlValue& source, bool is_member) {
+void TemplateReader::refuse_type(const TomlEntry& type) {
   std::vector<std::string> names;
   for (const Declaration* d : context_.declarations) {
-    if (!d->rotational_type.empty() && d->rotational_type == type.value.text) {
-      context_.diagnostics.error(type.value.spot,
-                              article(type.value.text) + " belongs to a rotational scene, this one is translational",
-                              "use `" + d->type + "`, or set domain = \"rotation\"");
-      // The type's keys are known nevertheless.
-      TableReader reader(source, article(type.value.text));
-      reader.find("type");
-      if (is_member) reader.find("name");
-      if (d->ports != Declaration::Ports::between) reader.find("at");
-      if (d->ports != Declaration::Ports::at) reader.find("between");
-      for (const Parameter& p : d->parameters) {
-        reader.find(p.name_in(Domain::rotation));
-        reader.find_quietly(p.name);
-      }
-      reader.find("repeat");
-      reader.finish(context_.diagnostics);
-      return;
-    }
     names.push_back(d->type);
-    if (context_.domain == Domain::rotation && !d->rotational_type.empty()) names.push_back(d->rotational_type);
+    if (!d->rotational_type.empty()) names.push_back(d->rotational_type);
   }
   for (const auto& [name, model] : models_) names.push_back(name);
   context_.diagnostics.error(type.value.spot, "unknown element type `" + type.value.text + "`",
@@ -224,7 +215,6 @@ void TemplateReader::refuse_type(const TomlEntry& type, const TomlValue& source,
 void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope,
                            TableReader& reader) {
   DiagnosticList& diagnostics = context_.diagnostics;
-  const Domain domain = context_.domain;
   const auto found = std::find(context_.declarations.begin(), context_.declarations.end(), &declaration);
   plan.declaration = static_cast<int>(found - context_.declarations.begin());
   const bool block = declaration.ports == Declaration::Ports::block;
@@ -242,20 +232,20 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     plan.inputs = read_inputs(declaration, plan.name, plan.spot, reader, diagnostics);
   } else {
     read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, reader);
+    if (declaration.domains.empty()) read_domain(plan, reader);
+    if (!plan.domain && type.value.text == declaration.rotational_type && !type.value.text.empty()) plan.domain = Domain::rotation;
   }
+  const Domain domain = plan.domain.value_or(context_.domain);
   // A source of motion at `ground` is refused elsewhere, as a conflict.
   if (plan.at && plan.nodes == std::vector<int>{Scope::ground} && !declaration.prescribes_motion())
     diagnostics.warning(plan.spot, "`" + plan.name + "` is at `ground`, which never moves: it has no effect there",
                      "name another node, or leave it out");
 
-  const bool rotation = domain == Domain::rotation;
   std::vector<const TomlEntry*> given;  // of declaration.one_of
   plan.values.resize(declaration.parameters.size());
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
-    const bool as_in_translation = plan.in_model && rotation && reader.find_quietly(parameter.name) &&
-                                   !reader.find_quietly(parameter.rotational_name);
-    const std::string& name = as_in_translation ? parameter.name : parameter.name_in(domain);
+    const std::string& name = name_given(parameter, plan, domain, reader);
     const bool misnamed = refuse_other_names(parameter, name, plan.in_model, domain, reader, diagnostics);
     const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
                                !parameter.same_as.empty() || among(declaration.one_of, parameter.name) || misnamed;
@@ -312,6 +302,8 @@ void TemplateReader::read_instance(ElementTemplate& plan, Model& model, Scope* s
                                            (ports == 1 ? " port" : " ports") +
                                            ": a member of `series` or `parallel` needs two");
   read_place(plan, scope, ports, ports == 1, ports != 1, reader);
+  const bool of_its_own = std::any_of(model.parameters.begin(), model.parameters.end(), [](const NamedFormula& p) { return p.name == "domain"; });
+  if (!of_its_own) read_domain(plan, reader);
   for (const NamedFormula& parameter : model.parameters) {
     const TomlEntry* entry = parameter.formula.given()
                                  ? reader.find(parameter.name)
@@ -387,6 +379,18 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
       if (items[i].is_string() && items[j].is_string() && items[i].text == items[j].text)
         diagnostics.error(items[i].spot, "`between` names the node `" + items[i].text + "` twice",
                        "an element is between different nodes");
+}
+
+void TemplateReader::read_domain(ElementTemplate& plan, TableReader& reader) {
+  const TomlEntry* entry = reader.find("domain");
+  if (!entry || !expect_string(entry->value, "`domain`", context_.diagnostics)) return;
+  const std::string& text = entry->value.text;
+  if (text == "translation" || text == "rotation") {
+    plan.domain = text == "rotation" ? Domain::rotation : Domain::translation;
+  } else {
+    context_.diagnostics.error(entry->value.spot, "`domain` must be `translation` or `rotation`, but is `" + text + "`",
+                               did_you_mean(text, {"translation", "rotation"}));
+  }
 }
 
 void TemplateReader::read_repeat(ElementTemplate& plan, TableReader& reader) {

@@ -39,6 +39,7 @@ struct ElementTemplate {
 
   Kind kind = Kind::element;
   bool sound = false;  ///< false: it has a mistake; no elements are made
+  std::optional<Domain> domain;  ///< given by `domain` or by the type; for a group or an instance, that of all its members
   bool in_model = false;  ///< stands in a model, which has no domain of its own
   std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
   Spot spot;           ///< of its name, or of its table
@@ -120,9 +121,11 @@ class TemplateReader {
   void read_instance(ElementTemplate& plan, Model& model, Scope* scope, TableReader& reader);
   void read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader);
   void read_place(ElementTemplate& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, TableReader& reader);
+  void read_domain(ElementTemplate& plan, TableReader& reader);
   void read_repeat(ElementTemplate& plan, TableReader& reader);
   const Declaration* find_type(const std::string& type) const;
-  void refuse_type(const TomlEntry& type, const TomlValue& source, bool is_member);
+  void refuse_type(const TomlEntry& type);
+  const std::string& name_given(const Parameter& parameter, const ElementTemplate& plan, Domain domain, TableReader& reader) const;
 
   Context& context_;
   const Models& models_;

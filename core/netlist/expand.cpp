@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/netlist/group_names.hpp"
 
@@ -44,6 +45,20 @@ std::vector<std::pair<std::size_t, ActiveOverride>> by_member(const ActiveOverri
   }
   return members;
 }
+
+/// Gives `variable` another value during its lifetime.
+template <class T>
+class Instead {
+ public:
+  Instead(T& variable, T value) : variable_(variable), before_(std::exchange(variable, std::move(value))) {}
+  ~Instead() { variable_ = std::move(before_); }
+  Instead(const Instead&) = delete;
+  Instead& operator=(const Instead&) = delete;
+
+ private:
+  T& variable_;
+  T before_;
+};
 
 }  // namespace
 
@@ -109,6 +124,7 @@ bool Expander::body(const ElementTemplate& plan, Ends ends, const std::string& p
                             "groups and models are nested deeper than " + std::to_string(most_nested) + " levels");
     return false;
   }
+  const Instead domain(domain_, plan.domain ? plan.domain : domain_);
   switch (plan.kind) {
     case ElementTemplate::Kind::element:
       return element(plan, ends, path, around);
@@ -122,7 +138,14 @@ bool Expander::body(const ElementTemplate& plan, Ends ends, const std::string& p
 bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   if (scene_.elements.size() >= most_elements) return refuse_number(plan.spot);
   SceneElement element;
-  if (!element_values(plan, around.environment, element)) return false;
+  if (without_values_) element.domain = domain_;
+  const Domain usual = context_.domain;
+  if (domains_) {
+    const auto found = domains_->find(path);
+    element.domain = found == domains_->end() ? usual : found->second;
+  }
+  const Instead in_its_domain(context_.domain, element.domain.value_or(usual));
+  if (!without_values_ && !(fits_domain(plan) && element_values(plan, around.environment, element))) return false;
   element.name = path;
   element.declaration = plan.declaration;
   element.a = ends.empty() ? ground : ends[0];
@@ -131,9 +154,27 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   element.spot = plan.spot;
   // A source (motion or force) has the force that it applies; any other element has the force applied to it.
   if (around.force)
-    around.force->push_back({static_cast<int>(scene_.elements.size()), context_.declarations[static_cast<std::size_t>(plan.declaration)]->is_source() ? -1 : 1});
+    around.force->push_back({static_cast<int>(scene_.elements.size()), context_.declarations[static_cast<std::size_t>(plan.declaration)]->is_source() ? -1.0 : 1.0});
   scene_.elements.push_back(std::move(element));
-  connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
+  if (!without_values_) connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
+  return true;
+}
+
+/// Whether the names of the parameters are those of the element's domain. A model may use the names of translation in both.
+bool Expander::fits_domain(const ElementTemplate& plan) {
+  if (!domains_) return true;
+  for (const Parameter& parameter : context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters) {
+    const bool rotation = context_.domain == Domain::rotation;
+    if (parameter.rotational_name.empty() || (plan.in_model && rotation)) continue;
+    const std::string& other = rotation ? parameter.name : parameter.rotational_name;
+    const TomlEntry* entry = plan.source->find(other);
+    if (!entry) continue;
+    context_.diagnostics.error(entry->spot,
+                               fmt::format("`{}` is called `{}` in {}, and `{}` is of {}", other, parameter.name_in(context_.domain),
+                                           rotation ? "rotation" : "translation", plan.name, rotation ? "rotation" : "translation"),
+                               "write `" + parameter.name_in(context_.domain) + "`");
+    return false;
+  }
   return true;
 }
 
@@ -256,6 +297,7 @@ bool Expander::group(const ElementTemplate& plan, Ends ends, const std::string& 
 }
 
 bool Expander::members(const ElementTemplate& plan, Ends ends, Level& level, const Surroundings& around) {
+  const Instead domain(domain_, plan.domain ? plan.domain : domain_);
   const bool series = plan.kind == ElementTemplate::Kind::series;
   if (around.depth > most_nested) return body(plan, ends, level.path, around);  // which reports the mistake
   bool good = true;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/netlist/domains.hpp"
 #include "core/netlist/element_templates.hpp"
 #include "core/netlist/overrides.hpp"
 #include "core/netlist/scene.hpp"
@@ -18,6 +19,11 @@ namespace rheonet {
 class Expander {
  public:
   Expander(Context& context, TemplateReader& planner, Scene& scene) : context_(context), planner_(planner), scene_(scene) {}
+
+  /// From now on elements get neither values nor signals: only their names, nodes, and domains as far as the file gives them.
+  void leave_out_values() { without_values_ = true; }
+  /// From now on each element is in its domain of `domains`, which must outlive this.
+  void use(const DomainOfElement& domains) { domains_ = &domains; }
 
   /// Expands all entries of the scene's own `elements`. `overrides` are those whose path begins with an element.
   void run(Scope& scope, const Environment& environment, const ActiveOverrides& overrides);
@@ -61,6 +67,7 @@ class Expander {
   bool instance(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
   bool repeat(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
 
+  bool fits_domain(const ElementTemplate& plan);
   bool element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
   bool element_values(const ElementTemplate& plan, const Environment& environment, SceneElement& element);
   Shared<double> shared_values(int declaration);
@@ -91,6 +98,9 @@ class Expander {
   std::vector<double> values_;        ///< of the element being made
   std::vector<Shared<double>> made_;  ///< for each declaration, the values of its last element
   std::set<std::string> failed_;
+  bool without_values_ = false;
+  const DomainOfElement* domains_ = nullptr;  ///< if elements may be in different domains
+  std::optional<Domain> domain_;              ///< given by the entry being expanded, or by what it is in
   LooseEnds loose_;
   /// The instance being expanded, to resolve its wires.
   struct Inside {

@@ -155,7 +155,7 @@ Expander::Terms Expander::take_port_forces(NodeId port, NodeId actual, std::size
   for (std::size_t i = first_element; i < scene_.elements.size(); ++i) {
     SceneElement& element = scene_.elements[i];
     // A source (motion or force) has the force that it applies; any other element has the force applied to it.
-    const int applied = context_.declarations[static_cast<std::size_t>(element.declaration)]->is_source() ? -1 : 1;
+    const double applied = context_.declarations[static_cast<std::size_t>(element.declaration)]->is_source() ? -1 : 1;
     if (element.a == port) {
       element.a = actual;
       terms.push_back({static_cast<int>(i), applied});

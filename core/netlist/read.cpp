@@ -5,6 +5,7 @@
 
 #include "core/netlist/analytic_solutions.hpp"
 #include "core/netlist/checks.hpp"
+#include "core/netlist/domains.hpp"
 #include "core/netlist/effects_table.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/expect_table.hpp"
@@ -113,14 +114,22 @@ class Reader {
   /// Reads the models and elements. Returns the names that have a mistake: further mistakes about them are not reported.
   std::set<std::string> read_network(const TomlEntry* elements, const Environment& environment, const fs::path& canonical) {
     Models models;
+    if (elements) context_.several_domains = names_other_domain(elements->value, context_) || overrides_name_domain();
     read_models(environment, canonical, models);
     TemplateReader planner(context_, models);
     Scope scope;
     if (elements) planner.read_elements(elements->value, scope);
     if (elements && elements->value.is_table() && elements->value.entries.empty())
       diagnostics_.error(elements->spot, "the scene has no elements");
+    const ActiveOverrides overrides = element_overrides(scope);
     Expander expander(context_, planner, scene_);
-    expander.run(scope, environment, element_overrides(scope));
+    DomainOfElement domains;
+    if (context_.several_domains) {
+      domains = find_domains(wiring(models, scope, environment, overrides), context_);
+      expander.use(domains);
+    }
+    expander.run(scope, environment, overrides);
+    if (context_.several_domains) set_node_domains(scene_, context_.declarations);
     check_names(scope, diagnostics_);  // again: overrides may have added nodes
 
     std::set<std::string> doubtful = expander.failed();
@@ -133,12 +142,40 @@ class Reader {
     return doubtful;
   }
 
+  /// The elements without values. Mistakes in them are reported when they get their values.
+  Scene wiring(const Models& models, Scope& scope, const Environment& environment, const ActiveOverrides& overrides) {
+    Scene result;
+    DiagnosticList untold(result_.sources);
+    Context context{context_.declarations, context_.domain, files_, untold, context_.several_domains, context_.models_missing};
+    TemplateReader planner(context, models);
+    Expander expander(context, planner, result);
+    expander.leave_out_values();
+    try {
+      expander.run(scope, environment, overrides);
+    } catch (const TooManyDiagnostics&) {  // they are told when the elements get their values
+    }
+    return result;
+  }
+
+  bool overrides_name_domain() const {
+    return std::any_of(overrides_.begin(), overrides_.end(), [&](const Override& override) {
+      return override.path.size() > 1 && (override.path.back().name == "domain" || override.path.back().name == "type");
+    });
+  }
+
   /// Reads the models of the scene and of the files that it includes.
   void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
     const std::size_t before = diagnostics_.errors();
     included_ = read_includes(document_, canonical, context_);
     context_.models_missing = diagnostics_.errors() > before;
     override_models(included_);
+    for (const IncludedFile& other : included_) {
+      const TomlEntry* table = other.document.find("models");
+      context_.several_domains = context_.several_domains || (table && names_other_domain(table->value, context_));
+    }
+    if (const TomlEntry* table = document_.find("models")) {
+      context_.several_domains = context_.several_domains || names_other_domain(table->value, context_);
+    }
     for (IncludedFile& other : included_)
       if (const TomlEntry* table = other.document.find("models"))
         declare_models(table->value, parameters_of(other.document), context_, models);

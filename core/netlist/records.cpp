@@ -82,6 +82,14 @@ std::optional<Record> resolve(const Path& path, const SceneIndex::Found& found) 
   return record;
 }
 
+/// Whether the record is a difference of an angle and a length.
+bool measures_across_domains(const Scene& scene, const Record& record) {
+  if (record.channel != Channel::displacement && record.channel != Channel::velocity) return false;
+  const auto k = static_cast<std::size_t>(record.index);
+  if (record.subject == Subject::element) return !scene.elements[k].at && joins_domains(scene, scene.elements[k].a, scene.elements[k].b);
+  return record.subject == Subject::assembly && joins_domains(scene, scene.assemblies[k].a, scene.assemblies[k].b);
+}
+
 void refuse(const Path& path, const SceneIndex::Found& found, bool sensed, Context& context, const Scene& scene) {
   const TomlValue& source = *path.source;
   if (!found.any()) {
@@ -127,13 +135,17 @@ std::vector<Record> every_record(const Scene& scene) {
       continue;
     }
     // An element at a node moves with the node, whose motion is recorded already.
-    if (scene.elements[i].at)
+    if (scene.elements[i].at || joins_domains(scene, scene.elements[i].a, scene.elements[i].b))
       add(scene.elements[i].name, Subject::element, i, {Channel::force});
     else
       add(scene.elements[i].name, Subject::element, i, {Channel::force, Channel::displacement, Channel::velocity});
   }
-  for (std::size_t i = 0; i < scene.assemblies.size(); ++i)
-    add(scene.assemblies[i].name, Subject::assembly, i, {Channel::force, Channel::displacement, Channel::velocity});
+  for (std::size_t i = 0; i < scene.assemblies.size(); ++i) {
+    if (joins_domains(scene, scene.assemblies[i].a, scene.assemblies[i].b))
+      add(scene.assemblies[i].name, Subject::assembly, i, {Channel::force});
+    else
+      add(scene.assemblies[i].name, Subject::assembly, i, {Channel::force, Channel::displacement, Channel::velocity});
+  }
   return records;
 }
 
@@ -177,8 +189,9 @@ BlockUnit unit_of(const Scene& scene, const Record& record) {
   if (record.subject == Subject::block) return scene.blocks[static_cast<std::size_t>(record.index)].unit;
   if (record.subject == Subject::expression) return scene.expressions[static_cast<std::size_t>(record.index)].unit;
   const bool by_angle = record.channel != Channel::force && !is_scalar(record.channel);
-  const double radian = scene.domain == Domain::rotation && by_angle ? 1 : 0;
-  return {dimension_of(quantity_of(record.channel), scene.domain), radian, false};
+  const Domain domain = domain_of(scene, record);
+  const double radian = domain == Domain::rotation && by_angle ? 1 : 0;
+  return {dimension_of(quantity_of(record.channel), domain), radian, false};
 }
 
 Number one_of(const BlockUnit& unit) {
@@ -200,7 +213,7 @@ std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
 
 std::string unit_text(const Scene& scene, const Record& record) {
   const auto known = quantity_of(scene, record);
-  return known ? unit_of(*known, scene.domain) : to_string(unit_of(scene, record).dimension);
+  return known ? unit_of(*known, domain_of(scene, record)) : to_string(unit_of(scene, record).dimension);
 }
 
 namespace {
@@ -244,7 +257,10 @@ std::vector<std::optional<Record>> find_records(const std::vector<TomlValue>& pa
     const auto found = index.find(path.object);
     if (path.object == "ground")
       diagnostics.error(path.source->spot, "`ground` never moves: there is nothing to record of it");
-    else if (auto record = resolve(path, found))
+    else if (auto record = resolve(path, found); record && measures_across_domains(scene, *record))
+      diagnostics.error(path.source->spot, "`" + path.object + "` has no `" + path.channel + "`: one of its ends turns, the other moves along a line",
+                     "record the motions of its nodes");
+    else if (record)
       records.back() = record->subject == Subject::assembly && is_scalar(record->channel)
                            ? sum_over_assembly(record->path, scene.assemblies[static_cast<std::size_t>(record->index)], record->channel,
                                                path.source->spot, context, scene)
@@ -330,7 +346,8 @@ void read_initial_values(const TomlValue& nodes, const Environment& environment,
       diagnostics.error(entry.spot, "no element names a node `" + entry.key + "`", hint);
       continue;
     }
-    const std::string hint = entry.key + " = { position = \"1 " + unit_of(Quantity::position, context.domain) + "\" }";
+    const Domain domain = domain_of(scene, scene.nodes[static_cast<std::size_t>(found.node)]);
+    const std::string hint = entry.key + " = { position = \"1 " + unit_of(Quantity::position, domain) + "\" }";
     if (!expect_table(entry.value, "node `" + entry.key + "`", diagnostics, hint)) continue;
     TableReader reader(entry.value, "a node");
     const auto value = [&](const char* key, Quantity quantity, double& target) {
@@ -338,7 +355,7 @@ void read_initial_values(const TomlValue& nodes, const Environment& environment,
       if (!given) return;
       const Formula formula(given->value, '`' + std::string(key) + '`', diagnostics);
       if (!formula.given()) return;
-      if (const auto si = formula.evaluate_finite(environment, quantity, context.domain, diagnostics)) target = *si;
+      if (const auto si = formula.evaluate_finite(environment, quantity, domain, diagnostics)) target = *si;
     };
     SceneNode& node = scene.nodes[static_cast<std::size_t>(found.node)];
     node.spot = entry.spot;

@@ -10,6 +10,37 @@ bool same_values(std::span<const double> one, std::span<const double> other) {
   return std::equal(one.begin(), one.end(), other.begin(), other.end(), same);
 }
 
+Domain domain_of(const Scene& scene, const SceneNode& node) { return node.domain.value_or(scene.domain); }
+
+Domain domain_of(const Scene& scene, const SceneElement& element) { return element.domain.value_or(scene.domain); }
+
+Domain domain_of(const Scene& scene, const Record& record) {
+  const std::size_t k = static_cast<std::size_t>(record.index);
+  switch (record.subject) {
+    case Record::Subject::node:
+      return domain_of(scene, scene.nodes[k]);
+    case Record::Subject::element:
+      return domain_of(scene, scene.elements[k]);
+    case Record::Subject::assembly: {
+      const SceneAssembly& assembly = scene.assemblies[k];
+      return domain_of(scene, scene.nodes[static_cast<std::size_t>(assembly.a == ground ? assembly.b : assembly.a)]);
+    }
+    case Record::Subject::block:
+    case Record::Subject::expression:
+      break;
+  }
+  return scene.domain;
+}
+
+bool in_both_domains(const Scene& scene) {
+  return std::any_of(scene.nodes.begin(), scene.nodes.end(), [&](const SceneNode& n) { return n.domain && *n.domain != scene.domain; });
+}
+
+bool joins_domains(const Scene& scene, NodeId a, NodeId b) {
+  const auto domain = [&](NodeId node) { return domain_of(scene, scene.nodes[static_cast<std::size_t>(node)]); };
+  return a != ground && b != ground && domain(a) != domain(b);
+}
+
 Quantity quantity_of(const Declaration& declaration, const SceneElement& element, std::size_t parameter) {
   const Parameter& p = declaration.parameters[parameter];
   for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {

@@ -39,6 +39,8 @@ struct SceneNode {
   double position = not_given;  ///< m | rad
   double velocity = not_given;  ///< m/s | rad/s
   Spot spot;                    ///< where it is first named, or its `[nodes]` entry if it has one
+  std::optional<Domain> domain = {};  ///< if not that of the scene: see domain_of
+  double scale = 1;             ///< its velocity is multiplied by this: core/network/transmission.hpp
 };
 
 struct SceneElement {
@@ -53,12 +55,14 @@ struct SceneElement {
   Shared<int> signal_parameters;  ///< indices into Declaration::parameters
   std::shared_ptr<const Characteristic> characteristic;  ///< of its parameter of that kind; nullptr if not given
   Spot spot;           ///< of its name
+  std::optional<Domain> domain = {};  ///< that of its first node, if not that of the scene: see domain_of
+  double scale = 1;    ///< its velocity is multiplied by this: core/network/transmission.hpp
 };
 
 /// A composed element (series, parallel, repeat, an instance of a model with two ports). Its force is the signed sum of the
 /// forces of its elements that end at its first node.
 struct SceneAssembly {
-  struct Term { int element; int sign; };
+  struct Term { int element; double sign; };
   std::string name;
   NodeId a = ground;
   NodeId b = ground;
@@ -106,6 +110,7 @@ struct Record {
   Subject subject = Subject::node;
   int index = 0;     ///< into nodes, elements, assemblies, blocks or expressions
   Channel channel = Channel::position;
+  double factor = 1;  ///< of the quantity of the network: in common units (core/network/transmission.hpp) not always 1
 };
 
 /// A record that is computed from others: an entry `{ name, value }` of `simulate.record`, or the sum of a quantity over the
@@ -147,7 +152,7 @@ struct ExactRecord {
 /// A netlist, checked and flattened: values are in SI, references resolved; models, series, parallel and repeat expanded.
 struct Scene {
   std::string title;
-  Domain domain = Domain::translation;
+  Domain domain = Domain::translation;   ///< of nodes and elements that say nothing else
   std::vector<SceneNode> nodes;          ///< [0] is ground
   std::vector<SceneElement> elements;    ///< in the order of the file
   std::vector<SceneAssembly> assemblies;
@@ -171,6 +176,7 @@ struct Scene {
     steady,  ///< in steady motion under the inputs at the start
   };
   StartFrom start_from = StartFrom::given;
+  bool common_units = false;  ///< made by in_common_units: core/network/transmission.hpp
   double start = 0;         ///< s
   double stop = 0;          ///< s, > start
   double accuracy = 1e-6;   ///< relative, 1e-12 .. 0.1
@@ -188,6 +194,15 @@ void for_each_operand(const Scene& scene, const Record& record, Visit visit) {
   }
   for (const Record& operand : scene.expressions[static_cast<std::size_t>(record.index)].operands) visit(operand);
 }
+
+/// The domain of a node, of an element (that of its first node), and of what a record belongs to.
+Domain domain_of(const Scene& scene, const SceneNode& node);
+Domain domain_of(const Scene& scene, const SceneElement& element);
+Domain domain_of(const Scene& scene, const Record& record);
+/// Whether some node belongs to another domain than the others.
+bool in_both_domains(const Scene& scene);
+/// Whether an element or assembly between these nodes joins the two domains: it has no displacement and no velocity.
+bool joins_domains(const Scene& scene, NodeId a, NodeId b);
 
 /// Quantity of a parameter of an element: a number where it is a coefficient of another one that is given.
 Quantity quantity_of(const Declaration& declaration, const SceneElement& element, std::size_t parameter);

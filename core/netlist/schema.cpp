@@ -106,9 +106,12 @@ Json inputs_schema(const Declaration::Inputs& inputs) {
   return inputs.most == 1 ? one : list_of(one, static_cast<int>(inputs.least));
 }
 
+Json domain_schema(const std::string& description) { return {{"enum", {"translation", "rotation"}}, {"description", description}}; }
+
 Json ports_properties(Declaration::Ports ports) {
   Json properties = Json::object();
   if (ports == Declaration::Ports::block) return properties;
+  properties["domain"] = domain_schema("of its nodes; without it, that of the elements around, or that of the scene");
   if (ports != Declaration::Ports::at) properties["between"] = reference("between");
   if (ports != Declaration::Ports::between) properties["at"] = reference("at");
   return properties;
@@ -142,7 +145,7 @@ Json element_schema(const Declaration& declaration) {
 }
 
 Json group_schema() {
-  Json properties{{"between", reference("between")}};
+  Json properties{{"between", reference("between")}, {"domain", domain_schema("of all its members")}};
   properties.update(common_properties());
   properties["series"] =
       described(list_of(reference("member"), 1), "members one after the other, from the first node on");
@@ -169,7 +172,8 @@ Json body_schema(Declarations declarations) {
   }
   types.push_back(text("the name of a model"));
   for (const char* kind : {"series", "parallel"}) cases.push_back(if_then({{"required", {kind}}}, "group"));
-  Json properties{{"type", {{"anyOf", std::move(types)}}}, {"at", reference("at")}, {"between", reference("between")}};
+  Json properties{{"type", {{"anyOf", std::move(types)}}}, {"at", reference("at")}, {"between", reference("between")},
+                  {"domain", domain_schema("of its nodes")}};
   properties.update(common_properties());
   Json schema{{"type", "object"}, {"properties", std::move(properties)}};
   schema.update(one_required({"type", "series", "parallel"}));

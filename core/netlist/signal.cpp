@@ -235,6 +235,30 @@ double recent_beginning(double time, double frequency) {
   return -(over + 1) / frequency;
 }
 
+struct Times {
+  double factor;
+
+  Signal::Shape operator()(Signal::Constant s) const { return Signal::Constant{factor * s.value}; }
+  Signal::Shape operator()(Signal::Step s) const { return Signal::Step{factor * s.height, s.time, factor * s.offset}; }
+  Signal::Shape operator()(Signal::Ramp s) const { return Signal::Ramp{factor * s.slope, s.time, factor * s.offset}; }
+  Signal::Shape operator()(Signal::Pulse s) const {
+    s.height *= factor;
+    s.offset *= factor;
+    return s;
+  }
+  Signal::Shape operator()(Signal::Table s) const {
+    for (double& value : s.values) value *= factor;
+    s.offset *= factor;
+    return s;
+  }
+  template <class Periodic>  // Sine, Square, Triangle, Chirp
+  Signal::Shape operator()(Periodic s) const {
+    s.amplitude *= factor;
+    s.offset *= factor;
+    return s;
+  }
+};
+
 struct SeenFrom {
   double start;
 
@@ -342,6 +366,8 @@ double Piece::spin(double a, double b) const {
 Signal::Signal(Shape shape) : shape_(std::make_shared<const Shape>(std::move(shape))), curves_(curves_of(*shape_)) {}
 
 Signal Signal::seen_from(double start) const { return Signal(std::visit(SeenFrom{start}, *shape_)); }
+
+Signal Signal::times(double factor) const { return Signal(std::visit(Times{factor}, *shape_)); }
 
 Piece Signal::piece(double t) const { return std::visit(PieceAt{t, curves_.get()}, *shape_); }
 

@@ -89,6 +89,9 @@ class Signal {
   /// no accuracy.
   Signal seen_from(double start) const;
 
+  /// The signal with all its values multiplied by `factor`.
+  Signal times(double factor) const;
+
   const Shape& shape() const { return *shape_; }
   /// Of a smooth table, between its jumps; else nullptr.
   const std::vector<Curve>* curves() const { return curves_.get(); }

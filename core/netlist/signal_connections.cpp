@@ -279,12 +279,13 @@ class Connection {
     if (unit.open) return;
     const Parameter& wanted = declaration(end.element).parameters[at(end.connection->parameter)];
     const Quantity quantity = quantity_of(declaration(end.element), scene_.elements[at(end.element)], at(end.connection->parameter));
-    const auto checked = as_quantity(one_of(unit), quantity, context_.domain);
+    const Domain domain = domain_of(scene_, scene_.elements[at(end.element)]);
+    const auto checked = as_quantity(one_of(unit), quantity, domain);
     const auto* wrong = std::get_if<TextError>(&checked);
     if (!wrong) return;
     const Within within(diagnostics_, end);
     diagnostics_.error(end.connection->source->spot,
-                    "`" + wanted.name_in(context_.domain) + "`" + (quantity != wanted.quantity ? " (which multiplies `" + wanted.coefficient_with + "`)" : "") +
+                    "`" + wanted.name_in(domain) + "`" + (quantity != wanted.quantity ? " (which multiplies `" + wanted.coefficient_with + "`)" : "") +
                         " from block `" + end.path + "`: " + wrong->message);
   }
 

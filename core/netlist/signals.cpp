@@ -146,7 +146,8 @@ void SignalTemplate::read_points(const TomlValue& source, Context& context) {
 
 std::optional<Signal> SignalTemplate::evaluate(const Environment& environment, Context& context) const {
   if (!sound_) return {};
-  if (constant_ && made_) return made_;
+  if (constant_ && made_ && made_in_ == context.domain) return made_;
+  made_in_ = context.domain;
   unit_ = quantity_ ? BlockUnit{dimension_of(*quantity_, context.domain), 0, false} : BlockUnit{};
   made_ = make(environment, context);
   if (made_ && !is_finite(*made_)) {

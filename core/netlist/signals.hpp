@@ -75,6 +75,7 @@ class SignalTemplate {
   /// Contents of the file, nullptr if it has a mistake. Read when first needed, because an override may replace the file.
   mutable std::optional<std::shared_ptr<const TableFile>> file_;
   mutable std::optional<Signal> made_;
+  mutable Domain made_in_ = Domain::translation;  ///< the domain in which made_ was evaluated
   mutable BlockUnit unit_;
 };
 

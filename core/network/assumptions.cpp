@@ -55,7 +55,7 @@ void tell_meaningless(Network& network) {
       const std::string reason = fmt::format("to {} ({})", name_of(law), why);
       auto found = std::find_if(told.begin(), told.end(), [&](const auto& t) { return t.first == reason; });
       if (found == told.end()) found = told.insert(found, {reason, {}});
-      found->second.push_back(element.name + "." + component.declaration.parameters[k].name_in(scene.domain));
+      found->second.push_back(element.name + "." + component.declaration.parameters[k].name_in(domain_of(scene, element)));
     }
   }
   for (const auto& [reason, paths] : told) {

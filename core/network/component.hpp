@@ -248,6 +248,8 @@ struct Component {
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
   std::function<Box(std::span<const Dual>)> box = {};
+  /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second. See transmission.hpp.
+  std::function<double(std::span<const double>)> ratio = {};
   std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is a linear spring
   Symbol drawing = {};             ///< if empty, a plain box

@@ -12,6 +12,7 @@
 #include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/linear_law.hpp"
+#include "core/network/transmission.hpp"
 
 namespace rheonet {
 
@@ -130,8 +131,12 @@ std::string at_time(const Scene& scene, double t) {
   return fmt::format("at t = {:.{}g} s", scene.start + t, std::min(digits, numerics::most_time_digits));
 }
 
-std::string with_unit(const Scene& scene, double value, Quantity quantity) {
-  return fmt::format("{:.6g} {}", value, unit_of(quantity, scene.domain));
+std::string with_unit(const Scene& scene, const SceneNode& of, double value, Quantity quantity) {
+  return fmt::format("{:.6g} {}", value * own_unit(quantity, of.scale), unit_of(quantity, domain_of(scene, of)));
+}
+
+std::string with_unit(const Scene& scene, const SceneElement& of, double value, Quantity quantity) {
+  return fmt::format("{:.6g} {}", value * own_unit(quantity, of.scale), unit_of(quantity, domain_of(scene, of)));
 }
 
 bool prescribes(const SceneElement& motion, Quantity quantity) {

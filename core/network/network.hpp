@@ -92,6 +92,7 @@ struct Network {
   /// The batch that holds deflection branch number `branch`, and its index there.
   DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   RateBatch& rate_of(int branch, std::size_t& i) const;
+  const SceneElement& element_of(const Branch& branch) const { return scene->elements[static_cast<std::size_t>(branch.element)]; }
   /// Places of an element and of a node in the netlist.
   const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }
   const Spot& spot_of_node(NodeId n) const { return node(n).spot; }
@@ -105,8 +106,10 @@ struct Network {
 /// "at t = 1.3 s", for messages. `t` counts from the scene's start, the time shown does not.
 std::string at_time(const Scene& scene, double t);
 
-/// "0.3 m" or "0.3 rad": for messages.
-std::string with_unit(const Scene& scene, double value, Quantity quantity);
+/// "0.3 m" or "0.3 rad", for messages: a quantity of a node or of an element, in its own unit. `value` is in the unit in which
+/// the scene computes (transmission.hpp).
+std::string with_unit(const Scene& scene, const SceneNode& of, double value, Quantity quantity);
+std::string with_unit(const Scene& scene, const SceneElement& of, double value, Quantity quantity);
 
 /// Whether an element of the role `motion` prescribes this quantity: position, velocity or acceleration.
 bool prescribes(const SceneElement& motion, Quantity quantity);

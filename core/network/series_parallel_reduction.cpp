@@ -198,13 +198,14 @@ class Merger {
   void take(const Record& record) {
     SeriesParallelReduction::Sum sum;
     if (record.subject == Record::Subject::element && kind_[at(record.index)] != 0) {
-      add(record.index, record.channel, 1, sum);
+      add(record.index, record.channel, record.factor, sum);
     } else if (record.subject == Record::Subject::assembly && record.channel == Record::Channel::force) {
-      for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force) add(term.element, record.channel, term.sign, sum);
+      for (const SceneAssembly::Term& term : scene_.assemblies[at(record.index)].force) add(term.element, record.channel, record.factor * term.sign, sum);
     } else {
       Record same = record;
       renumber(same);
-      sum.terms.emplace_back(base(same), 1);
+      same.factor = 1;
+      sum.terms.emplace_back(base(same), record.factor);
     }
     result_.records.push_back(std::move(sum));
   }

@@ -14,6 +14,7 @@
 #include "core/network/component.hpp"
 #include "core/network/linear_law.hpp"
 #include "core/network/network.hpp"
+#include "core/network/transmission.hpp"
 
 namespace rheonet {
 
@@ -101,7 +102,7 @@ void Balances::find_nodes(const Scene& scene) {
         scene_.records.push_back({.path = element.name + ".force", .subject = Record::Subject::element,
                                   .index = static_cast<int>(e), .channel = Record::Channel::force});
       }
-      nodes_[found->second].terms.push_back({record->second, s});
+      nodes_[found->second].terms.push_back({record->second, s / scene_.records[record->second].factor});
     };
     meet(element.a, sign);
     if (!element.at) meet(element.b, -sign);
@@ -114,13 +115,15 @@ std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double al
   for (const Node& node : nodes_) {
     double largest = 0, sum = 0, time = 0;
     for (const std::vector<double>& row : trajectory.rows) {
-      for (const Term& term : node.terms) largest = std::max(largest, std::abs(row[term.record]));
+      for (const Term& term : node.terms) largest = std::max(largest, std::abs(term.sign * row[term.record]));
     }
     const double rounding = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon() * largest;
     // The largest imbalance, and the first time at which it exceeds the limit of each record.
     std::vector<double> first(node.forces.size() + node.movements.size(), not_given);
+    // The sum is in common units, the error of a record in its own unit.
+    const auto own = [&](std::size_t record) { return std::abs(scene_.records[record].factor); };
     const auto allows = [&](std::size_t i) {
-      return i < node.forces.size() ? allowed * errors[node.forces[i]].scale : allowed * largest;
+      return i < node.forces.size() ? allowed * errors[node.forces[i]].scale / own(node.forces[i]) : allowed * largest;
     };
     for (std::size_t i = 0; i < trajectory.rows.size(); ++i) {
       double left = 0;
@@ -138,15 +141,15 @@ std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double al
     for (std::size_t k = 0; k < first.size(); ++k) {
       const bool force = k < node.forces.size();
       RecordError& error = errors[force ? node.forces[k] : node.movements[k - node.forces.size()]];
-      const double off = force ? sum : sum / largest * error.scale;
-      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= numerics::sizeless_record * allowed * largest;
+      const double off = force ? sum * own(node.forces[k]) : sum / largest * error.scale;
+      const bool sizeless = off > error.scale / 2 && std::max(off, error.scale) <= numerics::sizeless_record * allowed * largest * (force ? own(node.forces[k]) : 1);
       if (off <= error.largest || (force && sizeless)) continue;
       error.beyond = std::fmin(error.beyond, first[k]);
       error.largest = off;
       error.time = time;
       if (error.relative() <= most) continue;
       most = error.relative();
-      worst = {scene_.nodes[at(node.id)].name, {}, sum, largest, time};
+      worst = {scene_.nodes[at(node.id)].name, node.id, {}, sum * own_unit(Quantity::force, std::abs(scene_.nodes[at(node.id)].scale)), largest * own_unit(Quantity::force, std::abs(scene_.nodes[at(node.id)].scale)), time};
       for (const Term& term : node.terms) worst->elements.push_back(scene_.elements[at(scene_.records[term.record].index)].name);
     }
   }
@@ -155,7 +158,7 @@ std::optional<Imbalance> Balances::raise(const Trajectory& trajectory, double al
 
 std::string describe(const Scene& scene, const Imbalance& imbalance) {
   return fmt::format("the forces of {} at node `{}` sum to {}, {:.2g} of the largest of them, {}", format_list(imbalance.elements),
-                     imbalance.node, with_unit(scene, imbalance.sum, Quantity::force), imbalance.sum / imbalance.largest,
+                     imbalance.node, fmt::format("{:.6g} {}", imbalance.sum, unit_of(Quantity::force, domain_of(scene, scene.nodes[at(imbalance.id)]))), imbalance.sum / imbalance.largest,
                      at_time(scene, imbalance.time - scene.start));
 }
 

@@ -12,6 +12,7 @@ namespace rheonet {
 /// An imbalance of forces at a massless node, in the rows of a run.
 struct Imbalance {
   std::string node;                   ///< its name
+  NodeId id = ground;                 ///< its index
   std::vector<std::string> elements;  ///< names of the elements at the node
   double sum = 0;                     ///< magnitude of the sum of their forces [N]
   double largest = 0;                 ///< largest of these forces in the run [N]

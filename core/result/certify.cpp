@@ -19,6 +19,7 @@
 
 #include "core/base/numerics.hpp"
 #include "core/network/network.hpp"
+#include "core/network/transmission.hpp"
 #include "core/result/csv.hpp"
 
 namespace rheonet {
@@ -234,7 +235,10 @@ class Certification {
 
 }  // namespace
 
-Certificate certify(const Scene& scene, const RunSettings& settings) { return Certification(scene, settings).go(); }
+Certificate certify(const Scene& scene, const RunSettings& settings) {
+  const std::optional<Scene> converted = in_common_units(scene);
+  return Certification(converted ? *converted : scene, settings).go();
+}
 
 Summary run_certified(const Scene& asked, const RunSettings& settings) {
   Scene scene = asked;

@@ -20,6 +20,7 @@
 #include "core/network/reductions.hpp"
 #include "core/network/resolved.hpp"
 #include "core/network/series_parallel_reduction.hpp"
+#include "core/network/transmission.hpp"
 #include "core/result/cpu_time.hpp"
 #include "core/result/grouped.hpp"
 #include "core/result/output_sampler.hpp"
@@ -216,19 +217,19 @@ class Explainer {
     const auto add = [&](int unknown, Explanation::Unknowns line, const std::string& name) {
       if (unknown < 0) return;
       line.differential = dae.differential(unknown);
-      unknowns.add(line.quantity + line.equation + (line.differential ? "'" : ""), line, name);
+      unknowns.add(line.quantity + line.unit + line.equation + (line.differential ? "'" : ""), line, name);
       ++(line.differential ? result_.structure.differential : result_.structure.algebraic);
     };
-    const auto unit = [&](Quantity quantity) { return unit_of(quantity, scene_.domain); };
+    const auto unit = [&](const auto& of, Quantity quantity) { return unit_of(quantity, domain_of(scene_, of)); };
     const Structure& structure = dae.structure();
     for (const NodeId node : network_.node_order) {
       const bool massive = structure.kind[at(node)] == Kind::massive;
       add(dae.velocity_unknown(node),
-          {.quantity = "velocity", .unit = unit(Quantity::velocity),
+          {.quantity = "velocity", .unit = unit(network_.node(node), Quantity::velocity),
            .equation = massive ? "mass times acceleration is the sum of forces" : "the forces at the node balance", .of_nodes = true},
           network_.node_name(node));
       add(dae.position_unknown(node),
-          {.quantity = "position", .unit = unit(Quantity::position), .equation = "its rate is the velocity", .of_nodes = true},
+          {.quantity = "position", .unit = unit(network_.node(node), Quantity::position), .equation = "its rate is the velocity", .of_nodes = true},
           network_.node_name(node));
     }
     std::vector<char> in_tree(network_.deflections.size(), 0);
@@ -241,11 +242,11 @@ class Explainer {
       const bool creeps = dae.batch_of(branch, i).creeps(i);
       const std::string rate = creeps ? "its rate is the velocity of its ends, less what flows" : "its rate is the velocity of its ends";
       add(dae.deflection_unknown(branch),
-          {.quantity = "deflection", .unit = unit(Quantity::position), .equation = in_tree[j] ? "the forces at its end balance" : rate},
+          {.quantity = "deflection", .unit = unit(network_.element_of(network_.deflections[j]), Quantity::position), .equation = in_tree[j] ? "the forces at its end balance" : rate},
           network_.name_of(network_.deflections[j]));
     }
     for (std::size_t r = 0; r < network_.rates.size(); ++r) {
-      add(dae.force_unknown(static_cast<int>(r)), {.quantity = "force", .unit = unit(Quantity::force), .equation = "its law"},
+      add(dae.force_unknown(static_cast<int>(r)), {.quantity = "force", .unit = unit(network_.element_of(network_.rates[r]), Quantity::force), .equation = "its law"},
           network_.name_of(network_.rates[r]));
     }
     const BlockSignals& blocks = const_cast<Dae&>(dae).inputs().blocks();
@@ -381,6 +382,9 @@ class Explainer {
 
 }  // namespace
 
-Explanation explain(const Scene& scene) { return Explainer(scene).explain(); }
+Explanation explain(const Scene& scene) {
+  const std::optional<Scene> converted = in_common_units(scene);
+  return Explainer(converted ? *converted : scene).explain();
+}
 
 }  // namespace rheonet

@@ -258,7 +258,7 @@ const std::vector<double>& OutputSampler::read_state(double t, const std::vector
     rates = &yp_;
   }
   const Dae::View& view = dae_->view(t, y.data(), rates->data());
-  for (std::size_t k = 0; k < operands_.size(); ++k) values_[k] = value(k, view, *rates);
+  for (std::size_t k = 0; k < operands_.size(); ++k) values_[k] = operands_[k]->factor * value(k, view, *rates);
   std::span<const double> left(values_);
   for (std::size_t k = 0; k < row_.size(); ++k) {
     if (records_[k].subject != Record::Subject::expression) {

@@ -14,6 +14,7 @@
 #include "core/base/numerics.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/network.hpp"
+#include "core/network/transmission.hpp"
 #include "core/result/certify.hpp"
 #include "core/result/claims.hpp"
 #include "core/result/cpu_time.hpp"
@@ -262,6 +263,7 @@ Summary run_influence_cone(const Scene& scene, const InfluenceCone& reach, const
 }  // namespace
 
 Summary run(const Scene& scene, const RunSettings& settings) {
+  if (const std::optional<Scene> converted = in_common_units(scene)) return run(*converted, settings);
   const auto wall = std::chrono::steady_clock::now();
   const std::optional<InfluenceCone> reach = influence_cone(scene);
   if (!reach) return run_near(scene, settings);
@@ -286,6 +288,7 @@ namespace {
 
 /// One scene as a whole.
 Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
+  if (const std::optional<Scene> converted = in_common_units(scene)) return integrate(*converted, settings, locate_events);
   const auto wall = std::chrono::steady_clock::now();
   const double cpu = cpu_seconds();
   const Network network = build_network(scene);
@@ -371,6 +374,7 @@ class StartObserver final : public Observer {
 }  // namespace
 
 StartReport check(const Scene& scene) {
+  if (const std::optional<Scene> converted = in_common_units(scene)) return check(*converted);
   const Network network = build_network(scene);
   StartObserver observer(network);
   const SimulationSettings settings{

@@ -79,6 +79,7 @@ class Taker {
     scene_.without = whole_.without;
     scene_.keep = whole_.keep;
     scene_.start_from = whole_.start_from;
+    scene_.common_units = whole_.common_units;
     scene_.start = whole_.start;
     scene_.stop = whole_.stop;
     scene_.accuracy = whole_.accuracy;

@@ -58,7 +58,7 @@ std::string unit_of_parameter(const Scene& scene, int index, const Parameter& pa
     for (std::size_t k = 0; k < declaration.parameters.size(); ++k)
       if (declaration.parameters[k].name == parameter.flow_index) flow_index = element.values[k];
     const auto number = static_cast<std::size_t>(&parameter - declaration.parameters.data());
-    return unit_of(quantity_of(declaration, element, number), scene.domain, flow_index);
+    return unit_of(quantity_of(declaration, element, number), domain_of(scene, element), flow_index);
   }
   const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(),
                                   [index](const SceneBlock& each) { return each.element == index; });

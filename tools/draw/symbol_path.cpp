@@ -67,7 +67,7 @@ const Symbol& symbol_of(const Component& component, Domain domain) {
 Symbol symbol_of(const Scene& scene, int element) {
   const SceneElement& drawn = scene.elements[static_cast<std::size_t>(element)];
   const Component& component = *components()[static_cast<std::size_t>(drawn.declaration)];
-  Symbol symbol = symbol_of(component, scene.domain);
+  Symbol symbol = symbol_of(component, domain_of(scene, drawn));
   if (component.signal_drawing) symbol.lines += component.signal_drawing(drawn.signals.front());
   return symbol;
 }

@@ -80,7 +80,7 @@ class Finder {
       const Parameter* declared = nullptr;
       if (declaration)
         for (const Parameter& p : declaration->parameters)
-          if (p.name_in(scene_.domain) == entry.key) declared = &p;
+          if (p.name == entry.key || (!p.rotational_name.empty() && p.rotational_name == entry.key)) declared = &p;
       if (entry.value.is_table())
         each(entry.value, group, before + entry.key + ".", nullptr);
       else

@@ -90,15 +90,15 @@ json elements(const Scene& scene) {
 
 /// The laws of the element types that are used, each once.
 json equations(const Scene& scene) {
-  std::set<int> used;
-  for (const SceneElement& element : scene.elements) used.insert(element.declaration);
+  std::map<int, Domain> used;  // each type, in the domain of its first element
+  for (const SceneElement& element : scene.elements) used.emplace(element.declaration, domain_of(scene, element));
   json list = json::array();
-  for (const int index : used) {
+  for (const auto& [index, domain] : used) {
     const Declaration& d = components()[static_cast<std::size_t>(index)]->declaration;
     json symbols = json::array();
     for (const Parameter& p : d.parameters)
       if (!p.symbol.empty())
-        symbols.push_back({draw::in_print(p.symbol), p.name_in(scene.domain), p.description});
+        symbols.push_back({draw::in_print(p.symbol), p.name_in(domain), p.description});
     list.push_back({{"type", d.type},
                     {"tex", d.equation},
                     {"law", d.law},

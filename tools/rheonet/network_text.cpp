@@ -33,8 +33,8 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
   std::vector<std::string> values;
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
-    const std::string name = parameter.name_in(scene.domain);
-    const std::string unit = unit_of(quantity_of(declaration, element, i), scene.domain, flow_index_of(parameter, declaration, element));
+    const std::string name = parameter.name_in(domain_of(scene, element));
+    const std::string unit = unit_of(quantity_of(declaration, element, i), domain_of(scene, element), flow_index_of(parameter, declaration, element));
     const auto& with_signal = element.signal_parameters;
     const auto found = std::find(with_signal.begin(), with_signal.end(), static_cast<int>(i));
     const auto fed = std::find_if(scene.feeds.begin(), scene.feeds.end(), [&](const SceneFeed& feed) {
@@ -61,7 +61,7 @@ std::string describe_network(const Scene& scene) {
     text += fmt::format(pattern, std::forward<Args>(values)...);
   };
   print("{} ({})\n", scene.title.empty() ? "untitled" : printable(scene.title),
-        scene.domain == Domain::rotation ? "rotation" : "translation");
+        in_both_domains(scene) ? "rotation and translation" : scene.domain == Domain::rotation ? "rotation" : "translation");
   print("{:g} s to {:g} s, accuracy {:g}, {} output times, {}\n", scene.start, scene.stop, scene.accuracy,
         scene.output_intervals + 1, count(scene.records.size(), "recorded quantity", "recorded quantities"));
 
@@ -75,10 +75,10 @@ std::string describe_network(const Scene& scene) {
   for (const SceneNode& node : scene.nodes) {
     std::string start = &node == &scene.nodes.front() ? "  never moves" : "";
     if (start.empty() && !std::isnan(node.position)) {
-      start += fmt::format("  position = {:.10g} {}", node.position, unit_of(Quantity::position, scene.domain));
+      start += fmt::format("  position = {:.10g} {}", node.position, unit_of(Quantity::position, domain_of(scene, node)));
     }
     if (&node != &scene.nodes.front() && !std::isnan(node.velocity)) {
-      start += fmt::format("  velocity = {:.10g} {}", node.velocity, unit_of(Quantity::velocity, scene.domain));
+      start += fmt::format("  velocity = {:.10g} {}", node.velocity, unit_of(Quantity::velocity, domain_of(scene, node)));
     }
     print("  {:<{}}{}\n", node.name, start.empty() ? 0 : name_width, start);
   }

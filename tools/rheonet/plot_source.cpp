@@ -108,11 +108,12 @@ class SceneSource final : public PlotSource {
 };
 
 plot::Measure measure_of(const Scene& scene, const Record& record) {
-  if (const auto known = plot::measure_of_record(record.path, scene.domain)) return *known;
+  const Domain domain = domain_of(scene, record);
+  if (const auto known = plot::measure_of_record(record.path, domain)) return *known;
   const auto quantity = quantity_of(scene, record);
   if (!quantity && unit_of(scene, record).open) return {record.path, "", {}};
-  const bool length = quantity == Quantity::position && scene.domain == Domain::translation;
-  return plot::measure(!quantity ? "signal" : length ? "position" : name_of(*quantity, scene.domain), unit_text(scene, record));
+  const bool length = quantity == Quantity::position && domain == Domain::translation;
+  return plot::measure(!quantity ? "signal" : length ? "position" : name_of(*quantity, domain), unit_text(scene, record));
 }
 
 }  // namespace

@@ -1,0 +1,157 @@
+#include "core/netlist/domains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/base/format_list.hpp"
+
+namespace rheonet {
+
+namespace {
+
+std::size_t at_index(int i) { return static_cast<std::size_t>(i); }
+
+const char* in_words(Domain domain) { return domain == Domain::rotation ? "rotation" : "translation"; }
+
+/// The domain that a type of the scene gives its nodes, if it differs from that of the scene for any of them.
+bool of_other_domain(const std::string& type, const Context& context) {
+  return std::any_of(context.declarations.begin(), context.declarations.end(), [&](const Declaration* d) {
+    if (!d->rotational_type.empty() && d->rotational_type == type) return context.domain != Domain::rotation;
+    return d->type == type && std::any_of(d->domains.begin(), d->domains.end(), [&](Domain domain) { return domain != context.domain; });
+  });
+}
+
+/// Spreads the domains over the nodes, nearest giver first, so that the two ways to a contradiction are the shortest ones.
+class Spread {
+ public:
+  Spread(const Scene& scene, Context& context) : scene_(scene), context_(context), places_(scene.nodes.size()), around_(scene.nodes.size()) {
+    for (std::size_t e = 0; e < scene.elements.size(); ++e) {
+      const SceneElement& element = scene.elements[e];
+      if (element.a != ground && element.b != ground && passes(e)) {
+        around_[at_index(element.a)].push_back(static_cast<int>(e));
+        around_[at_index(element.b)].push_back(static_cast<int>(e));
+      }
+    }
+    for (std::size_t e = 0; e < scene.elements.size(); ++e) begin_at(static_cast<int>(e));
+    for (std::size_t k = 0; k < reached_.size(); ++k) go_on(reached_[k]);
+  }
+
+  bool contradicts() const { return contradicts_; }
+
+  Domain of(std::size_t e) const {
+    const SceneElement& element = scene_.elements[e];
+    if (!declaration(e).domains.empty()) return declaration(e).domains.front();
+    for (const NodeId node : {element.a, element.b}) {
+      if (node != ground && places_[at_index(node)].domain) return *places_[at_index(node)].domain;
+    }
+    return element.domain.value_or(context_.domain);
+  }
+
+ private:
+  /// How a node came to its domain.
+  struct Place {
+    std::optional<Domain> domain = {};
+    int by = -1;           ///< the element that gave it
+    NodeId from = ground;  ///< the node at the other end of `by`; ground if the element has the domain itself
+  };
+
+  const Declaration& declaration(std::size_t e) const { return *context_.declarations[at_index(scene_.elements[e].declaration)]; }
+  bool passes(std::size_t e) const { return declaration(e).domains.empty() && declaration(e).ports != Declaration::Ports::block; }
+
+  void begin_at(int e) {
+    const SceneElement& element = scene_.elements[at_index(e)];
+    const Declaration& declared = declaration(at_index(e));
+    if (declared.ports == Declaration::Ports::block) return;
+    const std::vector<Domain>& own = declared.domains;
+    if (own.empty() && !element.domain) return;
+    give(element.a, own.empty() ? *element.domain : own[0], e, ground);
+    if (!element.at) give(element.b, own.empty() ? *element.domain : own[1], e, ground);
+  }
+
+  void go_on(NodeId node) {
+    for (const int e : around_[at_index(node)]) {
+      const SceneElement& element = scene_.elements[at_index(e)];
+      give(element.a == node ? element.b : element.a, *places_[at_index(node)].domain, e, node);
+    }
+  }
+
+  void give(NodeId node, Domain domain, int by, NodeId from) {
+    if (node == ground) return;
+    Place& place = places_[at_index(node)];
+    if (!place.domain) {
+      place = {domain, by, from};
+      reached_.push_back(node);
+    } else if (*place.domain != domain) {
+      refuse(node, domain, by, from);
+    }
+  }
+
+  void refuse(NodeId node, Domain domain, int by, NodeId from) {
+    contradicts_ = true;
+    const SceneElement& element = scene_.elements[at_index(by)];
+    const Place& place = places_[at_index(node)];
+    const std::string& name = scene_.nodes[at_index(node)].name;
+    context_.diagnostics.error(
+        element.spot,
+        fmt::format("node `{}` would be of {}, by {}, and of {}, by {}", name, in_words(*place.domain), way(place.by, place.from),
+                    in_words(domain), way(by, from)),
+        "a `rack` or a `screw` joins a rotating node and one that moves along a line; all other elements have both nodes in one domain");
+  }
+
+  /// "`motor`", "`motor` through `k1`, `k2`": the element that has the domain, and those that pass it on.
+  std::string way(int by, NodeId from) const {
+    std::vector<std::string> through;
+    while (from != ground) {
+      through.push_back(scene_.elements[at_index(by)].name);
+      by = places_[at_index(from)].by;
+      from = places_[at_index(from)].from;
+    }
+    std::reverse(through.begin(), through.end());
+    const std::string giver = "`" + scene_.elements[at_index(by)].name + "`";
+    return through.empty() ? giver : giver + " through " + format_list(through);
+  }
+
+  const Scene& scene_;
+  Context& context_;
+  std::vector<Place> places_;
+  std::vector<std::vector<int>> around_;  ///< of each node: the elements through which a domain goes on
+  std::vector<NodeId> reached_;
+  bool contradicts_ = false;
+};
+
+}  // namespace
+
+bool names_other_domain(const TomlValue& part, const Context& context) {
+  for (const TomlValue& item : part.items) {
+    if (names_other_domain(item, context)) return true;
+  }
+  for (const TomlEntry& entry : part.entries) {
+    if (entry.key == "domain" && entry.value.is_string() && entry.value.text != in_words(context.domain)) return true;
+    if (entry.key == "type" && entry.value.is_string() && of_other_domain(entry.value.text, context)) return true;
+    if (names_other_domain(entry.value, context)) return true;
+  }
+  return false;
+}
+
+DomainOfElement find_domains(const Scene& scene, Context& context) {
+  const Spread spread(scene, context);
+  if (spread.contradicts()) throw TooManyDiagnostics{};  // units that do not fit would only repeat it
+  DomainOfElement result;
+  for (std::size_t e = 0; e < scene.elements.size(); ++e) result.emplace(scene.elements[e].name, spread.of(e));
+  return result;
+}
+
+void set_node_domains(Scene& scene, const Declarations& declarations) {
+  for (const SceneElement& element : scene.elements) {
+    const Declaration& declaration = *declarations[at_index(element.declaration)];
+    if (declaration.ports == Declaration::Ports::block) continue;
+    const Domain first = domain_of(scene, element), second = declaration.domains.empty() ? first : declaration.domains[1];
+    if (element.a != ground) scene.nodes[at_index(element.a)].domain = first;
+    if (!element.at && element.b != ground) scene.nodes[at_index(element.b)].domain = second;
+  }
+}
+
+}  // namespace rheonet
