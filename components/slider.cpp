@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "core/netlist/scene.hpp"
 #include "core/network/component.hpp"
 #include "core/network/surrogate_laws.hpp"
@@ -18,6 +20,18 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
   return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
 }
 
+/// Stribeck's curve. Without the least number under the power, it would have no slope at rest for a shape below 2.
+std::optional<OverVelocity> stribeck(std::span<const double> v) {
+  if (v.size() < 6 || std::isnan(v[4])) return {};
+  const double breakaway = std::isnan(v[1]) ? v[0] * (std::isnan(v[3]) ? 1 : v[3]) : v[1] * (std::isnan(v[3]) ? 1 : v[3]);
+  return OverVelocity{0, "Fc + (Fs - Fc)*exp(-((w/vs)^2 + 1e-30)^(n/2))", {{"Fc", v[0]}, {"Fs", breakaway}, {"vs", v[4]}, {"n", v[5]}}};
+}
+
+std::optional<Misfit> sound(std::span<const double> v) {
+  if (!std::isnan(v[4]) && std::isnan(v[0])) return Misfit{"stribeck", "needs a constant `coulomb`: a `normal` that varies may multiply it"};
+  return breakaway_above_coulomb(v);
+}
+
 const RegisterComponent register_slider({
     .declaration =
         {
@@ -32,12 +46,16 @@ const RegisterComponent register_slider({
                            {.name = "normal", .quantity = Quantity::force, .lower_open = false, .may_vary = true, .optional = true,
                             .from_block = true, .symbol = "N", .description = "normal force that presses the surfaces together; it multiplies `coulomb` and `breakaway`"},
                            {.name = "peak", .fallback = 1.0, .lower = 1, .lower_open = false, .not_with = "breakaway", .symbol = "Fs/Fc",
-                            .description = "breakaway as a multiple of `coulomb`"}},
-            .check = breakaway_above_coulomb,
+                            .description = "breakaway as a multiple of `coulomb`"},
+                           {.name = "stribeck", .quantity = Quantity::velocity, .optional = true, .symbol = "vs",
+                            .description = "speed within which the force falls from breakaway to `coulomb`; absent: it falls at once"},
+                           {.name = "shape", .fallback = 2.0, .lower = 0.5, .lower_open = false, .upper = 10, .symbol = "n",
+                            .description = "exponent of the speed in this fall"}},
+            .check = sound,
             .effects = {{Effect::dry_friction, "coulomb", 0}},
             .absences = {{{Effect::dry_friction}, {{"breakaway", 0}}}},
             .summary = "ideal Coulomb slider, brake or clutch: sticks without creep, or slips at its sliding force",
-            .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w); with `normal`, both times N",
+            .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w); with `stribeck`, f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w); with `normal`, times N",
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
             .notes = "Stores nothing, dissipates f w. Where the balance of forces does not determine how sticking sliders share a load, "
@@ -51,6 +69,7 @@ const RegisterComponent register_slider({
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]) && !std::isinf(v[0]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }}},
     .box = coulomb,
+    .over_velocity = stribeck,
     .drawing = {.outline = "M.24 .34 H.68 V.6 H.24 Z",
                 .lines = "M0 .5 H.24 M.12 .62 H.88 V.5 H1",
                 .thin = "M.2 .62 L.14 .7 M.3 .62 L.24 .7 M.4 .62 L.34 .7 M.5 .62 L.44 .7 M.6 .62 L.54 .7 M.7 .62 L.64 .7 "

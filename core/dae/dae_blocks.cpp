@@ -134,6 +134,19 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
   return motion.sign * sum;
 }
 
+double Dae::output_rate(int block) const {
+  const BlockSignals& blocks = inputs_->blocks();
+  double sum = 0;
+  for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(block, k) * blocks.rate(k);
+  for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = network_->blocks.sensors[k];
+    if (sensor.what == What::force) continue;
+    sum += blocks.slope(block, blocks.states() + k) *
+           (sensor.what == What::position ? view_.velocity : view_.acceleration)[at(sensor.index)];
+  }
+  return sum;
+}
+
 /// Of a node whose motion is given, by a block too [m/s^2].
 double Dae::known_acceleration(NodeId node) const {
   const int m = structure_->motion[at(node)];

@@ -180,6 +180,7 @@ double Dae::supplied_power() const {
   for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
+    if (f.resists) continue;
     power += inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
   }
   return power;
@@ -202,6 +203,11 @@ double Dae::dissipated_power() const {
   }
   for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
   for (std::size_t k = 0; k < slip_force_.size(); ++k) power += slip_force_[k] * view_.slider_velocity[k];
+  // What these elements store is deducted from their heat.
+  for (std::size_t k = 0; k < network_->forces.size(); ++k) {
+    const Network::Force& f = network_->forces[k];
+    if (f.resists) power -= inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
+  }
   return power;
 }
 
@@ -211,6 +217,9 @@ double Dae::heat_of_laws() const {
     for (std::size_t i = 0; laws.batch->knows_heat() && i < laws.batch->size(); ++i) {
       heat += laws.batch->heat(i, view_.p[at(laws.first) + i]);
     }
+  }
+  for (const Network::Force& f : network_->forces) {
+    if (f.energy >= 0) heat -= output(f.energy);
   }
   return heat;
 }
@@ -226,6 +235,9 @@ double Dae::stored_energy() const {
     energy += structure_->own_mass[n] * view_.velocity[n] * view_.velocity[n] / 2;
   }
   for (std::size_t k = 0; k < network_->inerters.size(); ++k) energy += inerter_energy(k);
+  for (const Network::Force& f : network_->forces) {
+    if (f.energy >= 0) energy += output(f.energy);
+  }
   return energy;
 }
 

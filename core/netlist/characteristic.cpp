@@ -26,9 +26,7 @@ double boundary(double out, double in, Holds holds) {
 
 }  // namespace
 
-Characteristic::Characteristic(std::vector<double> x, std::vector<double> force, bool smooth) {
-  first_ = x.front();
-  last_ = x.back();
+Characteristic::Characteristic(std::vector<double> x, std::vector<double> force, bool smooth) : x_(x), force_(force), smooth_(smooth) {
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     if (!falls_at_ && force[i + 1] < force[i]) falls_at_ = x[i + 1];
     const double slope = (force[i + 1] - force[i]) / (x[i + 1] - x[i]);
@@ -65,6 +63,20 @@ Characteristic::Characteristic(Function function) : function_(std::move(function
   }
 }
 
+Characteristic Characteristic::scaled(double by_x, double by_force) const {
+  if (function_) {
+    return Characteristic([function = function_, by_x, by_force](double x, double& slope) {
+      const double force = function(x / by_x, slope);
+      slope *= by_force / by_x;
+      return by_force * force;
+    });
+  }
+  std::vector<double> x = x_, force = force_;
+  for (double& one : x) one *= by_x;
+  for (double& one : force) one *= by_force;
+  return Characteristic(std::move(x), std::move(force), smooth_);
+}
+
 double Characteristic::force_on(std::size_t piece, double x, double& slope) const {
   const Line& line = lines_[piece];
   slope = line.slope;
@@ -78,23 +90,23 @@ std::size_t Characteristic::piece(double x) const {
 double Characteristic::force(double x, double& slope) const {
   if (function_) return function_(x, slope);
   if (!curve_) return force_on(piece(x), x, slope);
-  const double inside = std::clamp(x, first_, last_);
+  const double inside = std::clamp(x, x_.front(), x_.back());
   slope = curve_->rate(inside);
   return curve_->value(inside) + slope * (x - inside);
 }
 
 double Characteristic::integral(double x) const {
   if (curve_) {
-    const double inside = std::clamp(x, first_, last_), beyond = x - inside;
+    const double inside = std::clamp(x, x_.front(), x_.back()), beyond = x - inside;
     return curve_->area(inside) + beyond * (curve_->value(inside) + curve_->rate(inside) * beyond / 2);
   }
-  double sum = 0, from = first_;
+  double sum = 0, from = x_.front();
   const auto add = [&](std::size_t piece, double to) {
     double slope;
     sum += (to - from) * force_on(piece, from + (to - from) / 2, slope);
     from = to;
   };
-  if (x < first_) {
+  if (x < x_.front()) {
     add(0, x);
     return sum;
   }
@@ -134,7 +146,7 @@ double Characteristic::where(double wanted) const {
 double Characteristic::last_slope(int side) const {
   double slope;
   if (function_ || curve_) {
-    force(function_ ? side * numerics::far_out : side < 0 ? first_ : last_, slope);
+    force(function_ ? side * numerics::far_out : side < 0 ? x_.front() : x_.back(), slope);
   } else {
     force_on(side < 0 ? 0 : lines_.size() - 1, 0, slope);
   }

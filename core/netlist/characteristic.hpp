@@ -23,6 +23,9 @@ class Characteristic {
   /// Where an expression is sampled: from 1e-9 to 1e9 on both sides of 0, and at 0.
   static std::vector<double> samples();
 
+  /// The same with other units: factors above 0 on x and on the force.
+  Characteristic scaled(double by_x, double by_force) const;
+
   /// Force [N | N m] and its slope at x.
   double force(double x, double& slope) const;
   /// Work from 0 to x [J]: the integral of the force.
@@ -48,11 +51,12 @@ class Characteristic {
   double integral(double x) const;
 
   Function function_;
+  std::vector<double> x_, force_;     ///< the points
+  bool smooth_ = false;
   std::vector<Line> lines_;           ///< one more than corners; each goes through (x, force)
   std::vector<double> corners_;
   std::optional<Curve> curve_;
   std::optional<double> falls_at_;
-  double first_ = 0, last_ = 0;       ///< abscissae of the first and the last point
 };
 
 }  // namespace rheonet

@@ -116,6 +116,7 @@ struct Declaration {
   std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< checks the values of an element together
   std::vector<Brought> effects = {};   ///< effects that a scene can leave out
   std::vector<Absence> absences = {};  ///< tried in order, after the `absent` value of each single effect
+  bool resists = false;      ///< its signal is a force that it resists with, as a spring does: it applies none
   std::string summary = {};  ///< one line
   std::string law = {};      ///< as a textbook prints it
   std::string equation = {};  ///< the law in TeX
@@ -128,7 +129,7 @@ struct Declaration {
   }
   /// It applies a force or a motion that a signal gives.
   bool is_source() const {
-    return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::signal; });
+    return !resists && std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::signal; });
   }
   bool prescribes_motion() const {
     return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.prescribes_motion(); });

@@ -23,6 +23,7 @@ struct SignalConnection {
   std::string path;                   ///< without the sign
   double sign = 1;
   int parameter = -1;  ///< index into Declaration::parameters of the signal that is fed
+  std::string name = {};  ///< of an input in the expression of its block; "": u1, u2, ... in order
 };
 
 /// `repeat = { count, as, arrange }` of an entry.

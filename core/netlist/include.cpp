@@ -64,11 +64,11 @@ class Includer {
 
   void refuse_others(const TomlValue& document) {
     TableReader reader(document, "an included file");
-    for (const char* key : {"models", "parameters", "include", "title"}) reader.find(key);
+    for (const char* key : {"models", "laws", "parameters", "include", "title"}) reader.find(key);
     for (const char* key : {"domain", "elements", "nodes", "simulate"})
       if (const TomlEntry* entry = reader.find_quietly(key))
         context_.diagnostics.error(entry->spot, "an included file cannot have `" + std::string(key) + "`",
-                                "it gives models: it may have `models`, `parameters`, `include` and `title`");
+                                "it gives models: it may have `models`, `laws`, `parameters`, `include` and `title`");
     reader.finish(context_.diagnostics);
   }
 

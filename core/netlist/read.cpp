@@ -12,6 +12,7 @@
 #include "core/netlist/file_offer.hpp"
 #include "core/netlist/group_names.hpp"
 #include "core/netlist/include.hpp"
+#include "core/netlist/laws.hpp"
 #include "core/netlist/measures.hpp"
 #include "core/netlist/models.hpp"
 #include "core/netlist/read_presentation.hpp"
@@ -28,7 +29,7 @@ namespace {
 
 const std::vector<std::string> top_level{"title", "domain", "parameters", "check",    "elements",
                                          "nodes", "models", "include",    "simulate", "expect",
-                                         "exact", "plot",   "demo",     "effects"};
+                                         "exact", "plot",   "demo",     "effects", "laws"};
 
 bool is_top_level(const std::string& name) {
   return std::find(top_level.begin(), top_level.end(), name) != top_level.end();
@@ -168,6 +169,8 @@ class Reader {
     const std::size_t before = diagnostics_.errors();
     included_ = read_includes(document_, canonical, context_);
     context_.models_missing = diagnostics_.errors() > before;
+    laws_to_models(document_, diagnostics_);
+    for (IncludedFile& other : included_) laws_to_models(other.document, diagnostics_);
     override_models(included_);
     for (const IncludedFile& other : included_) {
       const TomlEntry* table = other.document.find("models");

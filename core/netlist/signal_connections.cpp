@@ -151,12 +151,16 @@ class Connection {
     return {};
   }
 
+  static std::string input_name(const BlockFunction& function, std::size_t k) {
+    return k < function.names.size() && !function.names[k].empty() ? function.names[k] : "u" + std::to_string(k + 1);
+  }
+
   /// The expression of a block with the present units of its inputs; the last variable is the time.
   std::variant<RunTimeExpression, TextError> expression_of(const BlockFunction& function) const {
     std::vector<RunTimeExpression::Variable> variables;
     bool plain = std::all_of(function.parameters->names.begin(), function.parameters->names.end(), [](const auto& named) { return named.second.plain; });
     for (const SceneBlock::Input& input : scene_.blocks[at(function.block)].inputs) {
-      variables.push_back({"u" + std::to_string(variables.size() + 1), one_of(unit_of_input(input))});
+      variables.push_back({input_name(function, variables.size()), one_of(unit_of_input(input))});
       plain = plain && variables.back().unit.plain;
     }
     Number time{.value = 1, .dimension = dimension_of(Quantity::time, context_.domain), .plain = false, .typed_time = 1};
@@ -203,7 +207,7 @@ class Connection {
     SceneBlock& block = scene_.blocks[at(function.block)];
     for (std::size_t k = 0; k < block.inputs.size(); ++k) {
       if (sound.uses(k)) continue;
-      diagnostics_.warning(function.source->spot, "`" + name(function.block) + "` does not use its input u" + std::to_string(k + 1));
+      diagnostics_.warning(function.source->spot, "`" + name(function.block) + "` does not use its input " + input_name(function, k));
     }
     block.function = std::make_shared<const RunTimeExpression>(std::move(sound));
   }
@@ -309,9 +313,21 @@ std::vector<SignalConnection> read_inputs(const Declaration& declaration, const 
   const TomlEntry* in = reader.require("in", spot, std::string("an input is ") + source_example);
   if (!in) return connections;
   std::vector<const TomlValue*> sources{&in->value};
+  std::vector<std::string> names;
   if (in->value.is_array()) {
     sources.clear();
     for (const TomlValue& item : in->value.items) sources.push_back(&item);
+  } else if (in->value.is_table() && !inputs.alike) {
+    sources.clear();
+    for (const TomlEntry& entry : in->value.entries) {
+      if (!expect_identifier(entry.key, entry.spot, "an input", diagnostics)) return connections;
+      if (entry.key == "t") {
+        diagnostics.error(entry.spot, "an input cannot be called `t`: that is the time");
+        return connections;
+      }
+      sources.push_back(&entry.value);
+      names.push_back(entry.key);
+    }
   }
   if (sources.size() < inputs.least || sources.size() > inputs.most) {
     diagnostics.error(in->value.spot, "`" + called + "` takes in " +
@@ -321,8 +337,12 @@ std::vector<SignalConnection> read_inputs(const Declaration& declaration, const 
                    inputs.most == 1 ? "a `sum` adds several" : "in = [\"a\", \"-b\"]");
     return connections;
   }
-  for (const TomlValue* source : sources)
-    if (auto connection = read_wire(*source, "`in`", diagnostics)) connections.push_back(std::move(*connection));
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    auto connection = read_wire(*sources[k], "`in`", diagnostics);
+    if (!connection) continue;
+    if (!names.empty()) connection->name = names[k];
+    connections.push_back(std::move(*connection));
+  }
   return connections;
 }
 

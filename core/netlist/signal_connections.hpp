@@ -12,7 +12,8 @@
 
 namespace rheonet {
 
-/// Reads the inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` for several.
+/// Reads the inputs of a block: `in = "drum.velocity"`, or `in = ["command", "-drum.velocity"]` for several. Those of a function may
+/// have names: `in = { w = "drum.velocity" }`.
 std::vector<SignalConnection> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, TableReader& reader,
                               DiagnosticList& diagnostics);
 
@@ -43,6 +44,7 @@ struct BlockFunction {
   const TomlValue* source;
   std::shared_ptr<const Environment> parameters;
   std::string within;  ///< as of LooseEnd
+  std::vector<std::string> names;  ///< of the inputs
 };
 struct LooseEnds {
   std::vector<LooseEnd> ends;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/index.hpp"
+#include "core/netlist/run_time_expression.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
@@ -115,6 +116,11 @@ class Finder {
   void add_parameter(const Network::Slider& slider, Network::VaryingParameter& varying) {
     const int e = slider.branch.element;
     const SceneElement& element = scene_.elements[at(e)];
+    if (const auto over = slider.component->over_velocity ? slider.component->over_velocity(slider.values) : std::nullopt;
+        over && over->parameter == varying.parameter) {
+      add_over_velocity(slider, *over, varying);
+      return;
+    }
     const auto fed = std::find_if(scene_.feeds.begin(), scene_.feeds.end(), [&](const SceneFeed& feed) {
       return feed.element == e && feed.parameter == varying.parameter;
     });
@@ -130,6 +136,27 @@ class Finder {
     varying.block = static_cast<int>(result_.blocks.size());
     const double least = slider.component->declaration.parameters[at(varying.parameter)].lower;
     result_.blocks.push_back({.element = e, .law = {.lower = least}, .generates = false, .signal = {}, .inputs = {input}});
+  }
+
+  /// A parameter that depends on the velocity of its element is a function of it.
+  void add_over_velocity(const Network::Slider& slider, const OverVelocity& over, Network::VaryingParameter& varying) {
+    Environment names;
+    for (const auto& [name, value] : over.names) names.names[name] = Number{.value = value, .dimension = {}};
+    const RunTimeExpression::Variable variables[] = {{"w", {}}, {"t", {}}};
+    auto compiled = RunTimeExpression::compile(over.expression, variables, names);
+    Blocks::Block block{.element = slider.branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
+    block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(std::move(compiled)));
+    for (const auto& [node, sign] : {std::pair{slider.branch.a, 1.0}, std::pair{slider.branch.b, -1.0}}) {
+      if (node == ground) continue;
+      const int motion = motion_of(node), giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
+      if (giver >= 0) {
+        block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign});
+      } else {
+        block.inputs.push_back({false, sensor({Blocks::Sensor::What::velocity, node, motion, -1}), sign});
+      }
+    }
+    varying.block = static_cast<int>(result_.blocks.size());
+    result_.blocks.push_back(std::move(block));
   }
 
   void add(const SceneBlock& made) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -237,6 +238,13 @@ struct LawValues : std::span<const double> {
 };
 using Values = std::vector<LawValues>;  ///< of each element of a batch
 
+/// A parameter of a set-valued law that is an expression over the velocity `w` of the element [m/s] and over `names`.
+struct OverVelocity {
+  int parameter;
+  std::string expression;
+  std::map<std::string, double> names;
+};
+
 /// Everything that the simulator knows about an element type. Each file in components/ defines and registers one.
 struct Component {
   Declaration declaration = {};
@@ -250,6 +258,8 @@ struct Component {
   std::function<Box(std::span<const Dual>)> box = {};
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second. See transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
+  /// For Role::slip: absent if no parameter depends on the velocity.
+  std::function<std::optional<OverVelocity>(std::span<const double>)> over_velocity = {};
   std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is a linear spring
   Symbol drawing = {};             ///< if empty, a plain box

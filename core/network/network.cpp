@@ -186,6 +186,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
         network.sliders.back().values = law.values;
         network.sliders.back().varying.push_back({parameter, -1, 1});
       }
+      if (const auto over = law.component->over_velocity ? law.component->over_velocity(law.values) : std::nullopt) {
+        network.sliders.back().values = law.values;
+        network.sliders.back().varying.push_back({over->parameter, -1, 1});
+      }
       break;
     case Role::mass:
       place_in(network.masses);
@@ -203,6 +207,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::force:
       place_in(network.forces);
       network.forces.push_back({index, ends.a, element.at ? -1 : ends.b, element.signals.at(0).seen_from(scene.start)});
+      if (law.component->declaration.resists) {
+        network.forces.back().resists = true;
+        network.forces.back().signal = network.forces.back().signal.times(-1);
+      }
       break;
     case Role::block:
       place = {role, -1};
@@ -214,10 +222,16 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
 void feed_sources(Network& network) {
   for (const SceneFeed& feed : network.scene->feeds) {
     const auto [role, index, unused] = network.places[static_cast<std::size_t>(feed.element)];
+    const SceneElement& element = network.scene->elements[static_cast<std::size_t>(feed.element)];
+    const Declaration& declaration = components()[static_cast<std::size_t>(element.declaration)]->declaration;
+    if (role == Role::force && declaration.parameters[static_cast<std::size_t>(feed.parameter)].quantity == Quantity::energy) {
+      network.forces[static_cast<std::size_t>(index)].energy = feed.block;
+      continue;
+    }
     if (role != Role::motion && role != Role::force) continue;
     const auto take = [&](auto& source) {
       source.block = feed.block;
-      source.sign = feed.sign;
+      source.sign = declaration.resists ? -feed.sign : feed.sign;
     };
     role == Role::motion ? take(network.motions[static_cast<std::size_t>(index)]) : take(network.forces[static_cast<std::size_t>(index)]);
   }
@@ -238,24 +252,28 @@ void refuse_inerters_at_blocks(const Network& network) {
   }
 }
 
-/// Between masses and motions any dashpot has its force. At a node without mass the balance of forces gives its velocity.
-void refuse_falling_dashpots(const Network& network) {
+/// Between masses and motions any friction has its force. At a node without mass the balance of forces gives its velocity.
+void refuse_falling_friction(const Network& network) {
   std::vector<char> firm(network.nodes(), 0);
   firm[ground] = 1;
   for (const Network::Mass& mass : network.masses) firm[static_cast<std::size_t>(mass.node)] = 1;
   for (const Network::Motion& motion : network.motions) firm[static_cast<std::size_t>(motion.node)] = 1;
+  const auto refuse_massless = [&](const Branch& b) {
+    for (const NodeId node : {b.a, b.b}) {
+      if (firm[static_cast<std::size_t>(node)]) continue;
+      throw SimulationError(network.spot_of(b.element),
+                            fmt::format("the force of `{}` falls with the velocity, and node `{}` has no mass: no balance of forces determines its "
+                                        "velocity; give it a mass",
+                                        network.name_of(b), network.node_name(node)));
+    }
+  };
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      const Branch& b = network.rates[static_cast<std::size_t>(laws.first) + i];
-      if (!laws.batch->falls(i)) continue;
-      for (const NodeId node : {b.a, b.b}) {
-        if (firm[static_cast<std::size_t>(node)]) continue;
-        throw SimulationError(network.spot_of(b.element),
-                              fmt::format("the force of dashpot `{}` falls with the velocity, and node `{}` has no mass: no balance of forces "
-                                          "determines its velocity; give it a mass",
-                                          network.name_of(b), network.node_name(node)));
-      }
+      if (laws.batch->falls(i)) refuse_massless(network.rates[static_cast<std::size_t>(laws.first) + i]);
     }
+  }
+  for (const Network::Slider& slider : network.sliders) {
+    if (slider.component->over_velocity && slider.component->over_velocity(slider.values)) refuse_massless(slider.branch);
   }
 }
 
@@ -307,7 +325,7 @@ Network build_network(const Scene& scene) {
   feed_sources(network);
   network.blocks = find_blocks(network);
   refuse_inerters_at_blocks(network);
-  refuse_falling_dashpots(network);
+  refuse_falling_friction(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;
 }

@@ -53,8 +53,9 @@ struct Network {
     std::vector<double> values = {};               ///< of its parameters; empty if all are constant
     std::vector<VaryingParameter> varying = {};
   };
-  /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output.
-  struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; };
+  /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
+  /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).
+  struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; bool resists = false; int energy = -1; };
   /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, motions or forces.
   /// If `paired`, an index into `pairs` for either role.
   struct Place { Role role; int index; bool paired = false; };

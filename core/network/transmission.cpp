@@ -202,6 +202,12 @@ class Converter {
       element.signals.own()[k] = element.signals[k].times(1 / factor(at(element.signal_parameters[k])));
     }
     element.values = std::move(values);
+    if (!element.characteristic) return;
+    for (const Parameter& parameter : declaration.parameters) {
+      if (parameter.kind != Parameter::Kind::characteristic) continue;
+      element.characteristic = std::make_shared<const Characteristic>(
+          element.characteristic->scaled(1 / own_unit(parameter.over, element.scale), 1 / own_unit(parameter.quantity, element.scale)));
+    }
   }
 
   /// The scale of a transmission at its first or its second end, one of which may be at ground.

@@ -34,7 +34,7 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
     case Role::motion:
       return dae_->reaction(network.motions[at(place.index)].node);
     case Role::force:
-      return dae_->applied_force(place.index);
+      return (network.forces[at(place.index)].resists ? -1 : 1) * dae_->applied_force(place.index);
     case Role::block:
     case Role::nothing:
       break;
@@ -65,6 +65,10 @@ double OutputSampler::dissipated_power(int element, const Dae::View& view) const
     const std::size_t j = at(place.index);
     return batch.dissipated_power(i, view.p[j], view.dp[j], view.flow[j]);
   }
+  if (place.role == Role::force && network_.forces[at(place.index)].resists) {
+    const int energy = network_.forces[at(place.index)].energy;
+    return element_force(element, view) * element_velocity(element, view) - (energy < 0 ? 0 : dae_->output_rate(energy));
+  }
   // The spring of a pair stores; rate laws and sliders store nothing.
   const bool dissipates = place.paired ? element != network_.pairs[at(place.index)].spring
                                        : place.role == Role::rate || place.role == Role::slip;
@@ -82,6 +86,7 @@ double OutputSampler::stored_energy(int element, const Dae::View& view) const {
     const DeflectionBatch& batch = network_.batch_of(place.index, i);
     return batch.stored_energy(i, view.p[at(place.index)]);
   }
+  if (place.role == Role::force && network_.forces[at(place.index)].energy >= 0) return dae_->output(network_.forces[at(place.index)].energy);
   if (place.role == Role::inerter) return dae_->inerter_energy(at(place.index));
   if (place.role != Role::mass) return 0;
   const Network::Mass& m = network_.masses[at(place.index)];
