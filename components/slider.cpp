@@ -21,10 +21,10 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
 }
 
 /// Stribeck's curve. Without the least number under the power, it would have no slope at rest for a shape below 2.
-std::optional<OverVelocity> stribeck(std::span<const double> v) {
+std::optional<MotionExpression> stribeck(std::span<const double> v) {
   if (v.size() < 6 || std::isnan(v[4])) return {};
   const double breakaway = std::isnan(v[1]) ? v[0] * (std::isnan(v[3]) ? 1 : v[3]) : v[1] * (std::isnan(v[3]) ? 1 : v[3]);
-  return OverVelocity{0, "Fc + (Fs - Fc)*exp(-((w/vs)^2 + 1e-30)^(n/2))", {{"Fc", v[0]}, {"Fs", breakaway}, {"vs", v[4]}, {"n", v[5]}}};
+  return MotionExpression{"Fc + (Fs - Fc)*exp(-((w/vs)^2 + 1e-30)^(n/2))", {{"Fc", v[0]}, {"Fs", breakaway}, {"vs", v[4]}, {"n", v[5]}}, 0};
 }
 
 std::optional<Misfit> sound(std::span<const double> v) {

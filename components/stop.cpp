@@ -57,6 +57,17 @@ struct Stop : MemorylessLaw {
   static constexpr bool lossless = true;
 };
 
+// The damping in contact, within +-k x: 0 at first touch, and never more than the spring gives back.
+std::optional<MotionExpression> contact_damping(std::span<const double> v) {
+  if (!(v[3] > 0)) return {};
+  const bool both = !std::isnan(v[0]) && !std::isnan(v[1]);
+  const std::string above = "d > d2 ? max(k*(d2 - d), min(k*(d - d2), c*w)) : ", below = "d < d1 ? max(k*(d - d1), min(k*(d1 - d), c*w)) : ";
+  std::map<std::string, double> names{{"k", v[2]}, {"c", v[3]}};
+  if (!std::isnan(v[0])) names["d1"] = v[0];
+  if (!std::isnan(v[1])) names["d2"] = v[1];
+  return MotionExpression{(both ? above + below : std::isnan(v[0]) ? above : below) + "0", names, -1};
+}
+
 std::optional<Misfit> without_room(std::span<const double> v) {
   if (std::isnan(v[0]) && std::isnan(v[1])) return Misfit{"lower", "and `upper` are both missing: give one of them, or both"};
   if (v[1] < v[0]) return Misfit{"upper", "is less than `lower`"};
@@ -76,20 +87,23 @@ const RegisterComponent register_stop({
                      .description = "largest displacement without contact; absent: no stop on this side"},
                     {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "k",
                      .description = "force per displacement beyond a bound; 0 means no stop"},
+                    {.name = "damping", .quantity = Quantity::damping, .fallback = 0.0, .lower_open = false, .symbol = "c",
+                     .description = "damping of the contact; its force is at most that of the spring, so that the contact never pulls"},
                     {.name = "d0", .quantity = Quantity::position, .kind = Parameter::Kind::initial, .lower = -unbounded, .symbol = "d",
                      .description = "displacement at the start, where it does not follow from positions of nodes"},
                 },
             .check = without_room,
-            .effects = {{Effect::contact, "stiffness", 0}},
-            .summary = "elastic end stops: free play between two displacements, a spring beyond them",
-            .law = "f = k (d - d2) for d > d2, k (d - d1) for d < d1, else 0",
-            .equation = R"(f = \begin{cases} k\,(d - d_2) & d > d_2 \\ k\,(d - d_1) & d < d_1 \\ 0 & \text{else} \end{cases})",
-            .source = "definition; backlash and end stops of Modelica.Mechanics (ElastoGap, ElastoBacklash) without damping",
-            .notes = "Stores k x^2/2 beyond a bound by x, dissipates nothing.\nAn event marks each contact and each release.",
+            .effects = {{Effect::contact, "stiffness", 0}, {Effect::viscosity, "damping", 0}},
+            .summary = "elastic end stops: free play between two displacements, a spring and a damper beyond them",
+            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0",
+            .equation = R"(f = \begin{cases} k\,x + \min(\max(c\,w, -k|x|), k|x|) & \text{beyond a bound by } x \\ 0 & \text{else} \end{cases})",
+            .source = "definition; with damping, the contact of Modelica.Mechanics.Translational.Components.ElastoGap",
+            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\nAn event marks each contact and each release.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[2] == 0; }, .values = {}}},
     .deflection = deflection_batch<Stop>,
+    .beside = contact_damping,
     .drawing = {.lines = "M0 .5 H.3 M.7 .5 H1 M.3 .32 V.68 M.44 .3 V.7 M.56 .3 V.7 M.7 .32 V.68", .thin = "M.3 .5 H.7"},
 });
 

@@ -12,6 +12,16 @@ namespace rheonet {
 
 using What = Blocks::Sensor::What;
 
+namespace {
+
+/// For messages: "drum.velocity".
+std::string path_of(const Network& network, const Blocks::Sensor& sensor) {
+  if (sensor.record >= 0) return network.scene->sensed[at(sensor.record)].path;
+  return network.node_name(sensor.index) + (sensor.what == Blocks::Sensor::What::velocity ? ".velocity" : ".position");
+}
+
+}  // namespace
+
 void BlockSignals::check_sensors(const Network& network, const Structure& classified) const {
   for (const Blocks::Sensor& sensor : blocks_->sensors) {
     if (sensor.what != What::velocity || classified.kind[at(sensor.index)] != Kind::floating) continue;
@@ -20,7 +30,7 @@ void BlockSignals::check_sensors(const Network& network, const Structure& classi
         fmt::format("no block can take in `{}`: node `{}` has no mass, and no dashpots lead from there to a mass, to ground or to a "
                     "prescribed motion, so that its velocity follows from how fast the forces there change; add one, or take in "
                     "the position",
-                    network.scene->sensed[at(sensor.record)].path, network.node_name(sensor.index)));
+                    path_of(network, sensor), network.node_name(sensor.index)));
   }
 }
 
@@ -47,7 +57,7 @@ void BlockSignals::refuse_loops(const Network& network, const Structure& classif
                             fmt::format("the velocity of `{}` follows at the same instant from `{}`, of which it is not known how fast "
                                         "it changes, so that no acceleration would be known; put a `lag` between them",
                                         network.scene->elements[at(motion.element)].name,
-                                        network.scene->sensed[at(sensor.record)].path));
+                                        path_of(network, sensor)));
     }
   }
   for (const Network::Force& force : network.forces) {
@@ -59,7 +69,7 @@ void BlockSignals::refuse_loops(const Network& network, const Structure& classif
           network.spot_of(force.element),
           fmt::format("`{}` follows at the same instant from `{}`, which no mass keeps from jumping when a force does: "
                       "neither can be known before the other; put a `lag` between them{}",
-                      source, network.scene->sensed[at(sensor.record)].path,
+                      source, path_of(network, sensor),
                       sensor.what == What::force ? "" : fmt::format(", or give node `{}` a mass", network.node_name(sensor.index))));
     }
   }
@@ -77,7 +87,7 @@ void BlockSignals::settle() {
   for (std::size_t k = 0; k < out_.size(); ++k) {
     const int block = static_cast<int>(k);
     bool matters = blocks_->blocks[k].breaks_loops();
-    for (const Network::Force& force : network_->forces) matters = matters || force.block == block;
+    for (const Network::Force& force : network_->forces) matters = matters || (force.block == block && !force.beside);  // 0 at rest
     for (const Network::Motion& motion : network_->motions) matters = matters || motion.block == block;
     std::vector<char> seen(out_.size(), 0);
     if (matters && senses(block, seen)) refuse_steady(block, "depends on how the network moves, which is what is looked for");

@@ -55,7 +55,7 @@ void CharacteristicTemplate::read_table(const TomlValue& source, Context& contex
   } else {
     read_points(table->value, context);
   }
-  if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), "\"d\", \"force\"", context.diagnostics);
+  if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), argument(), "\"d\", \"force\"", context.diagnostics);
 }
 
 void CharacteristicTemplate::read_points(const TomlValue& source, Context& context) {
@@ -68,11 +68,11 @@ void CharacteristicTemplate::read_points(const TomlValue& source, Context& conte
   for (const TomlValue& item : source.items) {
     if (!item.is_array() || item.items.size() != 2) {
       context.diagnostics.error(item.spot, fmt::format("a point of `{}` is an array of two values, [{}, force], but this {}", name,
-                                                       name_of(parameter_->over, context.domain),
+                                                       argument(),
                                                        item.is_array() ? fmt::format("has {}", item.items.size()) : "is " + describe(item)));
       return;
     }
-    const std::string over = name_of(parameter_->over, context.domain), force = name_of(parameter_->quantity, context.domain);
+    const std::string over = argument(), force = name_of(parameter_->quantity, context.domain);
     points_.push_back({Formula(item.items[0], "the " + over + " of a point", context.diagnostics),
                        Formula(item.items[1], "the " + force + " of a point", context.diagnostics)});
     constant_ = constant_ && points_.back().x.identifiers().empty() && points_.back().force.identifiers().empty();
@@ -102,7 +102,7 @@ std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers(c
 }
 
 std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers_of_file(Context& context) const {
-  const auto file = read_table_file(*file_name_, columns_, {parameter_->over, name_of(parameter_->over, context.domain)}, context);
+  const auto file = read_table_file(*file_name_, columns_, {parameter_->over, argument(), "a force"}, context);
   if (!file) return {};
   const auto factor = as_quantity(file->unit, parameter_->quantity, context.domain);
   if (const auto* wrong = std::get_if<TextError>(&factor)) {
@@ -122,7 +122,7 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
     context.diagnostics.error(context.diagnostics.inside(*source_, at), fmt::format("`{}`: {}", parameter_->name, what), hint);
     return nullptr;
   };
-  const std::string variable = parameter_->over == Quantity::velocity ? "w" : "d", over = name_of(parameter_->over, context.domain);
+  const std::string variable = parameter_->over == Quantity::velocity ? "w" : "d", over = argument();
   const RunTimeExpression::Variable argument{variable, number_in(1, std::get<Unit>(parse_unit(unit_of(parameter_->over, context.domain))))};
   auto compiled = RunTimeExpression::compile(source_->text, {&argument, 1}, environment);
   if (const auto* wrong = std::get_if<TextError>(&compiled)) return refuse(wrong->offset, wrong->message, wrong->hint);
@@ -155,7 +155,7 @@ Spot CharacteristicTemplate::spot_of(std::size_t point) const {
 
 bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) const {
   const std::string& name = parameter_->name;
-  const std::string over = name_of(parameter_->over, context.domain);
+  const std::string over = argument();
   const auto refuse = [&](std::size_t point, const std::string& what, const std::string& hint = {}) {
     context.diagnostics.error(spot_of(point), fmt::format("`{}` {}", name, what), hint);
     return false;

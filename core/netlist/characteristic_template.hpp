@@ -26,6 +26,7 @@ class CharacteristicTemplate {
   struct Point { Formula x, force; };
   struct Numbers { std::vector<double> x, force; };
 
+  std::string argument() const { return parameter_->over == Quantity::velocity ? "velocity" : "displacement"; }
   void read_table(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
   std::optional<Numbers> numbers(const Environment& environment, Context& context) const;

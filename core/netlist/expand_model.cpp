@@ -108,7 +108,11 @@ bool Expander::instance_parameters(const ElementTemplate& plan, const Environmen
       good = false;
       continue;
     }
-    inside.names[parameter.name] = *number;
+    Number& value = inside.names[parameter.name] = *number;
+    if (number->plain && !usual.plain && !std::isnan(usual.value)) {  // a plain number has the unit of the default, in SI
+      value = usual;
+      value.value = number->value;
+    }
   }
   return good;
 }

@@ -83,6 +83,7 @@ class Reader {
 
   void read_document(int file, const fs::path& canonical) {
     override_tables();
+    laws_to_models(document_, diagnostics_);
     TableReader reader(document_, "the scene");
     for (const std::string& key : top_level) reader.find(key);
     const Spot begin{file, 1, 1};
@@ -169,7 +170,6 @@ class Reader {
     const std::size_t before = diagnostics_.errors();
     included_ = read_includes(document_, canonical, context_);
     context_.models_missing = diagnostics_.errors() > before;
-    laws_to_models(document_, diagnostics_);
     for (IncludedFile& other : included_) laws_to_models(other.document, diagnostics_);
     override_models(included_);
     for (const IncludedFile& other : included_) {

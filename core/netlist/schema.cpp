@@ -256,6 +256,20 @@ Json model_schema() {
   return described(std::move(schema), "a network with ports, used as an element type");
 }
 
+Json law_schema() {
+  Json state = object({{"start", described(reference("value"), "its value at the start, with its unit")}, {"rate", text("an expression")}});
+  state["required"] = {"start", "rate"};
+  Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states and names in `where`")},
+                        {"parameters", described(named(reference("value")), "parameters with their defaults")},
+                        {"where", described(named(text("an expression")), "names for parts of the expressions")},
+                        {"states", described(named(std::move(state)), "rate(z) is the rate of the state z in other expressions")},
+                        {"stores", text("the energy stored in it, an expression")},
+                        {"summary", text("what it is")},
+                        {"source", text("where it comes from")}});
+  schema["required"] = {"force"};
+  return described(std::move(schema), "an element type of the file's own, between two nodes");
+}
+
 Json check_schema() {
   const Json that = text("a comparison between parameters: \"speed < critical_speed\"");
   Json schema = object({{"that", that},
@@ -391,6 +405,7 @@ std::string json_schema(Declarations declarations) {
       {"nodes", described(named(node), "initial values that are not 0; nodes exist by being named")},
       {"elements", reference("elements")},
       {"models", named(reference("model"))},
+      {"laws", named(law_schema())},
       {"simulate", simulate_schema()},
       {"effects", effects_schema()},
       {"expect", reference("expect")},

@@ -329,7 +329,8 @@ std::vector<SignalConnection> read_inputs(const Declaration& declaration, const 
       names.push_back(entry.key);
     }
   }
-  if (sources.size() < inputs.least || sources.size() > inputs.most) {
+  const bool of_time = sources.empty() && !inputs.alike && in->value.is_table();  // a function of parameters and time
+  if ((sources.size() < inputs.least && !of_time) || sources.size() > inputs.most) {
     diagnostics.error(in->value.spot, "`" + called + "` takes in " +
                                        (inputs.most > inputs.least ? "at least " : "") + std::to_string(inputs.least) +
                                        (inputs.least > 1 ? " signals" : " signal") + ", but `in` names " +

@@ -110,7 +110,7 @@ void SignalTemplate::read_table_signal(const TomlValue& source, Context& context
 
   if (shape_ == Shape::table) {
     read_points(main->value, context);
-    if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), "\"time\", \"force\"", context.diagnostics);
+    if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), "time", "\"time\", \"force\"", context.diagnostics);
     smooth_ = smooth && expect_boolean(smooth->value, "`smooth`", context.diagnostics, "smooth = true") && smooth->value.boolean;
   } else {
     main_ = Formula(main->value, "`" + main->key + "`", context.diagnostics);

@@ -53,7 +53,7 @@ class TableFileReader {
 
   void row(const std::vector<CsvField>& fields, bool may_be_header) {
     if (fields.size() != width_) {
-      refuse(1, named_.empty() ? fmt::format("a table has two columns, {} and value; this row has {}", abscissa_.name, fields.size())
+      refuse(1, named_.empty() ? fmt::format("a table of {} has two columns, {} and value; this row has {}", abscissa_.of, abscissa_.name, fields.size())
                                : fmt::format("the header has {} columns, this row has {}", width_, fields.size()),
              may_be_header ? how_to_choose(fields) : "");
       return;
@@ -164,7 +164,7 @@ std::optional<TableFile> read_table_file(const TomlValue& name, const std::vecto
   return table;
 }
 
-std::vector<TomlValue> read_column_names(const TomlEntry& columns, bool from_file, const std::string& example, DiagnosticList& diagnostics) {
+std::vector<TomlValue> read_column_names(const TomlEntry& columns, bool from_file, const std::string& abscissa, const std::string& example, DiagnosticList& diagnostics) {
   const std::string shown = "columns = [" + example + "]";
   if (!from_file) {
     diagnostics.error(columns.spot, "`columns` names columns of a CSV file, but `table` names none", "table = \"measured.csv\", " + shown);
@@ -172,7 +172,7 @@ std::vector<TomlValue> read_column_names(const TomlEntry& columns, bool from_fil
   }
   if (!expect_array(columns.value, "`columns`", diagnostics, shown)) return {};
   if (columns.value.items.size() != 2) {
-    diagnostics.error(columns.value.spot, "`columns` names two columns: that of the first value of each point, and that of the second", shown);
+    diagnostics.error(columns.value.spot, fmt::format("`columns` names two columns, of the {}s and of the values", abscissa), shown);
     return {};
   }
   for (const TomlValue& name : columns.value.items)

@@ -20,6 +20,7 @@ struct TableFile {
 struct TableAbscissa {
   Quantity quantity = Quantity::time;
   std::string name = "time";
+  std::string of = "a signal";  ///< what the table is of
 };
 
 /// Reads points from a CSV file: two columns of numbers, optionally quoted, separated by commas, semicolons, tabs or spaces; the
@@ -29,8 +30,9 @@ struct TableAbscissa {
 std::optional<TableFile> read_table_file(const TomlValue& name, const std::vector<TomlValue>& columns, const TableAbscissa& abscissa,
                                          Context& context);
 
-/// Reads an entry `columns` that names two columns of a CSV file: `example` has two such names. A mistake unless the points come
-/// `from_file`; then the result is empty.
-std::vector<TomlValue> read_column_names(const TomlEntry& columns, bool from_file, const std::string& example, DiagnosticList& diagnostics);
+/// Reads an entry `columns` that names two columns of a CSV file, the first one of an `abscissa` ("time"): `example` has two such
+/// names. A mistake unless the points come `from_file`; then the result is empty.
+std::vector<TomlValue> read_column_names(const TomlEntry& columns, bool from_file, const std::string& abscissa, const std::string& example,
+                                         DiagnosticList& diagnostics);
 
 }  // namespace rheonet

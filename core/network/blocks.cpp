@@ -38,6 +38,9 @@ class Finder {
     for (Network::Slider& slider : network_.sliders) {
       for (Network::VaryingParameter& varying : slider.varying) add_parameter(slider, varying);
     }
+    for (Network::Force& force : network_.forces) {
+      if (force.beside) force.block = add_function({force.element, force.a, force.b}, *force.beside);
+    }
     // Without a state to smooth discontinuities, a loop of delays alone would repeat each of them for ever.
     const auto refuse_delays = [&](const std::vector<int>& loop) {
       refuse(loop, "make a loop in which nothing but delays takes time, and what jumps would jump for ever; put a `lag` into it");
@@ -118,7 +121,7 @@ class Finder {
     const SceneElement& element = scene_.elements[at(e)];
     if (const auto over = slider.component->over_velocity ? slider.component->over_velocity(slider.values) : std::nullopt;
         over && over->parameter == varying.parameter) {
-      add_over_velocity(slider, *over, varying);
+      varying.block = add_function(slider.branch, *over);
       return;
     }
     const auto fed = std::find_if(scene_.feeds.begin(), scene_.feeds.end(), [&](const SceneFeed& feed) {
@@ -138,25 +141,27 @@ class Finder {
     result_.blocks.push_back({.element = e, .law = {.lower = least}, .generates = false, .signal = {}, .inputs = {input}});
   }
 
-  /// A parameter that depends on the velocity of its element is a function of it.
-  void add_over_velocity(const Network::Slider& slider, const OverVelocity& over, Network::VaryingParameter& varying) {
+  /// Adds a block for a quantity of an element that depends on its displacement and velocity. Returns its index.
+  int add_function(const Branch& branch, const MotionExpression& of) {
     Environment names;
-    for (const auto& [name, value] : over.names) names.names[name] = Number{.value = value, .dimension = {}};
-    const RunTimeExpression::Variable variables[] = {{"w", {}}, {"t", {}}};
-    auto compiled = RunTimeExpression::compile(over.expression, variables, names);
-    Blocks::Block block{.element = slider.branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
+    for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
+    const RunTimeExpression::Variable variables[] = {{"d", {}}, {"w", {}}, {"t", {}}};
+    auto compiled = RunTimeExpression::compile(of.expression, variables, names);
+    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
     block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(std::move(compiled)));
-    for (const auto& [node, sign] : {std::pair{slider.branch.a, 1.0}, std::pair{slider.branch.b, -1.0}}) {
-      if (node == ground) continue;
+    for (const auto& [node, sign] : {std::pair{branch.a, 1.0}, std::pair{branch.b, -1.0}}) {
+      if (node <= ground) continue;
       const int motion = motion_of(node), giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
+      const int given = giver < 0 ? motion : -1;
+      if (block.function->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
       if (giver >= 0) {
-        block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign});
+        block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign, 1});
       } else {
-        block.inputs.push_back({false, sensor({Blocks::Sensor::What::velocity, node, motion, -1}), sign});
+        block.inputs.push_back({false, sensor({Blocks::Sensor::What::velocity, node, given, -1}), sign, 1});
       }
     }
-    varying.block = static_cast<int>(result_.blocks.size());
     result_.blocks.push_back(std::move(block));
+    return static_cast<int>(result_.blocks.size()) - 1;
   }
 
   void add(const SceneBlock& made) {

@@ -17,7 +17,7 @@ struct Blocks {
     What what;
     int index;        ///< a node of the network (position, velocity), or an element of the scene (force)
     int motion = -1;  ///< the given motion that prescribes the node: the signal is then a function of time alone; -1
-    int record = 0;   ///< index into Scene::sensed, for messages
+    int record = 0;   ///< index into Scene::sensed, for messages; -1: the law of an element needs it
   };
   struct Input {
     bool from_block;  ///< otherwise `index` is a sensor

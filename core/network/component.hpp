@@ -238,11 +238,11 @@ struct LawValues : std::span<const double> {
 };
 using Values = std::vector<LawValues>;  ///< of each element of a batch
 
-/// A parameter of a set-valued law that is an expression over the velocity `w` of the element [m/s] and over `names`.
-struct OverVelocity {
-  int parameter;
+/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, and over `names`; in SI.
+struct MotionExpression {
   std::string expression;
   std::map<std::string, double> names;
+  int parameter = -1;  ///< whose value it is; -1: it is a force
 };
 
 /// Everything that the simulator knows about an element type. Each file in components/ defines and registers one.
@@ -258,8 +258,10 @@ struct Component {
   std::function<Box(std::span<const Dual>)> box = {};
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second. See transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
-  /// For Role::slip: absent if no parameter depends on the velocity.
-  std::function<std::optional<OverVelocity>(std::span<const double>)> over_velocity = {};
+  /// For Role::slip: a parameter that depends on the velocity; absent if none does.
+  std::function<std::optional<MotionExpression>(std::span<const double>)> over_velocity = {};
+  /// For Role::deflection: a force beside that of the law, which dissipates; absent if there is none.
+  std::function<std::optional<MotionExpression>(std::span<const double>)> beside = {};
   std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
   std::function<LinearSpring(std::span<const double>)> spring = {};  ///< for a deflection law that is a linear spring
   Symbol drawing = {};             ///< if empty, a plain box

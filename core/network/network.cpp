@@ -173,6 +173,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       }
       break;
     case Role::deflection:
+      if (auto force = law.component->beside ? law.component->beside(law.values) : std::nullopt) {
+        network.beside[index] = static_cast<int>(network.forces.size());
+        network.forces.push_back({.element = index, .a = ends.a, .b = ends.b, .signal = Signal(), .sign = -1, .resists = true, .beside = std::move(force)});
+      }
       gathered.deflections[law.component->declaration.type].push_back({ends, std::move(law)});
       break;
     case Role::rate:

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +57,16 @@ struct Network {
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
   /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).
-  struct Force { int element; NodeId a, b; Signal signal; int block = -1; double sign = 1; bool resists = false; int energy = -1; };
+  struct Force {
+    int element;
+    NodeId a, b;
+    Signal signal;
+    int block = -1;
+    double sign = 1;
+    bool resists = false;
+    int energy = -1;
+    std::optional<MotionExpression> beside = {};  ///< of a force beside another law of its element: its block is made for it
+  };
   /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, motions or forces.
   /// If `paired`, an index into `pairs` for either role.
   struct Place { Role role; int index; bool paired = false; };
@@ -70,6 +81,7 @@ struct Network {
   std::vector<Inerter> inerters;
   std::vector<Motion> motions;
   std::vector<Force> forces;
+  std::map<int, int> beside;  ///< of an element: index into `forces` of the force beside its law
   Blocks blocks;
   std::vector<Place> places;  ///< one for each element of the scene
   /// Springs in series with sliders. Their bundles are the last branches of `deflections`, each named after its first

@@ -7,6 +7,12 @@
 
 namespace rheonet {
 
+/// Force of an element beside that of its law (Component::beside).
+double OutputSampler::force_beside(int element) const {
+  const auto found = network_.beside.find(element);
+  return found == network_.beside.end() ? 0 : -dae_->applied_force(found->second);
+}
+
 double OutputSampler::element_force(int element, const Dae::View& view) const {
   const Network& network = network_;
   const Network::Place& place = network.places[at(element)];
@@ -19,7 +25,7 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
       // Round-off of the displacement times a stiffness of 1e12 N/m can lift the force above its bound at the event.
       std::size_t i = 0;
       const double bound = network.batch_of(place.index, i).steady(i).bound;
-      return std::clamp(view.f[at(place.index)], -bound, bound);
+      return std::clamp(view.f[at(place.index)], -bound, bound) + force_beside(element);
     }
     case Role::rate:
       return view.rate_force[at(place.index)];
@@ -63,7 +69,7 @@ double OutputSampler::dissipated_power(int element, const Dae::View& view) const
     std::size_t i = 0;
     const DeflectionBatch& batch = network_.batch_of(place.index, i);
     const std::size_t j = at(place.index);
-    return batch.dissipated_power(i, view.p[j], view.dp[j], view.flow[j]);
+    return batch.dissipated_power(i, view.p[j], view.dp[j], view.flow[j]) + force_beside(element) * view.flow[j];
   }
   if (place.role == Role::force && network_.forces[at(place.index)].resists) {
     const int energy = network_.forces[at(place.index)].energy;

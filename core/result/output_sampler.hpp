@@ -33,6 +33,7 @@ class OutputSampler {
   double value(std::size_t operand, const Dae::View& view, const std::vector<double>& rates) const;
   // element_values.cpp
   double element_force(int element, const Dae::View& view) const;
+  double force_beside(int element) const;
   double element_velocity(int element, const Dae::View& view) const;
   double dissipated_power(int element, const Dae::View& view) const;
   double stored_energy(int element, const Dae::View& view) const;
