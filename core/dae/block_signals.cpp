@@ -26,7 +26,7 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
     }
     if (law.delay > 0) delays_.push_back(law.delay);
     function_of_.push_back(-1);
-    if (const RunTimeExpression* expression = blocks_->blocks[k].function.get()) {
+    if (const SwitchedFunction* expression = blocks_->blocks[k].function.get()) {
       function_of_.back() = static_cast<int>(functions_.size());
       functions_.emplace_back(*expression);
       for (std::size_t which = 0; which < expression->switches(); ++which) limits_.push_back({block, false, which});

@@ -8,12 +8,12 @@
 
 namespace rheonet {
 
-FunctionBlock::FunctionBlock(const RunTimeExpression& expression)
-    : expression_(&expression),
-      arguments_(expression.variables(), 0),
+FunctionBlock::FunctionBlock(const SwitchedFunction& function)
+    : function_(&function),
+      arguments_(function.variables(), 0),
       rates_(arguments_),
       partials_(arguments_),
-      sides_(expression.switches(), RunTimeExpression::no_side),
+      sides_(function.switches(), SwitchedFunction::no_side),
       fresh_(sides_),
       fired_(sides_),
       guards_(sides_) {}
@@ -34,9 +34,9 @@ Dual FunctionBlock::value(bool held) {
   bool ordered = true;
   if (!held) {
     fresh_ = fired_;
-    ordered = expression_->complete_sides(arguments_, fresh_);
+    ordered = function_->complete_sides(arguments_, fresh_);
   }
-  const auto value = ordered ? expression_->value(arguments_, held ? sides_ : fresh_, partials_) : std::nullopt;
+  const auto value = ordered ? function_->value(arguments_, held ? sides_ : fresh_, partials_) : std::nullopt;
   if (!value) {
     // The partial derivatives enter the Jacobian, where a number that is not finite would spoil the equations of others.
     std::fill(partials_.begin(), partials_.end(), 0.0);
@@ -48,19 +48,19 @@ Dual FunctionBlock::value(bool held) {
 }
 
 double FunctionBlock::event_function(std::size_t which) {
-  expression_->switching_functions(arguments_, sides_, guards_);
+  function_->switching_functions(arguments_, sides_, guards_);
   return std::isfinite(guards_[which]) ? guards_[which] : 1;
 }
 
 bool FunctionBlock::fire(const std::vector<std::size_t>& switches) {
-  std::fill(fired_.begin(), fired_.end(), RunTimeExpression::no_side);
+  std::fill(fired_.begin(), fired_.end(), SwitchedFunction::no_side);
   if (switches.empty()) return false;
   std::vector<double> crossed = sides_;
   for (const std::size_t k : switches) {
-    expression_->cross(k, arguments_, crossed);
+    function_->cross(k, arguments_, crossed);
     fired_[k] = crossed[k];
   }
-  const double before = expression_->value(arguments_, sides_).value_or(0), after = expression_->value(arguments_, crossed).value_or(0);
+  const double before = function_->value(arguments_, sides_).value_or(0), after = function_->value(arguments_, crossed).value_or(0);
   largest_ = std::max({largest_, std::abs(before), std::abs(after)});
   return std::abs(after - before) > numerics::function_jump * largest_;
 }

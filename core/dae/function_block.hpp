@@ -2,18 +2,17 @@
 
 #include <vector>
 
-#include "core/netlist/run_time_expression.hpp"
+#include "core/netlist/switched_function.hpp"
 #include "core/network/dual.hpp"
 
 namespace rheonet {
 
-/// A block whose output is an expression, in operation: its arguments, and the sides of its switches. Between events the
+/// A block whose output is an expression or a table, in operation: its arguments, and the sides of its switches. Between events the
 /// sides are held, so that the output is smooth.
 class FunctionBlock {
  public:
-  explicit FunctionBlock(const RunTimeExpression& expression);
+  explicit FunctionBlock(const SwitchedFunction& function);
 
-  const RunTimeExpression& expression() const { return *expression_; }
   /// Arguments, with rates. `begin` sets all to 0 but the last one, the time in the scene [s].
   void begin(double time);
   void add(std::size_t argument, Dual value);
@@ -33,7 +32,7 @@ class FunctionBlock {
   const std::vector<double>& sides() const { return sides_; }
 
  private:
-  const RunTimeExpression* expression_;
+  const SwitchedFunction* function_;
   std::vector<double> arguments_, rates_, partials_;
   std::vector<double> sides_, fresh_, fired_, guards_;
   double largest_ = 0;  ///< output at events so far

@@ -23,6 +23,7 @@ struct Parameter {
     initial,  ///< an initial value (`f0`, `d0`): optional, absent means "not given"
     characteristic,  ///< a function of the displacement or velocity of the element; its value is 1 if it is given
     expression,  ///< the output of a block as an expression over its inputs `u1`, `u2`, ... and the time `t`
+    table,       ///< the output of a block by points, [input, output], or a CSV file; goes with `smooth` and `columns`
   };
 
   /// How the unit of a parameter is determined. The unit of a block's parameter may depend on what the block is connected
@@ -123,9 +124,9 @@ struct Declaration {
   std::string source = {};   ///< citation
   std::string notes = {};    ///< sign, range of validity, stored and dissipated energy
 
-  /// An expression gives its output.
+  /// An expression or a table gives its output.
   bool is_function() const {
-    return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::expression; });
+    return std::any_of(parameters.begin(), parameters.end(), [](const Parameter& p) { return p.kind == Parameter::Kind::expression || p.kind == Parameter::Kind::table; });
   }
   /// It applies a force or a motion that a signal gives.
   bool is_source() const {

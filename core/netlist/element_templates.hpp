@@ -9,6 +9,7 @@
 
 #include "core/netlist/characteristic_template.hpp"
 #include "core/netlist/context.hpp"
+#include "core/netlist/lookup_template.hpp"
 #include "core/netlist/parameters.hpp"
 #include "core/netlist/signals.hpp"
 #include "core/netlist/table_reader.hpp"
@@ -57,6 +58,7 @@ struct ElementTemplate {
   std::optional<CharacteristicTemplate> characteristic;  ///< of an element
   std::vector<SignalConnection> inputs;  ///< of a block
   const TomlValue* function = nullptr;   ///< of a block: the expression of its output
+  std::optional<LookupTemplate> lookup;  ///< of a block: the table of its output
   std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
 
   std::vector<ElementTemplate> members;  ///< of a group

@@ -1,4 +1,5 @@
 #include <memory>
+#include <utility>
 
 #include "core/netlist/expand.hpp"
 #include "core/netlist/records.hpp"
@@ -24,8 +25,11 @@ void Expander::connection(const ElementTemplate& plan, const Environment& enviro
     const auto parameters = std::make_shared<Environment>();
     for (const Environment* level = &environment; level; level = level->outer)
       parameters->names.insert(level->names.begin(), level->names.end());  // inner names hide outer ones
-    loose_.functions.push_back({block, plan.function, parameters, inside_.path, {}});
+    loose_.functions.push_back({block, plan.function, parameters, {}, inside_.path, {}});
     for (const SignalConnection& input : plan.inputs) loose_.functions.back().names.push_back(input.name);
+  }
+  if (plan.lookup) {
+    if (auto made = plan.lookup->evaluate(environment, context_)) loose_.functions.push_back({block, &plan.lookup->source(), {}, std::move(*made), inside_.path, {}});
   }
   for (const SignalConnection& input : plan.inputs) loose_.ends.push_back({&input, path_of(input), inside_.path, block, element});
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {

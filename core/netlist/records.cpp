@@ -45,7 +45,8 @@ std::vector<std::string> channels_of(const SceneIndex::Found& found, bool sensed
   if (found.block >= 0 || (found.element < 0 && found.assembly < 0)) return names;
   names.insert(names.end(), {"force", "displacement"});
   if (found.node < 0) names.emplace_back("velocity");
-  if (!sensed) names.insert(names.end(), {"power", "dissipated", "energy"});
+  if (!sensed || found.element >= 0) names.emplace_back("power");
+  if (!sensed) names.insert(names.end(), {"dissipated", "energy"});
   return names;
 }
 
@@ -182,7 +183,7 @@ Quantity quantity_of(Channel channel) {
 
 bool may_be_sensed(const Record& record) {
   return record.channel == Channel::position || record.channel == Channel::velocity || record.channel == Channel::displacement ||
-         record.channel == Channel::force;
+         record.channel == Channel::force || (record.channel == Channel::power && record.subject == Subject::element);
 }
 
 BlockUnit unit_of(const Scene& scene, const Record& record) {

@@ -211,8 +211,6 @@ std::optional<double> if_finite(double value, std::span<const double> partials =
 
 }  // namespace
 
-std::optional<double> RunTimeExpression::value(std::span<const double> arguments) const { return value(arguments, {}); }
-
 std::optional<double> RunTimeExpression::value(std::span<const double> arguments, std::span<const double> sides) const {
   Workspace& work = start(arguments);
   run<false>(work, sides, {}, {});

@@ -77,7 +77,7 @@ struct BlockUnit {
   bool open = true;
 };
 
-class RunTimeExpression;
+class SwitchedFunction;
 
 /// An element that computes a signal from others; name, declaration and values are stored in the element.
 struct SceneBlock {
@@ -89,7 +89,7 @@ struct SceneBlock {
   int element = 0;
   std::vector<Input> inputs;
   BlockUnit unit;
-  std::shared_ptr<const RunTimeExpression> function = {};  ///< of the inputs and the time in the scene; nullptr: none
+  std::shared_ptr<const SwitchedFunction> function = {};  ///< of the inputs, and of the time in the scene as last; nullptr: none
 };
 
 /// The signal of `element` for one of its parameters is the output of `block`, times `sign`.

@@ -54,6 +54,7 @@ std::vector<std::string> types_of(const Declaration& declaration) {
 
 std::string units_of(const Parameter& parameter) {
   if (parameter.kind == Parameter::Kind::expression) return "an expression over u1, u2, ... and t";
+  if (parameter.kind == Parameter::Kind::table) return "points [input, output], or the name of a CSV file";
   if (parameter.unit == Parameter::Unit::own) return "any unit";
   if (parameter.unit == Parameter::Unit::input) return "the unit of the input";
   if (parameter.unit == Parameter::Unit::output) return "the unit of the output";
@@ -68,6 +69,20 @@ std::string units_of(const Parameter& parameter) {
   return translation == rotation ? translation : fmt::format("{}, in a rotational scene {}", translation, rotation);
 }
 
+/// `table`, whose points are pairs of two values.
+Json table_schema(const std::string& description) {
+  Json points = list_of(
+      {{"type", "array"}, {"prefixItems", {reference("value"), reference("value")}}, {"items", false}, {"minItems", 2}},
+      1);
+  return {{"anyOf", {std::move(points), text("name of a CSV file")}}, {"description", description}};
+}
+
+/// `columns` and `smooth`, which go with a `table`.
+void add_table_keys(Json& properties, const std::string& columns) {
+  properties["columns"] = list_of(text("of the " + columns + ", as the first row of the CSV file of a `table` names them"), 2);
+  properties["smooth"] = {{"type", "boolean"}, {"description", "a `table` runs along monotone cubics between its points"}};
+}
+
 Json parameter_schema(const Parameter& parameter) {
   std::string description = parameter.symbol;
   if (!description.empty() && !parameter.description.empty()) description += ": ";
@@ -77,6 +92,8 @@ Json parameter_schema(const Parameter& parameter) {
     description += fmt::format("; if absent, {} `{}`", parameter.opposite ? "minus" : "as", parameter.same_as);
   if (parameter.fallback) description += fmt::format("; {} if absent", *parameter.fallback);
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
+  if (parameter.kind == Parameter::Kind::expression) return text(description);
+  if (parameter.kind == Parameter::Kind::table) return table_schema(description);
   const bool characteristic = parameter.kind == Parameter::Kind::characteristic;
   Json schema = described(reference(characteristic ? "characteristic" : parameter.takes_signal() ? "signal" : "value"), description);
   if (characteristic) return schema;
@@ -130,6 +147,7 @@ Json element_schema(const Declaration& declaration) {
     for (const std::string& name : names) properties[name] = parameter_schema(parameter);
     if (parameter.kind == Parameter::Kind::characteristic)
       properties["smooth"] = {{"type", "boolean"}, {"description", fmt::format("a monotone cubic spline through the points of `{}`", parameter.name)}};
+    if (parameter.kind == Parameter::Kind::table) add_table_keys(properties, "inputs and of the outputs");
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
     if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
@@ -181,10 +199,6 @@ Json body_schema(Declarations declarations) {
   return schema;
 }
 
-Json points_schema() {
-  return list_of({{"type", "array"}, {"prefixItems", {reference("value"), reference("value")}}, {"items", false}, {"minItems", 2}}, 1);
-}
-
 Json signal_schema() {
   Json properties{
       {"step", described(reference("value"), "height of a step at `time`")},
@@ -202,10 +216,8 @@ Json signal_schema() {
   std::vector<std::string> shapes;
   for (const auto& [shape, schema] : properties.items()) shapes.push_back(shape);
   shapes.emplace_back("table");
-  properties["table"] = {{"anyOf", {points_schema(), text("name of a CSV file")}},
-                         {"description", "[time, value] points: linear between them, held after the last"}};
-  properties["columns"] = list_of(text("of the times and of the values, as the first row of the CSV file of a `table` names them"), 2);
-  properties["smooth"] = {{"type", "boolean"}, {"description", "a `table` runs along monotone cubics between its points"}};
+  properties["table"] = table_schema("[time, value] points: linear between them, held after the last");
+  add_table_keys(properties, "times and of the values");
   const std::pair<const char*, const char*> reader[] = {
       {"amplitude", "factor on the signal"},
       {"frequency", "cycles a second [Hz; rad/s and rpm are converted]"},
@@ -229,12 +241,10 @@ Json signal_schema() {
 }
 
 Json characteristic_schema() {
-  Json table = object({{"table", {{"anyOf", {points_schema(), text("name of a CSV file")}}}},
-                       {"columns", list_of(text("the two columns of the CSV file, as its first row names them"), 2)},
-                       {"smooth", {{"type", "boolean"}}}});
-  table["required"] = {"table"};
-  return described({{"anyOf", {points_schema(), text("name of a CSV file"), std::move(table)}}},
-                   "points [displacement or velocity, force]; straight between them and beyond");
+  Json long_form = object({{"table", table_schema("points")}});
+  add_table_keys(long_form["properties"], "displacements or velocities and of the forces");
+  long_form["required"] = {"table"};
+  return {{"anyOf", {table_schema("points [displacement or velocity, force], or an expression over d or w"), std::move(long_form)}}};
 }
 
 Json repeat_schema() {

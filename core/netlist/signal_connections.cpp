@@ -105,7 +105,7 @@ class Connection {
     auto record = std::move(find_records({path}, doubtful_, context_, scene_, true).front());
     if (!record) return -1;
     if (!may_be_sensed(*record)) {
-      diagnostics_.error(path.spot, "a block cannot take in `" + end.path + "`", "it takes in positions, velocities, displacements and forces");
+      diagnostics_.error(path.spot, "a block cannot take in `" + end.path + "`", "it takes in positions, velocities, displacements, forces, and powers of elements");
       return -1;
     }
     scene_.sensed.push_back(std::move(*record));
@@ -169,6 +169,7 @@ class Connection {
   }
 
   BlockUnit made_by(const BlockFunction& function, bool any) const {
+    if (function.lookup.table) return unit_of(function.lookup.output);
     const auto& inputs = scene_.blocks[at(function.block)].inputs;
     const bool open = std::any_of(inputs.begin(), inputs.end(), [&](const SceneBlock::Input& input) { return unit_of_input(input).open; });
     if (open && !any) return {};
@@ -194,9 +195,18 @@ class Connection {
     return false;
   }
 
+  void look_up(const BlockFunction& function) {
+    SceneBlock& block = scene_.blocks[at(function.block)];
+    const BlockUnit input = unit_of_input(block.inputs.front());
+    if (!fits(function.lookup.input, one_of(input)))
+      diagnostics_.error(function.source->spot, "the inputs of the table are " + describe(function.lookup.input) + ", but what `" + name(function.block) + "` takes in is " + words(input));
+    block.function = function.lookup.table;
+  }
+
   void compile(const BlockFunction& function) {
     std::optional<DiagnosticList::Within> within;
     if (!function.within.empty()) within.emplace(diagnostics_, function.within);
+    if (function.lookup.table) return look_up(function);
     if (refuse_input(function)) return;
     auto expression = expression_of(function);
     if (const auto* wrong = std::get_if<TextError>(&expression)) {
@@ -215,7 +225,9 @@ class Connection {
   /// Unit of the output, from the inputs and `own` parameters. `any`: an expression may have inputs of unknown unit.
   BlockUnit made(int block, bool any) const {
     if (const auto function = functions_.find(block); function != functions_.end()) return made_by(*function->second, any);
-    const Declaration::Inputs& inputs = declaration(scene_.blocks[at(block)].element).inputs;
+    const Declaration& declared = declaration(scene_.blocks[at(block)].element);
+    if (declared.is_function()) return {};  // its table has a mistake
+    const Declaration::Inputs& inputs = declared.inputs;
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
     for (const OwnUnit& own : loose_.units) {
       if (own.block != block || parameter(own).unit != Parameter::Unit::own) continue;
@@ -244,7 +256,7 @@ class Connection {
   }
 
   void check_block(int block) {
-    if (functions_.contains(block)) return;
+    if (declaration(scene_.blocks[at(block)].element).is_function()) return;
     const BlockUnit in = taken_in(block), out = made(block, true);
     const auto differs = [](const BlockUnit& a, const BlockUnit& b) {
       return !fits(one_of(a), one_of(b));

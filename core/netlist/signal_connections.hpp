@@ -38,11 +38,12 @@ struct OwnUnit {
   BlockUnit unit;
   const TomlValue* source;
 };
-/// The expression of a block's output. It is compiled when the units of the inputs are known.
+/// The expression of a block's output, compiled when the units of the inputs are known; or the table.
 struct BlockFunction {
   int block;
   const TomlValue* source;
-  std::shared_ptr<const Environment> parameters;
+  std::shared_ptr<const Environment> parameters;  ///< of an expression
+  Lookup lookup;
   std::string within;  ///< as of LooseEnd
   std::vector<std::string> names;  ///< of the inputs
 };

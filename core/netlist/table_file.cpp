@@ -109,12 +109,17 @@ class TableFileReader {
     const auto time_unit = unit_of_column(time);
     const auto value_unit = unit_of_column(value);
     if (!time_unit || !value_unit) return;
-    const auto factor = as_quantity(*time_unit, abscissa_.quantity, context_.domain);
+    table_.unit = *value_unit;
+    table_.argument = *time_unit;
+    if (!abscissa_.quantity) {
+      unit_ = time_unit->value;
+      return;
+    }
+    const auto factor = as_quantity(*time_unit, *abscissa_.quantity, context_.domain);
     if (const auto* wrong = std::get_if<TextError>(&factor))
       refuse(time.column, fmt::format("the unit of the {}s: {}", abscissa_.name, wrong->message));
     else
       unit_ = std::get<double>(factor);
-    table_.unit = *value_unit;
   }
 
   /// The unit at the end of a header's field: plain if there is none, absent if it has a mistake. Text in round brackets
@@ -141,7 +146,7 @@ class TableFileReader {
   const TableAbscissa& abscissa_;
   Context& context_;
   std::size_t width_ = 2, time_column_ = 0, value_column_ = 1;
-  TableFile table_{{}, {.value = 1, .dimension = {}}};
+  TableFile table_{{}, {.value = 1, .dimension = {}}, {.value = 1, .dimension = {}}};
   double unit_ = 1;  ///< of the first column
   int line_ = 0;
   int diagnostics_ = 0;

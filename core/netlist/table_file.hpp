@@ -13,12 +13,13 @@ namespace rheonet {
 /// Points from a CSV file.
 struct TableFile {
   std::vector<std::pair<double, double>> points;  ///< abscissa, for a signal the time [s]; value
+  Number argument;                                ///< 1 in the unit of the abscissa; plain if the file gives none
   Number unit;                                    ///< 1 in the unit of the values; plain if the file gives none
 };
 
 /// What the first column of a table holds.
 struct TableAbscissa {
-  Quantity quantity = Quantity::time;
+  std::optional<Quantity> quantity = Quantity::time;  ///< absent: any
   std::string name = "time";
   std::string of = "a signal";  ///< what the table is of
 };

@@ -32,9 +32,11 @@ class Finder {
   Blocks find() {
     const std::vector<int> rates = number_rates();
     const std::vector<Blocks::Block> accelerations = integrate_accelerations(scene_.blocks.size() + rates.size());
+    first_power_ = scene_.blocks.size() + rates.size() + accelerations.size();
     for (const SceneBlock& block : scene_.blocks) add(block);
     for (const int block : rates) add_rate(block);
     result_.blocks.insert(result_.blocks.end(), accelerations.begin(), accelerations.end());
+    result_.blocks.insert(result_.blocks.end(), powers_.begin(), powers_.end());
     for (Network::Slider& slider : network_.sliders) {
       for (Network::VaryingParameter& varying : slider.varying) add_parameter(slider, varying);
     }
@@ -146,14 +148,14 @@ class Finder {
     Environment names;
     for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
     const RunTimeExpression::Variable variables[] = {{"d", {}}, {"w", {}}, {"t", {}}};
-    auto compiled = RunTimeExpression::compile(of.expression, variables, names);
+    auto expression = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
     Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
-    block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(std::move(compiled)));
+    block.function = expression;
     for (const auto& [node, sign] : {std::pair{branch.a, 1.0}, std::pair{branch.b, -1.0}}) {
       if (node <= ground) continue;
       const int motion = motion_of(node), giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
       const int given = giver < 0 ? motion : -1;
-      if (block.function->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
+      if (expression->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
       if (giver >= 0) {
         block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign, 1});
       } else {
@@ -162,6 +164,24 @@ class Finder {
     }
     result_.blocks.push_back(std::move(block));
     return static_cast<int>(result_.blocks.size()) - 1;
+  }
+
+  /// A power that a block takes in is the output of a function added for it: force times velocity.
+  void take_in_power(Blocks::Block& block, const SceneBlock::Input& input, const Record& record) {
+    static const auto product = [] {
+      const std::vector<RunTimeExpression::Variable> variables{{"u1", {}}, {"u2", {}}, {"t", {}}};
+      return std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile("u1*u2", variables, {})));
+    }();
+    Blocks::Block power{.element = block.element, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = product};
+    Record factor = record;
+    factor.channel = Record::Channel::force;
+    take_in(power, {.from_block = false, .index = input.index, .sign = 1}, factor);
+    const std::size_t forces = power.inputs.size();
+    factor.channel = Record::Channel::velocity;
+    take_in(power, {.from_block = false, .index = input.index, .sign = 1}, factor);
+    for (std::size_t k = forces; k < power.inputs.size(); ++k) power.inputs[k].argument = 1;
+    block.inputs.push_back({true, static_cast<int>(first_power_ + powers_.size()), input.sign});
+    powers_.push_back(std::move(power));
   }
 
   void add(const SceneBlock& made) {
@@ -178,8 +198,10 @@ class Finder {
       const std::size_t first = block.inputs.size();
       if (input.from_block) {
         block.inputs.push_back({true, input.index, input.sign});
+      } else if (const Record& record = scene_.sensed[at(input.index)]; record.channel == Record::Channel::power) {
+        take_in_power(block, input, record);
       } else {
-        take_in(block, input);
+        take_in(block, input, record);
       }
       for (std::size_t k = first; k < block.inputs.size(); ++k) block.inputs[k].argument = argument;
     }
@@ -187,8 +209,7 @@ class Finder {
   }
 
   /// Adds a quantity of the network to the inputs of a block, as a sum of sensors.
-  void take_in(Blocks::Block& block, const SceneBlock::Input& input) {
-    const Record& record = scene_.sensed[at(input.index)];
+  void take_in(Blocks::Block& block, const SceneBlock::Input& input, const Record& record) {
     const bool no_feedback = !open_.empty() && open_[result_.blocks.size()] != 0;
     using What = Blocks::Sensor::What;
     if (record.channel == Record::Channel::force) {
@@ -301,6 +322,8 @@ class Finder {
 
   Network& network_;
   const Scene& scene_;
+  std::size_t first_power_ = 0;         ///< number of the first of `powers_` among all blocks
+  std::vector<Blocks::Block> powers_;   ///< of elements, that blocks take in
   std::vector<char> open_;  ///< blocks whose feedback is left out: they sense no unknown of the network; empty: none
   Blocks result_;
 };

@@ -33,7 +33,7 @@ struct Blocks {
     bool generates = false;
     Signal signal;
     std::vector<Input> inputs;
-    std::shared_ptr<const RunTimeExpression> function = {};
+    std::shared_ptr<const SwitchedFunction> function = {};
     /// Its present output does not depend on its present input.
     bool breaks_loops() const { return law.state || law.delay > 0; }
   };

@@ -6,7 +6,7 @@
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
-#include "core/netlist/run_time_expression.hpp"
+#include "core/netlist/switched_function.hpp"
 #include "core/network/rigid_links.hpp"
 #include "core/result/grouped.hpp"
 

@@ -132,7 +132,7 @@ void ModeChangeLog::follow_blocks(double t) {
   for (std::size_t k = 0; k < sides_.size(); ++k) {
     if (const FunctionBlock* function = blocks_.function(static_cast<int>(k))) {
       std::vector<double>& before = switches_[k];
-      before.resize(function->sides().size(), RunTimeExpression::no_side);
+      before.resize(function->sides().size(), SwitchedFunction::no_side);
       double change = 0;
       for (std::size_t i = 0; i < before.size() && change == 0; ++i) {
         const double now = function->sides()[i];

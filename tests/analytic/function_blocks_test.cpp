@@ -177,6 +177,24 @@ TEST_CASE("a delay of a function, and of one that jumps") {
   }
 }
 
+TEST_CASE("the power of an element as an input: integrated, it is the energy that a spring takes up and a dashpot turns into heat") {
+  constexpr double k = 19.0, m = 0.9, c = 0.7, v0 = 0.8;
+  const std::string text = function_scene("", "k = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = \"19 N/m\" }\n"
+                                              "c = { type = \"dashpot\", between = [\"ground\", \"a\"], damping = \"0.7 N*s/m\" }\n"
+                                              "m = { type = \"mass\", at = \"a\", mass = \"0.9 kg\" }\n"
+                                              "W = { type = \"integrator\", in = \"k.power\" }\n"
+                                              "Q = { type = \"integrator\", in = \"-c.power\", gain = -1 }",
+                                          "a = { velocity = \"0.8 m/s\" }", 1.9, "record = [\"W.out\", \"Q.out\"]");
+  const double decay = c / (2 * m), omega = std::sqrt(k / m - decay * decay);
+  const auto position = [=](double t) { return v0 / omega * std::exp(-decay * t) * std::sin(omega * t); };
+  const auto velocity = [=](double t) { return v0 * std::exp(-decay * t) * (std::cos(omega * t) - decay / omega * std::sin(omega * t)); };
+  for (const double accuracy : accuracies) {
+    const RunTable run = simulate(text, accuracy);
+    CHECK(function_error(run, "W.out", [=](double t) { return k * position(t) * position(t) / 2; }) <= 10 * accuracy);
+    CHECK(function_error(run, "Q.out", [=](double t) { return m * v0 * v0 / 2 - m * velocity(t) * velocity(t) / 2 - k * position(t) * position(t) / 2; }) <= 10 * accuracy);
+  }
+}
+
 TEST_CASE("a limiter and the function that it is") {
   const auto scene = [](const char* block) {
     return function_scene("L = \"0.7 N\"\nU = \"1.1 N\"",

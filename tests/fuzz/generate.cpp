@@ -75,6 +75,13 @@ TomlValue parameter_value(const Parameter& parameter, const std::vector<std::str
                                          "floor(3*u1)", "1/u1", "u1*u2", "sin(t)*u1", "u1 > 0 && u1 < 1 ? -1 : exp(-u1^2)"};
     return string_value(texts[static_cast<std::size_t>(random.below(static_cast<int>(texts.size())))]);
   }
+  if (parameter.kind == Parameter::Kind::table) {
+    std::vector<TomlValue> points;
+    double u = random.sign() * value(random);
+    for (int k = random.below(6); k >= 0; --k, u += random.below(5) == 0 ? 0 : random.around(0.1, 10))
+      points.push_back(array_value({number_value(u), number_value(random.sign() * value(random))}));
+    return array_value(std::move(points));
+  }
   if (parameter.may_be_infinite && random.below(10) == 0) return string_value("inf");
   if (parameter.quantity == Quantity::number && random.below(2) == 0) return number_value(random.below(4));
   return number_value(value(random));

@@ -289,4 +289,62 @@ scene.toml:4:68: error: the output of `f`: `u1` is an angular velocity (rad/s), 
   for (const Bad& bad : cases) check_messages(bad);
 }
 
+TEST_CASE("bad netlists: tables of blocks") {
+  const Bad cases[] = {
+      {R"~(l = { type = "lookup", in = "shaft.velocity" }
+)~",
+       R"~(
+scene.toml:4:1: error: a `lookup` needs `table`
+    4 | l = { type = "lookup", in = "shaft.velocity" }
+      | ^
+  points [input, output], or the name of a CSV file: table = [["0 m", "0 N"], ["1 m", "5 N"]]
+)~"},
+      {R"~(l = { type = "lookup", in = "shaft.velocity", table = [[0, 1], [2, 3, 4]] }
+)~",
+       R"~(
+scene.toml:4:64: error: a point of a table is an array of two values, [input, output], but this has 3
+    4 | l = { type = "lookup", in = "shaft.velocity", table = [[0, 1], [2, 3, 4]] }
+      |                                                                ^
+)~"},
+      {R"~(l = { type = "lookup", in = "shaft.velocity", table = [[2, 1], [1, 0]] }
+n = { type = "torque", at = "shaft", torque = { block = "l" } }
+)~",
+       R"~(
+scene.toml:4:65: error: the inputs of a table must not decrease
+    4 | l = { type = "lookup", in = "shaft.velocity", table = [[2, 1], [1, 0]] }
+      |                                                                 ^
+)~"},
+      {R"~(l = { type = "lookup", in = "shaft.velocity", table = [[1, 1], [1, 0]], smooth = true }
+)~",
+       R"~(
+scene.toml:4:65: error: a smooth table cannot jump, but has two points at one input
+    4 | l = { type = "lookup", in = "shaft.velocity", table = [[1, 1], [1, 0]], smooth = true }
+      |                                                                 ^
+)~"},
+      {R"~(l = { type = "lookup", in = "shaft.velocity", table = [["1 rad/s", "2 N*m"], ["2 rad/s", "3 rad"]] }
+)~",
+       R"~(
+scene.toml:4:90: error: the output of a point: expected a torque or an energy (N*m), as the other outputs, found an angle (rad)
+    4 | l = { type = "lookup", in = "shaft.velocity", table = [["1 rad/s", "2 N*m"], ["2 rad/s", "3 rad"]] }
+      |                                                                                          ^
+)~"},
+      {R"~(l = { type = "lookup", in = "shaft.position", table = [["1 rad/s", "2 N*m"], ["2 rad/s", "3 N*m"]] }
+)~",
+       R"~(
+scene.toml:4:55: error: the inputs of the table are an angular velocity (rad/s), but what `l` takes in is an angle (rad)
+    4 | l = { type = "lookup", in = "shaft.position", table = [["1 rad/s", "2 N*m"], ["2 rad/s", "3 N*m"]] }
+      |                                                       ^
+)~"},
+      {R"~(l = { type = "lookup", in = "shaft.velocity", table = [["0 rad/s", "0 N*m"], ["1 rad/s", "2 rad"]], columns = ["a", "b"] }
+)~",
+       R"~(
+scene.toml:4:101: error: `columns` names columns of a CSV file, but `table` names none
+    4 | ...= { type = "lookup", in = "shaft.velocity", table = [["0 rad/s", "0 N*m"], ["1 rad/s", "2 rad"]], columns = ["a", "b"] }
+      |                                                                                                      ^
+  table = "measured.csv", columns = ["gap", "force"]
+)~"},
+  };
+  for (const Bad& bad : cases) check_messages(bad);
+}
+
 }  // namespace rheonet::test

@@ -222,8 +222,8 @@ record = [{ name = "root", value = "sqrt(a.position)" }]
   CHECK(message.find("at t = 0.75 s the expression `root` has no finite value") != std::string::npos);
 }
 
-TEST_CASE("Powers and accelerations are no inputs of blocks") {
-  for (const std::string path : {"k.power", "x.acceleration", "g.energy"}) {
+TEST_CASE("Accelerations, energies and the powers of assemblies are no inputs of blocks") {
+  for (const std::string path : {"k.dissipated", "x.acceleration", "g.energy", "g.power"}) {
     const std::string message = refusal(R"(
 [elements]
 x = { type = "mass", at = "x", mass = 1 }
@@ -231,7 +231,7 @@ k = { type = "spring", between = ["x", "ground"], stiffness = 1 }
 g = { between = ["x", "ground"], parallel = [{ type = "spring", stiffness = 1 }, { type = "dashpot", damping = 1 }] }
 b = { type = "gain", gain = 2, in = ")" + path + "\" }\n[simulate]\nstop = 1\n");
     CHECK(message.find("a block cannot take in `" + path + "`") != std::string::npos);
-    CHECK(message.find("it takes in positions, velocities, displacements and forces") != std::string::npos);
+    CHECK(message.find("it takes in positions, velocities, displacements, forces, and powers of elements") != std::string::npos);
   }
 }
 

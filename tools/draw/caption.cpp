@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "core/netlist/run_time_expression.hpp"
+#include "core/netlist/switched_function.hpp"
 #include "core/network/component.hpp"
 #include "tools/plot/units.hpp"
 
