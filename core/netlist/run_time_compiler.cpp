@@ -28,14 +28,14 @@ Environment with_variables(std::span<const RunTimeExpression::Variable> variable
 
 /// Carries out the instructions of the stack machine with what is known before the run: dimensions, and values of constants.
 /// Each operation on a variable becomes a step.
-class RunTimeCompiler {
+class RunTimeExpression::Compiler {
   using Op = ExpressionCode::Op;
   using Instruction = ExpressionCode::Instruction;
   using Step = RunTimeExpression::Step;
   using Kind = Step::Kind;
 
  public:
-  RunTimeCompiler(std::string_view text, const ExpressionCode& code, std::span<const RunTimeExpression::Variable> variables,
+  Compiler(std::string_view text, const ExpressionCode& code, std::span<const RunTimeExpression::Variable> variables,
                   const Environment& environment)
       : text_(text), code_(code), variables_(variables), rules_(text, code, environment) {}
 
@@ -270,7 +270,7 @@ std::variant<RunTimeExpression, TextError> RunTimeExpression::compile(std::strin
   try {
     const Environment environment = with_variables(variables, parameters);
     const ExpressionCode code = compile_expression(text);
-    return RunTimeCompiler(text, code, variables, environment).run();
+    return Compiler(text, code, variables, environment).run();
   } catch (TextError& error) {
     return std::move(error);
   }

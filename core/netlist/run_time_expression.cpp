@@ -89,8 +89,7 @@ std::pair<double, double> RunTimeExpression::margin_of(const Step& step, double 
   return {side * g, side};
 }
 
-template <bool with_slopes>
-void RunTimeExpression::run(Workspace& work, std::span<const double> given, std::span<double> chosen, std::span<double> functions) const {
+void RunTimeExpression::run(Workspace& work, bool with_slopes, std::span<const double> given, std::span<double> chosen, std::span<double> functions) const {
   using Kind = Step::Kind;
   double* const x = work.slots.data();
   for (std::uint32_t k = 0; k < steps_.size(); ++k) {
@@ -213,14 +212,14 @@ std::optional<double> if_finite(double value, std::span<const double> partials =
 
 std::optional<double> RunTimeExpression::value(std::span<const double> arguments, std::span<const double> sides) const {
   Workspace& work = start(arguments);
-  run<false>(work, sides, {}, {});
+  run(work, false, sides, {}, {});
   return if_finite(work.slots[result_]);
 }
 
 std::optional<double> RunTimeExpression::value(std::span<const double> arguments, std::span<const double> sides,
                                                std::span<double> partials) const {
   Workspace& work = start(arguments);
-  run<true>(work, sides, {}, {});
+  run(work, true, sides, {}, {});
   std::fill_n(work.adjoints.begin(), slots_.size(), 0.0);
   work.adjoints[result_] = 1;
   sweep(work, partials);
@@ -236,14 +235,14 @@ bool RunTimeExpression::complete_sides(std::span<const double> arguments, std::s
   Workspace& work = start(arguments);
   std::copy_n(sides.begin(), switch_count_, work.sides.begin());
   std::fill_n(sides.begin(), switch_count_, no_side);
-  run<false>(work, std::span(work.sides).first(switch_count_), sides, {});
+  run(work, false, std::span(work.sides).first(switch_count_), sides, {});
   return work.ordered;
 }
 
 bool RunTimeExpression::cross(std::size_t k, std::span<const double> arguments, std::span<double> sides) const {
   const Step& step = steps_[step_of_switch_[k]];
   Workspace& work = start(arguments);
-  run<false>(work, sides, {}, {});
+  run(work, false, sides, {}, {});
   const double a = work.slots[step.left], g = step.arguments > 1 ? a - work.slots[step.right] : a;
   double& side = sides[k];
   if (step.kind == Step::Kind::whole) {
@@ -258,7 +257,7 @@ bool RunTimeExpression::switching_functions(std::span<const double> arguments, s
                                             std::span<double> values) const {
   Workspace& work = start(arguments);
   std::fill_n(values.begin(), switch_count_, std::numeric_limits<double>::infinity());
-  run<false>(work, sides, {}, values);
+  run(work, false, sides, {}, values);
   return work.ordered;
 }
 
@@ -266,7 +265,7 @@ std::optional<double> RunTimeExpression::switching_function(std::size_t k, std::
                                                             std::span<const double> sides, std::span<double> partials) const {
   const Step& step = steps_[step_of_switch_[k]];
   Workspace& work = start(arguments);
-  run<true>(work, sides, {}, {});
+  run(work, true, sides, {}, {});
   if (!std::binary_search(work.trace.begin(), work.trace.end(), step_of_switch_[k])) return {};
   const double a = work.slots[step.left], g = step.arguments > 1 ? a - work.slots[step.right] : a;
   const double side = sides.empty() || std::isnan(sides[k]) ? side_of(step, g) : sides[k];

@@ -55,7 +55,7 @@ class RunTimeExpression final : public SwitchedFunction {
                                            std::span<double> partials) const;
 
  private:
-  friend class RunTimeCompiler;
+  class Compiler;
 
   struct Step {
     enum class Kind : std::uint8_t {
@@ -78,8 +78,8 @@ class RunTimeExpression final : public SwitchedFunction {
   struct Workspace;
   /// Uses a workspace of the calling thread.
   Workspace& start(std::span<const double> arguments) const;
-  template <bool with_slopes>
-  void run(Workspace& work, std::span<const double> given, std::span<double> chosen, std::span<double> functions) const;
+  /// Carries out the steps; `with_slopes`: with the partial derivatives of each step.
+  void run(Workspace& work, bool with_slopes, std::span<const double> given, std::span<double> chosen, std::span<double> functions) const;
   void sweep(Workspace& work, std::span<double> partials) const;
 
   std::vector<Step> steps_;
