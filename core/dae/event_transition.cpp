@@ -10,6 +10,7 @@
 #include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 #include "core/dae/dae.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -21,7 +22,22 @@ EventTransition::EventTransition(const Network& network, const Structure& classi
       impulse_told_(network.scene->elements.size(), 0),
       slipping_(network.sliders.size(), 0),
       came_to_rest_(network.sliders.size(), Modes::stuck),
-      slack_(classified.kind.size(), 0) {}
+      slack_(classified.kind.size(), 0),
+      led_by_(classified.kind.size(), -1),
+      firm_(classified.kind.size(), 0) {
+  DisjointSets linked = joined_by_links(network);
+  const auto set = [&](std::size_t n) { return at(linked.find(static_cast<NodeId>(n))); };
+  std::vector<NodeId> known(led_by_);
+  std::vector<char> firm(firm_);
+  for (std::size_t n = 0; n < led_by_.size(); ++n) {
+    if (classified.kind[n] == Kind::known) known[set(n)] = static_cast<NodeId>(n);
+    if (classified.kind[n] == Kind::known || classified.kind[n] == Kind::massive) firm[set(n)] = 1;
+  }
+  for (std::size_t n = 0; n < led_by_.size(); ++n) {
+    led_by_[n] = classified.kind[n] == Kind::known ? static_cast<NodeId>(n) : known[set(n)];
+    firm_[n] = firm[set(n)];
+  }
+}
 
 // A slider that slips must come to rest, and break away, before it slips the other way.
 double EventTransition::bound(std::size_t k, int side) const {
@@ -47,6 +63,8 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
   // A step that arrives through a delay is no step of the inputs: these do no work then.
   const bool delayed = take_delayed_steps(t, state, change);
   if (delayed && !driven) stepped = false;
+  // At the start, nodes that rigid links join need not have one velocity.
+  if (!started_) change.heat += halt(t, {}, modes, state, change.notes);
   change.heat += collide(t, momentum, state, change.notes);
   change.heat += halt(t, fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {

@@ -73,6 +73,7 @@ class EventTransition {
   [[noreturn]] void report_hidden_shares(double t) const;
   // impacts.cpp
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
+  double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double kinetic_energy(const State& state) const;
   void share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const;
   double collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes);
@@ -162,6 +163,8 @@ class EventTransition {
   std::vector<signed char> slipping_;  ///< of each slider: the direction in which it slips already
   std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this event
   std::vector<double> slack_;          ///< of each node: imbalance that is accepted [N]
+  std::vector<NodeId> led_by_;         ///< of each node: itself if its motion is known, a known node to which rigid links join it, or -1
+  std::vector<char> firm_;             ///< of each node: it, or a node to which rigid links join it, is known or has a mass
 };
 
 }  // namespace rheonet

@@ -33,7 +33,7 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, S
   std::vector<double> jump(structure_.kind.size(), 0);  // of the velocity of each prescribed node
   // At the start the state does not have these velocities yet: nothing jumps.
   for (std::size_t n = 0; started_ && n < jump.size(); ++n) {
-    if (structure_.kind[n] == Kind::known) jump[n] = given_velocity(static_cast<NodeId>(n)) - state.velocity[n];
+    if (led_by_[n] >= 0) jump[n] = given_velocity(led_by_[n]) - state.velocity[n];
   }
   started_ = true;
   const bool pushed = std::any_of(momentum.begin(), momentum.end(), [](double p) { return p != 0; });
@@ -97,11 +97,11 @@ void EventTransition::share_impulses(double t, const std::vector<double>& jump, 
 /// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
 std::vector<int> EventTransition::moving_backwards(const State& state) const {
   std::vector<int> result;
-  const auto velocity = [&](NodeId n) { return structure_.kind[at(n)] == Kind::known ? given_velocity(n) : state.velocity[at(n)]; };
+  const auto velocity = [&](NodeId n) { return led_by_[at(n)] >= 0 ? given_velocity(led_by_[at(n)]) : state.velocity[at(n)]; };
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const auto& [element, a, b] = network_.sliders[k].branch;
-    const bool given = structure_.kind[at(a)] == Kind::known && structure_.kind[at(b)] == Kind::known;
-    if (given || massless(a) || massless(b) || is_rigid_link(network_.sliders[k])) continue;
+    const bool given = led_by_[at(a)] >= 0 && led_by_[at(b)] >= 0;
+    if (given || !firm_[at(a)] || !firm_[at(b)] || is_rigid_link(network_.sliders[k])) continue;
     const double va = velocity(a), vb = velocity(b);
     const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
     if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));
@@ -114,13 +114,25 @@ std::vector<int> EventTransition::moving_backwards(const State& state) const {
 double EventTransition::halt(double t, const std::vector<int>& events, const Modes& modes, State& state,
                      std::vector<std::string>& notes) const {
   refuse_torn_links(t);
-  std::vector<int> fired = events;
+  // Rigid links first, alone: friction between other nodes takes no impulse.
+  std::vector<int> links;
+  Modes held{std::vector<signed char>(modes.slider.size(), Modes::forward)};
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    if (is_rigid_link(network_.sliders[k])) fired.push_back(static_cast<int>(k));
+    if (!is_rigid_link(network_.sliders[k])) continue;
+    links.push_back(static_cast<int>(k));
+    held.slider[k] = Modes::stuck;
   }
+  const double heat = links.empty() ? 0 : go_on_together(links, held, state, notes);
+  if (events.empty()) return std::max(0.0, heat);
+  held = modes;
+  for (const int k : events) held.slider[at(k)] = Modes::stuck;
+  return std::max(0.0, heat + go_on_together(events, held, state, notes));
+}
+
+/// Gives the nodes that sticking sliders join, one of them among `joining`, their common velocity. Returns the energy that this
+/// turns into heat [J].
+double EventTransition::go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const {
   double heat = 0;
-  Modes held = modes;
-  for (int k : fired) held.slider[at(k)] = Modes::stuck;
   std::vector<std::vector<NodeId>> around(structure_.kind.size());
   for (std::size_t k = 0; k < held.slider.size(); ++k) {
     if (held.slider[k] != Modes::stuck) continue;
@@ -129,7 +141,7 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
     around[at(b.b)].push_back(b.a);
   }
   std::vector<char> seen(structure_.kind.size(), 0);
-  for (int k : fired) {
+  for (int k : joining) {
     std::vector<NodeId> cluster{network_.sliders[at(k)].branch.a};
     if (seen[at(cluster[0])]) continue;
     seen[at(cluster[0])] = 1;
@@ -164,7 +176,7 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
           network_.name_of(link.branch), with_unit(*network_.scene, network_.element_of(link.branch), after, Quantity::velocity), lost));
     }
   }
-  return std::max(0.0, heat);
+  return heat;
 }
 
 }  // namespace rheonet

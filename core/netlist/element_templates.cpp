@@ -233,7 +233,11 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     plan.inputs = read_inputs(declaration, plan.name, plan.spot, reader, diagnostics);
   } else {
     read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, reader);
-    if (declaration.domains.empty()) read_domain(plan, reader);
+    if (declaration.domains.empty()) {
+      read_domain(plan, reader);
+    } else if (const TomlEntry* domain = reader.find_quietly("domain")) {
+      diagnostics.error(domain->spot, article(declaration.type) + " joins two domains: it has none of its own", "leave it out");
+    }
     if (!plan.domain && type.value.text == declaration.rotational_type && !type.value.text.empty()) plan.domain = Domain::rotation;
   }
   const Domain domain = plan.domain.value_or(context_.domain);

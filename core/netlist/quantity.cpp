@@ -128,8 +128,8 @@ std::string hint_for(const Number& number, Quantity quantity, Domain domain, dou
   // An angle is a pure number in SI, so a fit in the other domain is no evidence.
   const Dimension elsewhere = dimension_of(quantity, other, flow_index);
   if (number.dimension.same(elsewhere) && !elsewhere.is_number())
-    return rotation ? "this scene is rotational (`domain = \"rotation\"`)"
-                    : "a rotational scene says so at its top: `domain = \"rotation\"`";
+    return rotation ? "this is of rotation (`domain = \"rotation\"`)"
+                    : "what is of rotation says so: `domain = \"rotation\"`, of the scene or of an element";
   const Dimension acceleration{1, 0, -2};
   if (number.dimension.same(dimension_of(quantity, domain, flow_index) * acceleration))
     return "its weight is not its mass: `kg`, `lb` and `slug` are masses, `kgf` and `lbf` forces";

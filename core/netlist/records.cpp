@@ -206,9 +206,10 @@ std::optional<Quantity> quantity_of(const Scene& scene, const Record& record) {
   const BlockUnit unit = unit_of(scene, record);
   if (unit.open) return {};
   // An exponent of rad distinguishes an angle from a number; in other units it has no meaning, and is often omitted.
-  const bool angle = scene.domain == Domain::rotation && unit.radian != 0;
+  const Domain domain = domain_of(scene, record);
+  const bool angle = domain == Domain::rotation && unit.radian != 0;
   for (const Quantity known : {angle ? Quantity::position : Quantity::number, Quantity::position, Quantity::velocity, Quantity::force, Quantity::acceleration, Quantity::power, Quantity::energy})
-    if (unit.dimension.same(dimension_of(known, scene.domain))) return known;
+    if (unit.dimension.same(dimension_of(known, domain))) return known;
   return {};
 }
 

@@ -25,9 +25,18 @@ Domain domain_of(const Scene& scene, const Record& record) {
       const SceneAssembly& assembly = scene.assemblies[k];
       return domain_of(scene, scene.nodes[static_cast<std::size_t>(assembly.a == ground ? assembly.b : assembly.a)]);
     }
-    case Record::Subject::block:
-    case Record::Subject::expression:
-      break;
+    case Record::Subject::block: {
+      // That of what it takes in, for the names of units alone.
+      for (const SceneBlock::Input& input : scene.blocks[k].inputs) {
+        if (!input.from_block) return domain_of(scene, scene.sensed[static_cast<std::size_t>(input.index)]);
+      }
+      return scene.domain;
+    }
+    case Record::Subject::expression: {
+      const std::vector<Record>& operands = scene.expressions[k].operands;
+      const auto same = [&](const Record& operand) { return domain_of(scene, operand) == domain_of(scene, operands.front()); };
+      return !operands.empty() && std::all_of(operands.begin(), operands.end(), same) ? domain_of(scene, operands.front()) : scene.domain;
+    }
   }
   return scene.domain;
 }

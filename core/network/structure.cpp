@@ -10,6 +10,7 @@
 #include "core/base/index.hpp"
 #include "core/network/forest.hpp"
 #include "core/network/reductions.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -85,6 +86,17 @@ void assign_inertia(const Network& network, Structure& s) {
   s.inertia = s.mass;
   if (s.inerters.empty()) return;
   const auto firm = [&](NodeId node) { return s.kind[at(node)] == Kind::known || s.kind[at(node)] == Kind::massive; };
+  // Rigid links hold a node as inerters do.
+  DisjointSets linked = joined_by_links(network);
+  std::vector<char> holds(s.kind.size(), 0);
+  for (std::size_t n = 0; n < holds.size(); ++n) {
+    if (firm(static_cast<NodeId>(n))) holds[at(linked.find(static_cast<NodeId>(n)))] = 1;
+  }
+  for (const Branch& b : s.inerters) {
+    for (const NodeId node : {b.a, b.b}) {
+      if (!firm(node) && holds[at(linked.find(node))]) s.kind[at(node)] = Kind::massive;
+    }
+  }
   for (bool again = true; std::exchange(again, false);) {
     for (const Branch& b : s.inerters) {
       if (b.a == b.b || firm(b.a) == firm(b.b)) continue;

@@ -19,6 +19,18 @@ bool drives(const SceneElement& element) {
   return element.at && (role == Role::motion || role == Role::force);
 }
 
+/// Starts the node of a drive where the driven node is: a gear keeps the ratio of positions only from where they start.
+void start_alike(const SceneElement& drive, SceneNode& driving, SceneNode& driven, double ratio) {
+  const Component& component = *components()[at(drive.declaration)];
+  const Quantity quantity = component.declaration.parameters[at(drive.signal_parameters[0])].quantity;
+  if (quantity == Quantity::position) {
+    if (std::isnan(driven.position)) driven.position = drive.signals[0].value(0) / ratio;
+    return;
+  }
+  driving.position = ratio * driven.position;
+  if (quantity == Quantity::acceleration) driving.velocity = ratio * driven.velocity;
+}
+
 /// The same scene, each of its drives behind a gear of this ratio. The nodes of the drives come first, so that the unit of one of
 /// them is the common one, and everything else is converted.
 Scene behind_gears(const Scene& scene, double ratio) {
@@ -47,6 +59,7 @@ Scene behind_gears(const Scene& scene, double ratio) {
     SceneElement gear = SceneBuilder::element(drive.name + "_gear", "gear", {{"ratio", ratio}});
     gear.a = k + 1;
     gear.b = std::exchange(drive.a, k + 1);
+    start_alike(drive, result.nodes[at(gear.a)], result.nodes[at(gear.b)], ratio);
     result.elements.push_back(gear);
   }
   return result;

@@ -20,13 +20,13 @@ scene.toml:2:1: error: a `spring` needs `stiffness`
       {"a key of the whole scene",
        R"~(
 [elements]
-k1 = { type = "spring", domain = "rotation", between = ["a", "ground"], stiffness = 1 }
+k1 = { type = "spring", title = "rotation", between = ["a", "ground"], stiffness = 1 }
 )~",
        R"~(
-scene.toml:2:25: error: unknown key `domain` of a `spring`
-    2 | k1 = { type = "spring", domain = "rotation", between = ["a", "ground"], stiffness = 1 }
+scene.toml:2:25: error: unknown key `title` of a `spring`
+    2 | k1 = { type = "spring", title = "rotation", between = ["a", "ground"], stiffness = 1 }
       |                         ^
-  `domain` belongs at the top of the file, above all tables: it is for the whole scene
+  `title` belongs at the top of the file, above all tables: it is for the whole scene
 )~"},
       {"the type is missing",
        R"~(
@@ -70,7 +70,7 @@ k1 = { type = "gearbox", between = ["a", "ground"], stiffness = 1 }
 scene.toml:2:15: error: unknown element type `gearbox`
     2 | k1 = { type = "gearbox", between = ["a", "ground"], stiffness = 1 }
       |               ^
-  the types are `spring`, `dashpot`, `slider`, `mass`, `motion` and `force`
+  the types are `spring`, `dashpot`, `slider`, `mass`, `inertia`, `motion`, `force` and `torque`
 )~"},
       {"a mistyped key, not missing too",
        R"~(
@@ -83,18 +83,7 @@ scene.toml:2:52: error: unknown key `stifness` of a `spring`
       |                                                    ^
   did you mean `stiffness`?
 )~"},
-      {"a rotational type in translation",
-       R"~(
-[elements]
-m1 = { type = "inertia", at = "a", inertia = 1 }
-)~",
-       R"~(
-scene.toml:2:15: error: an `inertia` belongs to a rotational scene, this one is translational
-    2 | m1 = { type = "inertia", at = "a", inertia = 1 }
-      |               ^
-  use `mass`, or set domain = "rotation"
-)~"},
-      {"a rotational type in translation, with keys that it has nowhere",
+      {"a rotational type with keys that it has nowhere",
        R"~(
 [elements]
 m1 = { type = "inertia", at = "a", mass = 1, inertai = 2 }
@@ -103,18 +92,18 @@ between = ["a", "ground"]
 parallel = [{ type = "torque", name = "t", torque = 1, at = "a", torqe = 2 }]
 )~",
        R"~(
-scene.toml:2:15: error: an `inertia` belongs to a rotational scene, this one is translational
+scene.toml:2:36: error: `mass` is called `inertia` in a rotational scene
     2 | m1 = { type = "inertia", at = "a", mass = 1, inertai = 2 }
-      |               ^
-  use `mass`, or set domain = "rotation"
+      |                                    ^
+  write `inertia`
 scene.toml:2:46: error: unknown key `inertai` of an `inertia`
     2 | m1 = { type = "inertia", at = "a", mass = 1, inertai = 2 }
       |                                              ^
   did you mean `inertia`?
-scene.toml:5:22: error: a `torque` belongs to a rotational scene, this one is translational
+scene.toml:5:56: error: a member of `series` or `parallel` has no `at`
     5 | parallel = [{ type = "torque", name = "t", torque = 1, at = "a", torqe = 2 }]
-      |                      ^
-  use `force`, or set domain = "rotation"
+      |                                                        ^
+  its place in the group says between which nodes it is
 scene.toml:5:66: error: unknown key `torqe` of a `torque`
     5 | parallel = [{ type = "torque", name = "t", torque = 1, at = "a", torqe = 2 }]
       |                                                                  ^

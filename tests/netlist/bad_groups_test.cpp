@@ -141,7 +141,7 @@ series = [ { type = "spring", stiffness = 1 } ]
 scene.toml:3:1: error: unknown key `stiffness` of a `series` group
     3 | stiffness = 3
       | ^
-  its keys are `between`, `repeat` and `series`
+  its keys are `between`, `domain`, `repeat` and `series`
 )~"},
       {"a wrong value deep within",
        R"~(

@@ -160,7 +160,7 @@ command line: error: nothing in `m` is called `K`
 command line: error: unknown key `stif` of a `spring`
       | --set chain.stif=3
       |             ^
-  its keys are `type`, `between`, `stiffness`, `rest`, `f0` and `repeat`
+  its keys are `type`, `between`, `domain`, `stiffness`, `rest`, `f0` and `repeat`
 command line: error: nothing in `mchain` is called `x`
       | --set mchain.x=3
       |              ^

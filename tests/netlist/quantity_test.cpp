@@ -91,8 +91,8 @@ TEST_CASE("a wrong dimension is named in words, with both units") {
 
 TEST_CASE("likely causes of a wrong dimension are hinted at") {
   CHECK(refusal("2 N*m/rad", Quantity::stiffness, translation).hint ==
-        "a rotational scene says so at its top: `domain = \"rotation\"`");
-  CHECK(refusal("2 N/m", Quantity::stiffness, rotation).hint.find("this scene is rotational") == 0);
+        "what is of rotation says so: `domain = \"rotation\"`, of the scene or of an element");
+  CHECK(refusal("2 N/m", Quantity::stiffness, rotation).hint.find("this is of rotation") == 0);
   CHECK(refusal("2 lbf", Quantity::mass, translation).hint.find("its weight is not its mass") == 0);
   CHECK(refusal("2 lb", Quantity::force, translation).hint.find("there is a mass in its unit") == 0);
   CHECK(refusal("2 in*lb", Quantity::force, rotation).hint.find("there is a mass in its unit") == 0);

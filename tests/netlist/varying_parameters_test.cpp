@@ -85,7 +85,7 @@ TEST_CASE("signals for parameters that take none, and parameters of an element w
                 "signals, which vary in time, are `force` of a `force`, `signal` of a `generator`, `position`, `velocity` and `acceleration` of a `motion`, `coulomb`, "
                 "`breakaway` and `normal` of a `slider`");
   check_message(with("f1 = { type = \"freewheel\", between = [\"a\", \"ground\"], coulomb = 1 }"), "3:55", "unknown key `coulomb` of a `freewheel`",
-                "its keys are `type`, `between` and `repeat`");
+                "its keys are `type`, `between`, `domain` and `repeat`");
   check_message(with("f1 = { type = \"freewheel\", at = \"a\" }"), "3:28", "`f1` is between two nodes, not `at` one", "between = [\"a\", \"ground\"]");
 }
 

@@ -31,7 +31,7 @@ std::string unit_of_claim(const Claim& claim, const Scene& scene) {
                               rheonet::unit_of(scene, record_of(scene, claim.per)).dimension;
   // A damping as N*s/m, not as kg/s.
   for (const Quantity known : {Quantity::number, Quantity::stiffness, Quantity::damping, Quantity::time})
-    if (dimension.same(dimension_of(known, scene.domain))) return rheonet::unit_of(known, scene.domain);
+    if (dimension.same(dimension_of(known, domain_of(scene, record)))) return rheonet::unit_of(known, domain_of(scene, record));
   return to_string(dimension);
 }
 
