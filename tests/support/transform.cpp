@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/index.hpp"
 #include "core/netlist/records.hpp"
@@ -127,6 +129,81 @@ double flow_index(const Declaration& declaration, const Parameter& parameter, co
 
 Signal transformed(const Signal& signal, double value, double time, double add) {
   return Signal(std::visit(Transform{value, time, add}, signal.shape()));
+}
+
+bool drives(const SceneElement& element) {
+  const Role role = components()[at(element.declaration)]->role;
+  return element.at && (role == Role::motion || role == Role::force);
+}
+
+namespace {
+
+Quantity driven_quantity(const SceneElement& drive) { return parameter_of(drive, 0).quantity; }
+
+bool fed(const Scene& scene, int element) {
+  return std::any_of(scene.feeds.begin(), scene.feeds.end(), [&](const SceneFeed& feed) { return feed.element == element; });
+}
+
+/// Starts the shaft of a drive where the driven node is: a gear keeps the ratio of positions only from where they start.
+void start_alike(const SceneElement& drive, double start, SceneNode& shaft, SceneNode& driven, double ratio) {
+  if (driven_quantity(drive) == Quantity::position) {
+    if (std::isnan(driven.position)) driven.position = drive.signals[0].before(start) / ratio;
+    return;
+  }
+  shaft.position = ratio * driven.position;
+  if (driven_quantity(drive) == Quantity::acceleration) shaft.velocity = ratio * driven.velocity;
+}
+
+}  // namespace
+
+Scene behind_gears(const Scene& scene, double ratio) {
+  Scene result = scene;
+  std::vector<int> driving;
+  for (int e = 0; at(e) < scene.elements.size(); ++e) {
+    const SceneElement& element = scene.elements[at(e)];
+    if (drives(element) && element.a != ground && !(fed(scene, e) && driven_quantity(element) == Quantity::position)) driving.push_back(e);
+  }
+  const int added = static_cast<int>(driving.size());
+  const auto move = [added](NodeId& node) { node = node == ground ? ground : node + added; };
+  const auto move_record = [&](Record& record) {
+    if (record.subject == Record::Subject::node) move(record.index);
+  };
+  std::vector<SceneNode> nodes{scene.nodes.front()};
+  for (const int e : driving) nodes.push_back({.name = scene.elements[at(e)].name + "_shaft", .spot = {}});
+  nodes.insert(nodes.end(), scene.nodes.begin() + 1, scene.nodes.end());
+  result.nodes = nodes;
+  for (SceneElement& element : result.elements) {
+    move(element.a);
+    move(element.b);
+  }
+  for (SceneAssembly& assembly : result.assemblies) {
+    move(assembly.a);
+    move(assembly.b);
+  }
+  for (std::vector<Record>* records : {&result.records, &result.claimed, &result.sensed}) {
+    for (Record& record : *records) move_record(record);
+  }
+  for (SceneExpression& expression : result.expressions) {
+    for (Record& operand : expression.operands) move_record(operand);
+  }
+  for (int k = 0; k < added; ++k) {
+    SceneElement& drive = result.elements[at(driving[at(k)])];
+    const bool motion = components()[at(drive.declaration)]->role == Role::motion;
+    const double factor = motion ? ratio : 1 / ratio;
+    drive.signals.own()[0] = transformed(drive.signals[0], factor);
+    for (SceneFeed& feed : result.feeds) {
+      if (feed.element == driving[at(k)]) feed.sign *= factor;
+    }
+    SceneElement gear;
+    gear.name = drive.name + "_gear";
+    gear.declaration = static_cast<int>(std::find(components().begin(), components().end(), find_component("gear")) - components().begin());
+    gear.values = {ratio};
+    gear.a = k + 1;
+    gear.b = std::exchange(drive.a, k + 1);
+    start_alike(drive, scene.start, result.nodes[at(gear.a)], result.nodes[at(gear.b)], ratio);
+    result.elements.push_back(gear);
+  }
+  return result;
 }
 
 Scene rescaled(Scene scene, const Scaling& scaling) {

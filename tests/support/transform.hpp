@@ -31,6 +31,13 @@ Scene boosted(Scene scene, double v);
 /// [a, b] of one element becomes [b, a].
 Scene exchanged(Scene scene, int element);
 
+/// Each motion and force `at` a node acts on a shaft of its own instead, and drives the node through a gear of this ratio. The shafts
+/// come first among the nodes, so that the unit of one of them is the common one and all else is converted. A motion whose position
+/// a block gives stays where it is.
+Scene behind_gears(const Scene& scene, double ratio);
+/// A motion or force `at` a node.
+bool drives(const SceneElement& element);
+
 /// value signal(t / time) + add.
 Signal transformed(const Signal& signal, double value, double time = 1, double add = 0);
 
