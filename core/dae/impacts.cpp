@@ -171,9 +171,9 @@ double EventTransition::go_on_together(const std::vector<int>& joining, const Mo
     heat += lost;
     if (const Network::Slider& link = network_.sliders[at(k)]; is_rigid_link(link) && lost > numerics::equal_energies * had) {
       notes.push_back(fmt::format(
-          "rigid link `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
+          "{} `{}` joins masses that start with different velocities: they go on together at {}, and lose {:.6g} J "
           "at once, before the energy account begins",
-          network_.name_of(link.branch), with_unit(*network_.scene, network_.element_of(link.branch), after, Quantity::velocity), lost));
+          link.component && link.component->ratio ? "transmission" : "rigid link", network_.name_of(link.branch), with_unit(*network_.scene, network_.element_of(link.branch), after, Quantity::velocity), lost));
     }
   }
   return heat;

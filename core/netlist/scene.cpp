@@ -26,7 +26,10 @@ Domain domain_of(const Scene& scene, const Record& record) {
       return domain_of(scene, scene.nodes[static_cast<std::size_t>(assembly.a == ground ? assembly.b : assembly.a)]);
     }
     case Record::Subject::block: {
-      // That of what it takes in, for the names of units alone.
+      // That of what it feeds, or else takes in, for the names of units alone.
+      for (const SceneFeed& feed : scene.feeds) {
+        if (feed.block == record.index) return domain_of(scene, scene.elements[static_cast<std::size_t>(feed.element)]);
+      }
       for (const SceneBlock::Input& input : scene.blocks[k].inputs) {
         if (!input.from_block) return domain_of(scene, scene.sensed[static_cast<std::size_t>(input.index)]);
       }

@@ -1,5 +1,7 @@
 #include "core/network/rigid_links.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,14 +39,17 @@ LinksBetween links_between(const Network& network, NodeId from, NodeId to) {
     }
   }
   std::vector<std::string> names;
+  std::size_t transmissions = 0;
   int first = -1;
   for (NodeId node = to; node != from && by[at(node)]; node = beyond(*by[at(node)], node)) {
     first = by[at(node)]->element;
+    transmissions += components()[at(network.element_of(*by[at(node)]).declaration)]->ratio ? 1 : 0;
     names.push_back(network.name_of(*by[at(node)]));
   }
   std::reverse(names.begin(), names.end());
   const bool several = names.size() > 1;
-  return {(several ? "rigid links " : "rigid link ") + format_list(names), first, several};
+  const char* const what = transmissions == 0 ? "rigid link" : transmissions == names.size() ? "transmission" : "rigid or transmitting link";
+  return {fmt::format("{}{} {}", what, several ? "s" : "", format_list(names)), first, several};
 }
 
 }  // namespace rheonet

@@ -15,7 +15,7 @@ bool is_rigid_link(const Network::Slider& slider);
 DisjointSets joined_by_links(const Network& network);
 
 /// The rigid links on the shortest path between two nodes that they join, in words: "rigid link `l1`", "rigid links `l1`,
-/// `l2`".
+/// `l2`", "transmission `g1`".
 struct LinksBetween {
   std::string words;
   int first;     ///< index into Scene::elements

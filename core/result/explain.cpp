@@ -279,7 +279,7 @@ class Explainer {
       if (node == ground) continue;
       const Kind kind = structure.kind[at(node)];
       if (kind == Kind::joined) {
-        leave_out({.what = "velocity of", .reason = "it follows from another node while the slider between them sticks", .of_nodes = true},
+        leave_out({.what = "velocity of", .reason = "it follows from another node: a sticking slider, a rigid link or a transmission joins them", .of_nodes = true},
                   network_.node_name(node));
       }
       if (kind == Kind::known && structure.of_time[at(node)] && structure.motion[at(node)] >= 0) {
