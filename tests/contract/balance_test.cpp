@@ -22,7 +22,7 @@ double direction(const Component& component) {
       return 1;
     case Role::motion:
     case Role::force:
-      return -1;
+      return component.declaration.resists ? 1 : -1;
     case Role::block:
       break;
   }

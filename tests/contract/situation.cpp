@@ -65,6 +65,7 @@ class Surroundings {
         spring("a", "mid");
         begin_mid(values);
         put(values, "mid", far(), "mid");
+        if (needs_mass(values)) builder_.at(next("mass"), "mass", "mid", {{"mass", 0.3 * draw(Quantity::mass)}});
         if (!ends_) dashpot("mid", far());
         break;
       case Wiring::given:
@@ -97,6 +98,10 @@ class Surroundings {
     SceneElement e = SceneBuilder::element("element", component_.declaration.type);
     e.values = values;
     return one_way(e);
+  }
+  /// Its force depends on its velocity in a way that no balance of forces may determine.
+  bool needs_mass(const std::vector<double>& values) const {
+    return (component_.over_velocity && component_.over_velocity(values)) || (component_.beside && component_.beside(values));
   }
   bool motion() const { return component_.role == Role::motion; }
   double scale(Quantity quantity) const { return typical.of(quantity, place_.domain); }

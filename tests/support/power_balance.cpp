@@ -16,6 +16,9 @@ namespace {
 
 const Component& component_of(const SceneElement& element) { return *components()[static_cast<std::size_t>(element.declaration)]; }
 
+/// Its power is supplied to the network, not taken from it.
+bool supplies(const Component& component) { return component.role == Role::motion || (component.role == Role::force && !component.declaration.resists); }
+
 }  // namespace
 
 std::vector<std::vector<double>> power_rows(Scene scene, int intervals) {
@@ -40,8 +43,7 @@ void check_storage(const Scene& scene, const std::vector<std::vector<double>>& r
   const double every = (scene.stop - scene.start) / static_cast<double>(rows.size() - 1);
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const SceneElement& element = scene.elements[e];
-    const Role role = component_of(element).role;
-    if (role == Role::motion || role == Role::force || role == Role::block) continue;
+    if (supplies(component_of(element)) || component_of(element).role == Role::block) continue;
     std::vector<double> defects;
     double turnover = 0, energy = 0;
     for (std::size_t k = 0; k + 2 < rows.size(); k += 2) {
@@ -65,8 +67,7 @@ void check_supply(const Scene& scene, const std::vector<std::vector<double>>& ro
   for (const std::vector<double>& row : rows) {
     double sum = 0, magnitude = 0;
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-      const Role role = component_of(scene.elements[e]).role;
-      sum += (role == Role::motion || role == Role::force ? 1 : -1) * row[3 * e];
+      sum += (supplies(component_of(scene.elements[e])) ? 1 : -1) * row[3 * e];
       magnitude += std::abs(row[3 * e]);
     }
     largest = std::max(largest, magnitude);
