@@ -55,11 +55,13 @@ const RegisterComponent register_slider({
             .effects = {{Effect::dry_friction, "coulomb", 0}},
             .absences = {{{Effect::dry_friction}, {{"breakaway", 0}}}},
             .summary = "ideal Coulomb slider, brake or clutch: sticks without creep, or slips at its sliding force",
-            .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w); with `stribeck`, f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w); with `normal`, times N",
+            .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w); with `normal`, both times N",
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
             .notes = "Stores nothing, dissipates f w. Where the balance of forces does not determine how sticking sliders share a load, "
                      "they share it with the least sum of squares within their bounds.\n"
+                     "With `stribeck` it slides with f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w): from breakaway at rest down to Fc. Both nodes then "
+                     "need a mass or a prescribed motion.\n"
                      "A brake or a clutch is a slider with a `normal` that varies. Where it is below 0 the surfaces are apart: no force.",
         },
     .role = Role::slip,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/dae/block_signals.hpp"
+#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -22,9 +23,22 @@ std::string path_of(const Network& network, const Blocks::Sensor& sensor) {
 
 }  // namespace
 
+std::vector<char> firm_nodes(const Network& network, const Structure& classified) {
+  DisjointSets linked = joined_by_links(network);
+  std::vector<char> firm(network.nodes(), 0);
+  for (std::size_t n = 0; n < firm.size(); ++n) {
+    const Kind kind = classified.kind[n];
+    if (kind == Kind::known || kind == Kind::massive) firm[at(linked.find(static_cast<NodeId>(n)))] = 1;
+  }
+  std::vector<char> result(firm);
+  for (std::size_t n = 0; n < firm.size(); ++n) result[n] = firm[at(linked.find(static_cast<NodeId>(n)))];
+  return result;
+}
+
 void BlockSignals::check_sensors(const Network& network, const Structure& classified) const {
+  const std::vector<char> firm = firm_nodes(network, classified);
   for (const Blocks::Sensor& sensor : blocks_->sensors) {
-    if (sensor.what != What::velocity || classified.kind[at(sensor.index)] != Kind::floating) continue;
+    if (sensor.what != What::velocity || classified.kind[at(sensor.index)] != Kind::floating || firm[at(sensor.index)]) continue;
     throw SimulationError(
         network.spot_of_node(sensor.index),
         fmt::format("no block can take in `{}`: node `{}` has no mass, and no dashpots lead from there to a mass, to ground or to a "
@@ -35,24 +49,26 @@ void BlockSignals::check_sensors(const Network& network, const Structure& classi
 }
 
 /// Whether a sensor value is known only once all forces at the same time are.
-bool BlockSignals::loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified) {
-  const auto firm = [&](NodeId node) { return classified.kind[at(node)] == Kind::known || classified.kind[at(node)] == Kind::massive; };
+bool BlockSignals::loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified, const std::vector<char>& firm_node) {
+  const auto firm = [&](NodeId node) { return firm_node[at(node)] != 0; };
   if (sensor.what == What::velocity) return !firm(sensor.index);
-  if (sensor.what == What::position) return classified.kind[at(sensor.index)] == Kind::floating;
+  if (sensor.what == What::position) return classified.kind[at(sensor.index)] == Kind::floating && !firm(sensor.index);
   const Network::Place& place = network.places[at(sensor.index)];
   if (place.role == Role::force) return false;
   const bool rate = place.role == Role::rate;
   const Branch& b = rate ? network.rates[at(place.index)] : network.deflections[at(place.index)];
   if (rate) return !firm(b.a) || !firm(b.b);
-  return classified.group[at(b.a)] >= 0 || classified.group[at(b.b)] >= 0;
+  const auto grouped = [&](NodeId node) { return classified.group[at(node)] >= 0 && !firm(node); };
+  return grouped(b.a) || grouped(b.b);
 }
 
 void BlockSignals::refuse_loops(const Network& network, const Structure& classified) const {
+  const std::vector<char> firm = firm_nodes(network, classified);
   for (const Network::Motion& motion : network.motions) {
     for (std::size_t k = 0; motion.block >= 0 && k < sensed.size(); ++k) {
       const Blocks::Sensor& sensor = blocks_->sensors[k];
       if (!depends(motion.block, state.size() + k)) continue;
-      if (sensor.what == What::position && !loose(network, sensor, classified)) continue;
+      if (sensor.what == What::position && !loose(network, sensor, classified, firm)) continue;
       throw SimulationError(network.spot_of(motion.element),
                             fmt::format("the velocity of `{}` follows at the same instant from `{}`, of which it is not known how fast "
                                         "it changes, so that no acceleration would be known; put a `lag` between them",
@@ -63,7 +79,7 @@ void BlockSignals::refuse_loops(const Network& network, const Structure& classif
   for (const Network::Force& force : network.forces) {
     for (std::size_t k = 0; force.block >= 0 && k < sensed.size(); ++k) {
       const Blocks::Sensor& sensor = blocks_->sensors[k];
-      if (!depends(force.block, state.size() + k) || !loose(network, sensor, classified)) continue;
+      if (!depends(force.block, state.size() + k) || !loose(network, sensor, classified, firm)) continue;
       const std::string& source = network.scene->elements[at(force.element)].name;
       throw SimulationError(
           network.spot_of(force.element),

@@ -78,10 +78,11 @@ bool BlockSignals::feeds_motion(int index) const {
 }
 
 void BlockSignals::find_longest_step(const Network& network, const Structure& classified) {
+  const std::vector<char> firm = firm_nodes(network, classified);
   for (std::size_t k = 0; k < out_.size(); ++k) {
     if (blocks_->blocks[k].law.delay == 0) continue;
     const auto takes_in_loose = [&](const Pair& pair) {
-      return pair.delay == k && pair.atom >= state.size() && loose(network, blocks_->sensors[pair.atom - state.size()], classified);
+      return pair.delay == k && pair.atom >= state.size() && loose(network, blocks_->sensors[pair.atom - state.size()], classified, firm);
     };
     const int block = static_cast<int>(k);
     const double delay = blocks_->blocks[k].law.delay;

@@ -13,6 +13,9 @@
 
 namespace rheonet {
 
+/// Of each node: it has a mass or a prescribed motion, or a rigid link joins it to such a node.
+std::vector<char> firm_nodes(const Network& network, const Structure& classified);
+
 /// The blocks of a network in operation: computes the output of each block from the functions of time, the states, the sensor
 /// values and the past.
 ///
@@ -128,7 +131,7 @@ class BlockSignals {
   static const Stretch* current(const std::deque<Stretch>& stretches, double t);
   void refuse_loops(const Network& network, const Structure& classified) const;
   void check_sensors(const Network& network, const Structure& classified) const;
-  static bool loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified);
+  static bool loose(const Network& network, const Blocks::Sensor& sensor, const Structure& classified, const std::vector<char>& firm_node);
   void find_channels();
   double find_reach(int block) const;
   void take_in(const Blocks::Block& block, std::vector<char>& seen, std::vector<char>& atoms_of) const;

@@ -168,6 +168,57 @@ stop = { type = "stop", between = ["x", "ground"], lower = "low", upper = "high"
 )", 1.1) + record(pushed), pushed);
 }
 
+TEST_CASE("stop: with damping it never pulls, and loses what its damper takes") {
+  // While c w stays within k x the contact is a damped oscillator: at most half critical, the first part of a push is not.
+  const auto run_with = [](const std::string& element, const std::string& laws) {
+    return simulate(laws + netlist({}, fmt::format(R"(
+[nodes]
+x = {{ position = -0.02, velocity = 1.3 }}
+[elements]
+mass = {{ type = "mass", at = "x", mass = 0.9 }}
+base = {{ type = "mass", at = "y", mass = 2.1 }}
+k    = {{ type = "spring", between = ["y", "ground"], stiffness = 70 }}
+{}
+)", element), 1.7) + "record = [\"x.position\", \"y.velocity\", \"s.force\", \"s.power\", \"s.dissipated\", \"s.energy\"]\n", 1e-8);
+  };
+  const RunTable rows = run_with("s = { type = \"stop\", between = [\"x\", \"y\"], lower = -0.035, upper = 0.011, stiffness = 890, damping = 13 }", "");
+  // The same law, written out.
+  const char* const law = R"_(
+[laws.gap]
+parameters = { k = "890 N/m", c = "13 N*s/m", upper = "11 mm", lower = "-35 mm" }
+where = { x = "d > upper ? d - upper : d < lower ? d - lower : 0*d" }
+force = "k*x + max(-k*abs(x), min(k*abs(x), c*w))"
+stores = "k*x^2/2"
+)_";
+  CHECK_LT(largest_error(rows, run_with("s = { type = \"gap\", between = [\"x\", \"y\"] }", law)), 1e-6);
+  CHECK_GT(rows.scale("s.dissipated"), 1);
+  for (std::size_t row = 0; row < rows.time().size(); ++row) CHECK_GE(rows["s.dissipated"][row], 0);
+}
+
+TEST_CASE("stop: a start beyond a bound, and rest with damping") {
+  const double x0 = 0.037, v0 = -0.2, omega = std::sqrt(k / m);  // it begins in contact
+  const double A = std::hypot(x0 - high, v0 / omega), phase = std::atan2(x0 - high, v0 / omega);
+  const auto x = [=](double t) { return high + A * std::sin(omega * t + phase); };
+  const Expectations expected = {{"x.position", x}, {"stop.force", [=](double t) { return k * (x(t) - high); }}};
+  check_at_all_accuracies(netlist({{"k", k}, {"m", m}, {"high", high}, {"x0", x0}, {"v0", v0}}, R"(
+[nodes]
+x = { position = "x0", velocity = "v0" }
+[elements]
+mass = { type = "mass", at = "x", mass = "m" }
+stop = { type = "stop", between = ["x", "ground"], upper = "high", stiffness = "k" }
+)", 0.9 * (pi - phase) / omega) + record(expected), expected);
+
+  const double F = 9.7;
+  const Expectations rest = {{"x.position", [=](double) { return high + F / k; }}, {"stop.force", [=](double) { return F; }}};
+  check_at_all_accuracies(netlist({{"k", k}, {"m", m}, {"high", high}, {"F", F}}, R"(
+[elements]
+mass = { type = "mass", at = "x", mass = "m" }
+load = { type = "force", at = "x", force = "F" }
+stop = { type = "stop", between = ["x", "ground"], upper = "high", lower = -0.1, stiffness = "k", damping = 3 }
+soft = { type = "spring", between = ["x", "ground"], stiffness = 1e-9 }
+)", 0.7) + "start_from = \"rest\"\n" + record(rest), rest);
+}
+
 TEST_CASE("stop: mistakes are refused") {
   const auto with = [](const std::string& parameters) {
     return refusal("[elements]\nm = { type = \"mass\", at = \"x\", mass = 1 }\ns = { type = \"stop\", between = [\"x\", \"ground\"], " + parameters +

@@ -65,7 +65,10 @@ class Surroundings {
         spring("a", "mid");
         begin_mid(values);
         put(values, "mid", far(), "mid");
-        if (needs_mass(values)) builder_.at(next("mass"), "mass", "mid", {{"mass", 0.3 * draw(Quantity::mass)}});
+        if (needs_mass(values)) {
+          builder_.at(next("mass"), "mass", "mid", {{"mass", 0.3 * draw(Quantity::mass)}});
+          begin("mid");
+        }
         if (!ends_) dashpot("mid", far());
         break;
       case Wiring::given:

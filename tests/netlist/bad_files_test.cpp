@@ -102,7 +102,7 @@ DIR/scenes/loop2.toml:2:12: error: files include each other in a circle: `DIR/sc
 DIR/scenes/scene2.toml:1:2: error: an included file cannot have `elements`
     1 | [elements]
       |  ^
-  it gives models: it may have `models`, `parameters`, `include` and `title`
+  it gives models: it may have `models`, `laws`, `parameters`, `include` and `title`
 )~");
   CHECK(messages_in(folder, including("broken.toml")) == R"~(
 DIR/scenes/broken.toml:1:13: error: the header of a table is not closed

@@ -47,19 +47,19 @@ TEST_CASE("[effects] says what is left out, everywhere or of some elements") {
   CHECK_EQ(left_out("[effects]\nwithout = []"), "");
   CHECK_EQ(left_out("[effects]\nwithout = [\"inertia\", \"dry friction\", \"elasticity:oil\"]"),
            "inertia; dry friction; elasticity of `oil`");
-  CHECK_EQ(left_out("[effects]\nonly = [\"viscosity\", \"elasticity\"]"), "inertia; dry friction; delay; feedback");
+  CHECK_EQ(left_out("[effects]\nonly = [\"viscosity\", \"elasticity\"]"), "inertia; dry friction; contact; delay; feedback");
 }
 
 TEST_CASE("what stays of an effect in some elements is left out of all others") {
-  const std::string others = "inertia; elasticity of `drive`; elasticity of `rotor`; elasticity of `shaft`; dry friction; delay; feedback";
+  const std::string others = "inertia; elasticity of `drive`; elasticity of `rotor`; elasticity of `shaft`; dry friction; contact; delay; feedback";
   CHECK_EQ(left_out("[effects]\nonly = [\"viscosity\", \"elasticity:oil\"]"), others);
 }
 
 TEST_CASE("the command line leaves out more than the file, or all but what it names") {
   const std::string table = "[effects]\nwithout = [\"inertia\"]";
   CHECK_EQ(left_out(table, without({"delay", "elasticity:shaft"})), "inertia; delay; elasticity of `shaft`");
-  CHECK_EQ(left_out(table, only({"inertia", "elasticity", "viscosity", "feedback"})), "dry friction; delay");
-  CHECK_EQ(left_out(table, only({})), "inertia; elasticity; viscosity; dry friction; delay; feedback");
+  CHECK_EQ(left_out(table, only({"inertia", "elasticity", "viscosity", "feedback"})), "dry friction; contact; delay");
+  CHECK_EQ(left_out(table, only({})), "inertia; elasticity; viscosity; dry friction; contact; delay; feedback");
   ReadOptions set;
   set.overrides = {"effects.without=[\"viscosity\"]"};
   CHECK_EQ(left_out(table, set), "viscosity");

@@ -69,7 +69,7 @@ TEST_CASE("the schema is of draft 2020-12 and knows the top-level keys and no ot
   CHECK(schema()["additionalProperties"] == false);
   for (const char* key : {"title", "domain", "include", "parameters", "nodes", "elements", "models", "simulate", "effects"})
     CHECK(schema()["properties"].contains(key));
-  CHECK(schema()["properties"].size() == 14);
+  CHECK(schema()["properties"].size() == 15);
   CHECK_FALSE(schema().contains("required"));  // a library has models only
 }
 

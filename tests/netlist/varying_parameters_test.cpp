@@ -47,7 +47,7 @@ TEST_CASE("sliders: what may vary, and what multiplies what") {
 TEST_CASE("sliders: messages for parameters that do not fit") {
   const std::string of_normal = "`coulomb` (which multiplies `normal`)";
   const std::string infinite = "\"inf\" is for laws that become another one there, and this one does not; a value large beside those around it comes close";
-  const std::string signals = "signals, which vary in time, are `force` of a `force`, `signal` of a `generator`, `position`, `velocity` and `acceleration` of a `motion`, "
+  const std::string signals = "signals, which vary in time, are `force` of a `force`, `signal` of a `generator`, `force` and `stores` of a `law`, `position`, `velocity` and `acceleration` of a `motion`, "
                               "`coulomb`, `breakaway` and `normal` of a `slider`";
   const std::string from_block = "a signal comes from a block: a `gain` makes one of a quantity of the network";
   check_refused("coulomb = \"2 N\", normal = \"7 N\"", "4:62", of_normal + ": expected a number without a unit, found a force (N)");
@@ -82,7 +82,7 @@ TEST_CASE("signals for parameters that take none, and parameters of an element w
   };
   check_message(with("k1 = { type = \"spring\", between = [\"a\", \"ground\"], stiffness = { ramp = 1 } }"), "3:64",
                 "`stiffness` is constant in time, but is a table",
-                "signals, which vary in time, are `force` of a `force`, `signal` of a `generator`, `position`, `velocity` and `acceleration` of a `motion`, `coulomb`, "
+                "signals, which vary in time, are `force` of a `force`, `signal` of a `generator`, `force` and `stores` of a `law`, `position`, `velocity` and `acceleration` of a `motion`, `coulomb`, "
                 "`breakaway` and `normal` of a `slider`");
   check_message(with("f1 = { type = \"freewheel\", between = [\"a\", \"ground\"], coulomb = 1 }"), "3:55", "unknown key `coulomb` of a `freewheel`",
                 "its keys are `type`, `between`, `domain` and `repeat`");

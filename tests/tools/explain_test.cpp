@@ -16,7 +16,7 @@ TEST_CASE("explain says what is solved, what is left out and why") {
   const Folder folder(pulled_slider + short_run);
   const std::string text = folder.shell("rheonet explain scene.toml", 0).out;
   CHECK(contains(text, "  dry friction `s1`\n"));
-  CHECK(contains(text, "nothing here brings inertia, viscosity, delay, feedback\n"));
+  CHECK(contains(text, "nothing here brings inertia, viscosity, contact, delay, feedback\n"));
   CHECK(contains(text, "node `mid`: nothing but a spring and a slider touch it"));
   CHECK(contains(text, "(--keep bundles)"));
   CHECK(contains(text, "  `s1`: stick, slip, reversal\n"));
