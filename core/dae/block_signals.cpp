@@ -41,6 +41,9 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
   before_limits_ = out_;
   side_.assign(out_.size(), 0);
   present_.assign(out_.size(), 0);
+  for (const int block : blocks_->order) {
+    if (!blocks_->blocks[at(block)].generates && blocks_->blocks[at(block)].law.delay == 0) run_.push_back(block);
+  }
   check_sensors(network, classified);
   for (const Blocks::Sensor& sensor : blocks_->sensors) {
     heavy_.push_back(sensor.what == What::velocity && classified.kind[at(sensor.index)] == Kind::massive);
@@ -138,7 +141,10 @@ void BlockSignals::evaluate_time(TimePoint now, const DelayHistory& history) {
 
 Dual BlockSignals::input(const Blocks::Block& block) const {
   Dual u;
-  for (const Blocks::Input& in : block.inputs) u = u + Dual(in.sign) * source(in);
+  for (const Blocks::Input& in : block.inputs) {
+    const Dual x = source(in);
+    u = Dual(u.value + in.sign * x.value, u.derivative + in.sign * x.derivative);
+  }
   return u;
 }
 
@@ -161,10 +167,9 @@ Dual BlockSignals::of_function(int index, bool held) {
 
 void BlockSignals::run(bool sides) {
   stale_ = stale_ || has_functions();
-  for (const int index : blocks_->order) {
+  for (const int index : run_) {
     const std::size_t k = at(index);
     const Blocks::Block& block = blocks_->blocks[k];
-    if (block.generates || block.law.delay > 0) continue;
     if (block.law.state) {
       out_[k] = state[at(state_of_[k])];
       continue;
@@ -173,7 +178,7 @@ void BlockSignals::run(bool sides) {
       out_[k] = of_function(index, sides);
       continue;
     }
-    const Dual v = Dual(block.law.gain) * input(block);
+    const Dual u = input(block), v(block.law.gain * u.value, block.law.gain * u.derivative);
     before_limits_[k] = v;
     out_[k] = !sides ? limited(block, v) : side_[k] > 0 ? Dual(block.law.upper) : side_[k] < 0 ? Dual(block.law.lower) : v;
   }

@@ -170,6 +170,7 @@ class BlockSignals {
   const Network* network_;
   const Blocks* blocks_;
   std::vector<char> heavy_;  ///< of each sensor: it measures the velocity of a mass
+  std::vector<int> run_;           ///< blocks whose outputs follow from states and inputs, in the order of evaluation
   std::vector<int> state_of_;      ///< of each block, -1
   std::vector<int> state_blocks_;
   std::vector<double> delays_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/netlist/characters.hpp"
+#include "core/netlist/switched_function.hpp"
 #include "core/network/component.hpp"
 #include "tools/rheonet/words.hpp"
 
@@ -17,6 +18,17 @@ double flow_index_of(const Parameter& parameter, const Declaration& declaration,
     if (declaration.parameters[i].name == parameter.flow_index) return element.values[i];
   }
   return 1;
+}
+
+/// "of command, -drum.velocity"
+std::string inputs_of(const SceneBlock& block, const Scene& scene) {
+  std::vector<std::string> inputs;
+  for (const SceneBlock::Input& input : block.inputs) {
+    const auto k = static_cast<std::size_t>(input.index);
+    const std::string& source = input.from_block ? scene.elements[static_cast<std::size_t>(scene.blocks[k].element)].name : scene.sensed[k].path;
+    inputs.push_back((input.sign < 0 ? "-" : "") + source);
+  }
+  return inputs.empty() ? "" : fmt::format("of {}", fmt::join(inputs, ", "));
 }
 
 }  // namespace
@@ -49,6 +61,12 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     } else if (!std::isnan(element.values[i])) {
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
+  }
+  if (element.characteristic) values.push_back("force by its curve");
+  const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const SceneBlock& one) { return one.element == index; });
+  if (block != scene.blocks.end()) {
+    if (block->function) values.push_back("out = " + block->function->text());
+    return {element.name, declaration.type, inputs_of(*block, scene), fmt::format("{}", fmt::join(values, "  "))};
   }
   return {element.name, declaration.type,
           element.at ? "at " + node(element.a) : node(element.a) + " - " + node(element.b),
