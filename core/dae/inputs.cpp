@@ -196,7 +196,7 @@ double Inputs::sliding_slope(std::size_t k, int side, std::size_t which) const {
   return slider.component->box(values).at(side).sliding.derivative;
 }
 
-/// Sensor values of a state, with the rates of positions.
+/// Sensor values of a state, with the rates of positions and of forces that follow displacements.
 void Inputs::sense_network(const State& state) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k] = state.blocks[k];
@@ -208,9 +208,14 @@ void Inputs::sense_network(const State& state) {
     if (sensor.what != Blocks::Sensor::What::force) continue;
     const Network::Place& place = network_->places[at(sensor.index)];
     if (place.role == Role::deflection) {
+      // Its rate matters where it decides what a slider that it presses does next.
       std::size_t i = 0;
       double slope = 0;
-      told = network_->batch_of(place.index, i).force_along(i, state.p[at(place.index)], 0, slope);
+      const DeflectionBatch& batch = network_->batch_of(place.index, i);
+      const Branch& b = network_->deflections[at(place.index)];
+      const double force = batch.force_along(i, state.p[at(place.index)], 0, slope);
+      const bool follows = !batch.creeps(i) && batch.delay(i) == 0;
+      told = Dual(force, follows ? slope * (state.velocity[at(b.a)] - state.velocity[at(b.b)]) : 0);
     }
     if (place.role == Role::rate) {
       std::size_t i = 0;
