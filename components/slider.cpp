@@ -20,11 +20,14 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
   return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
 }
 
-/// Stribeck's curve. Without the least number under the power, it would have no slope at rest for a shape below 2.
+/// Stribeck's curve. Without the least number under the power, it would have no slope at rest for a shape below 2. Events at some speeds
+/// on the curve see to it that no step passes over it: from far outside, a step to the other side of rest would not notice it.
 std::optional<MotionExpression> stribeck(std::span<const double> v) {
   if (v.size() < 6 || std::isnan(v[4])) return {};
-  const double breakaway = std::isnan(v[1]) ? v[0] * (std::isnan(v[3]) ? 1 : v[3]) : v[1] * (std::isnan(v[3]) ? 1 : v[3]);
-  return MotionExpression{"Fc + (Fs - Fc)*exp(-((w/vs)^2 + 1e-30)^(n/2))", {{"Fc", v[0]}, {"Fs", breakaway}, {"vs", v[4]}, {"n", v[5]}}, 0};
+  const double breakaway = (std::isnan(v[1]) ? v[0] : v[1]) * (std::isnan(v[3]) ? 1 : v[3]);
+  const std::string power = "((w/vs)^2 + 1e-30)^(n/2)", curve = "Fc + (Fs - Fc)*exp(-" + power + ")";
+  return MotionExpression{power + " > 36 ? Fc : " + power + " > 9 ? " + curve + " : " + power + " > 2 ? " + curve + " : " + curve,
+                          {{"Fc", v[0]}, {"Fs", breakaway}, {"vs", v[4]}, {"n", v[5]}}, 0};
 }
 
 std::optional<Misfit> sound(std::span<const double> v) {

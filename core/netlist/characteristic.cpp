@@ -1,7 +1,7 @@
 #include "core/netlist/characteristic.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -122,9 +122,14 @@ double Characteristic::work(double x) const {
     double slope;
     return function_(at, slope);
   };
-  using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
-  const double whole = x == 0 ? 0 : Rule::integrate(force_at, std::min(x, 0.0), std::max(x, 0.0), numerics::work_halvings, numerics::work_tolerance);
-  return x < 0 ? -whole : whole;
+  double coarse = 0;
+  for (int panels = 1; panels <= numerics::work_panels; panels *= 2) {
+    double sum = 0;
+    for (int k = 0; k < panels; ++k) sum += boost::math::quadrature::gauss<double, 15>::integrate(force_at, x * k / panels, x * (k + 1) / panels);
+    if (panels > 1 && std::abs(sum - coarse) <= numerics::work_tolerance * std::abs(sum)) return sum;
+    coarse = sum;
+  }
+  return coarse;
 }
 
 double Characteristic::where(double wanted) const {

@@ -138,13 +138,20 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
     if (!force) slope = not_given;
     return force.value_or(not_given);
   };
+  const std::string unit = unit_of(parameter_->over, context.domain), force_unit = unit_of(parameter_->quantity, context.domain);
+  const auto is = [&](double force, double x) { return fmt::format("is {:.4g} {} at a {} of {:.4g} {}", force, force_unit, over, x, unit); };
   double slope;
+  if (!std::isfinite(function(0, slope)) || !std::isfinite(slope)) return refuse(0, fmt::format("has no finite value or slope at {} = 0", variable), "");
   for (const double x : Characteristic::samples()) {
     const double force = function(x, slope);
-    // Far out it may leave the range of numbers, as a high power does.
-    if (!std::isfinite(force) && std::abs(x) <= 1) return refuse(0, fmt::format("has no finite value or slope at `{}` = {}", variable, number_text(x)), "");
-    if (parameter_->resists && x == 0 && force != 0) return refuse(0, fmt::format("is {} at a {} of 0, where it must be 0", number_text(force), over), "");
-    if (parameter_->resists && force * x < 0) return refuse(0, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(force), over, number_text(x)), "");
+    if (!parameter_->resists || std::isnan(force)) continue;  // not defined everywhere
+    if (x == 0 && force != 0) return refuse(0, is(force, 0) + ", where it must be 0", "");
+    if (force * x < 0) return refuse(0, is(force, x) + ": it must resist the motion", "");
+  }
+  for (const double side : {-1.0, 1.0}) {
+    const double slow = function(side * 1e-6, slope), slower = function(side * 1e-9, slope);
+    if (parameter_->resists && slow != 0 && slower / slow > numerics::rest_jump)
+      return refuse(0, "jumps where the motion reverses: that is dry friction", "a `slider` sticks there; put one beside the dashpot");
   }
   return std::make_shared<const Characteristic>(std::move(function));
 }

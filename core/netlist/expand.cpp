@@ -243,6 +243,15 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
   }
   element.values = shared_values(plan.declaration);
   if (plan.characteristic) element.characteristic = plan.characteristic->evaluate(environment, context_);
+  for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i) {
+    const double force = values_[i];
+    if (parameters[i].kind != Parameter::Kind::initial || parameters[i].quantity != Quantity::force || std::isnan(force)) continue;
+    const bool never = std::isinf(element.characteristic->where(force));
+    if (!never && !element.characteristic->falls_at()) continue;
+    context_.diagnostics.error(plan.values[i].source().spot, fmt::format("`{}` is a force that the curve {}", parameters[i].name, never ? "never has" : "may have at several displacements"),
+                               "give the displacement at the start, `d0`");
+    good = false;
+  }
   return element_signals(plan, environment, element) && good && (!plan.characteristic || element.characteristic);
 }
 

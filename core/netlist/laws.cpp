@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/netlist/expression_code.hpp"
 #include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
 
@@ -57,6 +58,8 @@ class LawReader {
       for (const TomlEntry& entry : where->value.entries) name(entry, "a name in `where`");
     if (states && expect_table(states->value, "`states`", diagnostics_, state_example))
       for (const TomlEntry& entry : states->value.entries) name(entry, "a state");
+    if (parameters && parameters->value.is_table())
+      for (const TomlEntry& entry : parameters->value.entries) check_parameter(entry);
     if (diagnostics_.errors() > before) return {};
 
     if (where)
@@ -89,6 +92,14 @@ class LawReader {
   }
 
   static TomlValue from(const std::string& block, Spot spot) { return table_at(spot, {{"block", spot, text_at(spot, block)}}); }
+
+  void check_parameter(const TomlEntry& entry) {
+    for (const char* taken : {"d", "w", "t"}) {
+      if (entry.key == taken) diagnostics_.error(entry.spot, fmt::format("a parameter of a law cannot be called `{}`", taken), "d, w and t are its displacement, its velocity and the time");
+    }
+    if (std::find(names_.begin(), names_.end(), entry.key) != names_.end())
+      diagnostics_.error(entry.spot, fmt::format("`{}` is a parameter of law `{}`, and a state or a name in `where` too", entry.key, law_.key), "rename one of them");
+  }
 
   /// Takes the name of a state or of an entry of `where`.
   void name(const TomlEntry& entry, const std::string& what) {
@@ -123,6 +134,15 @@ class LawReader {
     for (const std::string& state : states_) {
       const std::string call = "rate(" + state + ")", block = state + "_rate ";
       for (std::size_t at = text.text.find(call); at != text.text.npos; at = text.text.find(call, at)) text.text.replace(at, call.size(), block);
+    }
+    try {
+      if (const auto code = compile_expression(text.text); code.error) {
+        diagnostics_.error(diagnostics_.inside(source, code.error->offset), fmt::format("`{}` of law `{}`: {}", called, law_.key, code.error->message), code.error->hint);
+        return;
+      }
+    } catch (const TextError& error) {
+      diagnostics_.error(diagnostics_.inside(source, error.offset), fmt::format("`{}` of law `{}`: {}", called, law_.key, error.message), error.hint);
+      return;
     }
     std::vector<TomlEntry> inputs = inputs_of(text.text, source.spot);
     std::vector<TomlEntry> function{{"type", source.spot, text_at(source.spot, "function")}, {"out", source.spot, text}};

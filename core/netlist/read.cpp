@@ -83,7 +83,9 @@ class Reader {
 
   void read_document(int file, const fs::path& canonical) {
     override_tables();
+    const std::size_t before_laws = diagnostics_.errors();
     laws_to_models(document_, diagnostics_);
+    laws_missing_ = diagnostics_.errors() > before_laws;
     TableReader reader(document_, "the scene");
     for (const std::string& key : top_level) reader.find(key);
     const Spot begin{file, 1, 1};
@@ -169,7 +171,7 @@ class Reader {
   void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
     const std::size_t before = diagnostics_.errors();
     included_ = read_includes(document_, canonical, context_);
-    context_.models_missing = diagnostics_.errors() > before;
+    context_.models_missing = laws_missing_ || diagnostics_.errors() > before;
     for (IncludedFile& other : included_) laws_to_models(other.document, diagnostics_);
     override_models(included_);
     for (const IncludedFile& other : included_) {
@@ -327,6 +329,7 @@ class Reader {
   TomlValue document_;
   std::deque<Override> overrides_;
   std::deque<IncludedFile> included_;
+  bool laws_missing_ = false;  ///< a law has a mistake, which may be why a type is unknown
   std::deque<Environment> environments_;
   std::deque<std::vector<NamedFormula>> formulas_;
 };

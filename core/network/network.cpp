@@ -12,6 +12,7 @@
 #include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/linear_law.hpp"
+#include "core/network/rigid_links.hpp"
 #include "core/network/transmission.hpp"
 
 namespace rheonet {
@@ -262,9 +263,13 @@ void refuse_falling_friction(const Network& network) {
   firm[ground] = 1;
   for (const Network::Mass& mass : network.masses) firm[static_cast<std::size_t>(mass.node)] = 1;
   for (const Network::Motion& motion : network.motions) firm[static_cast<std::size_t>(motion.node)] = 1;
+  DisjointSets linked = joined_by_links(network);
+  for (NodeId n = 0; static_cast<std::size_t>(n) < network.nodes(); ++n) {
+    if (firm[static_cast<std::size_t>(n)]) firm[static_cast<std::size_t>(linked.find(n))] = 1;
+  }
   const auto refuse_massless = [&](const Branch& b) {
     for (const NodeId node : {b.a, b.b}) {
-      if (firm[static_cast<std::size_t>(node)]) continue;
+      if (firm[static_cast<std::size_t>(linked.find(node))]) continue;
       throw SimulationError(network.spot_of(b.element),
                             fmt::format("the force of `{}` falls with the velocity, and node `{}` has no mass: no balance of forces determines its "
                                         "velocity; give it a mass",

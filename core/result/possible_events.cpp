@@ -23,7 +23,7 @@ class EventSearch {
     for (const Pair& pair : network_.pairs) add("stick, slip, reversal", pair.slider);
     for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-        if (laws.batch->events(i) == 0 || laws.component == nullptr) continue;
+        if (laws.batch->events(i) == 0 || laws.component == nullptr || laws.component->hidden) continue;
         std::string kinds = "reversal";
         if (laws.batch->can_hold(i)) kinds += ", stop, start";
         if (laws.batch->events(i) > 1) kinds += ", yield, release";

@@ -27,7 +27,8 @@ bool ChatterDetection::Watched::changed(const std::vector<double>& now, double a
   return false;
 }
 
-bool ChatterDetection::lost(double t, const std::vector<int>& causes, const State& state) {
+bool ChatterDetection::lost(double t, const std::vector<int>& causes, const State& state, double largest_velocity) {
+  velocity_.largest = std::max(velocity_.largest, largest_velocity);
   const bool moved = velocity_.changed(state.velocity, accuracy_);
   if (deflection_.changed(state.p, accuracy_) || moved) reset();
   if (!begun_) {

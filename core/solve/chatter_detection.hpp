@@ -20,7 +20,8 @@ class ChatterDetection {
   void reset();
   /// Counts the causes (indices of elements, or of the solver) that fired at t and led to this state. True when one of them
   /// has fired `numerics::chatter_events` times while the state has not changed. The caller then judges whether this took too little time.
-  bool lost(double t, const std::vector<int>& causes, const State& state);
+  /// Velocities are compared with the largest seen here, or with `largest_velocity` of the run [m/s].
+  bool lost(double t, const std::vector<int>& causes, const State& state, double largest_velocity = 0);
   /// Call where `lost` returned true but the events took long enough to be legitimate: begins new counts at t. True when
   /// the state has not changed for many such counts within `instant` [s], so that the run would never end.
   bool without_end(double t, double instant);

@@ -307,7 +307,7 @@ class Run {
 
   /// True if causes fire again and again without a change, in less time than the network or its inputs take to change.
   bool gets_nowhere(double t, const std::vector<int>& causes) {
-    if (!chatter_.lost(t, causes, state_)) return false;
+    if (!chatter_.lost(t, causes, state_, tolerances_.largest_velocity())) return false;
     const double rate = std::max(system_->consistency.fastest_rate(t, horizon(t), y_, yp_), inputs_.fastest());
     if (rate > 0 ? (t - chatter_.since()) * rate < 1 : t - chatter_.since() < numerics::chatter_time * horizon(t)) return true;
     return chatter_.without_end(t, numerics::endless_time * settings_.stop);

@@ -232,6 +232,9 @@ TEST_CASE("characteristic: mistakes are refused") {
   says("type = \"dashpot\", force = [[0, 0], [1, 2], [2, 1]]", "");
   says("type = \"spring\", force = [[0, 0], [1, 2]], f0 = 1", "");
   says("type = \"spring\", force = \"3*w\"", "`w`");
+  says("type = \"dashpot\", force = \"sign(w)*1\"", "force");
+  says("type = \"spring\", force = [[0, 0], [1, 2], [2, 1], [3, 1]], f0 = 1.5", "may have at several displacements");
+  says("type = \"spring\", force = [[0, 0], [1, 2], [2, 2]], f0 = 3", "never has");
   says("type = \"spring\", force = \"d\"", "force");
   says("type = \"spring\", force = \"1\"", "does not depend on `d`");
 }

@@ -103,6 +103,9 @@ TEST_CASE("laws: mistakes are told where they stand") {
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { z = { start = \"0 m\" } }\nforce = \"k*z\"", "a state needs `rate`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { w = { start = \"0 m\", rate = \"w\" } }\nforce = \"k*d\"", "a state cannot be called `w`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\nstores = \"k*d\"", "energy");
+  says("[laws.a]\nparameters = { k = \"1 N/m\", d = 1 }\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
+  says("[laws.a]\nparameters = { k = \"1 N/m\" }\nwhere = { k = \"2*d\" }\nforce = \"k*d\"", "`k` is a parameter of law `a`");
+  says("[laws.a]\nforce = \"0*d\"\n[laws.unused]\nforce = \"this is ( nonsense\"", "`f` of law `unused`");
   says("[laws.spring]\nforce = \"d\"", "`spring` is an element type already");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\ninputs = [\"u\"]", "a law has no `inputs`");
 }
