@@ -25,6 +25,7 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
 std::optional<MotionExpression> stribeck(std::span<const double> v) {
   if (v.size() < 6 || std::isnan(v[4])) return {};
   const double breakaway = (std::isnan(v[1]) ? v[0] : v[1]) * (std::isnan(v[3]) ? 1 : v[3]);
+  if (std::isinf(breakaway)) return {};  // a rigid link
   const std::string power = "((w/vs)^2 + 1e-30)^(n/2)", curve = "Fc + (Fs - Fc)*exp(-" + power + ")";
   return MotionExpression{power + " > 36 ? Fc : " + power + " > 9 ? " + curve + " : " + power + " > 2 ? " + curve + " : " + curve,
                           {{"Fc", v[0]}, {"Fs", breakaway}, {"vs", v[4]}, {"n", v[5]}}, 0};

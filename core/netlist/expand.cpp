@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/netlist/characteristic.hpp"
 #include "core/netlist/group_names.hpp"
 
 namespace rheonet {

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "core/netlist/characteristic.hpp"
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/diagnostic.hpp"
 #include "core/netlist/dimension.hpp"
@@ -19,6 +18,8 @@
 #include "core/netlist/signal.hpp"
 
 namespace rheonet {
+
+class Characteristic;
 
 /// Index into Scene::nodes. Ground is always node 0.
 using NodeId = int;

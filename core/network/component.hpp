@@ -12,12 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "core/netlist/characteristic.hpp"
 #include "core/netlist/declaration.hpp"
 #include "core/netlist/signal.hpp"
 #include "core/network/dual.hpp"
 
 namespace rheonet {
+
+class Characteristic;
 
 /// The role of an element in a network. Structural analysis depends on nothing else of a law.
 enum class Role {

@@ -257,7 +257,8 @@ void refuse_inerters_at_blocks(const Network& network) {
   }
 }
 
-/// Between masses and motions any friction has its force. At a node without mass the balance of forces gives its velocity.
+/// Between masses and motions any friction has its force. At a node without mass the balance of forces gives its velocity: it must rise
+/// with the velocity, and be part of that balance.
 void refuse_falling_friction(const Network& network) {
   std::vector<char> firm(network.nodes(), 0);
   firm[ground] = 1;
@@ -267,22 +268,25 @@ void refuse_falling_friction(const Network& network) {
   for (NodeId n = 0; static_cast<std::size_t>(n) < network.nodes(); ++n) {
     if (firm[static_cast<std::size_t>(n)]) firm[static_cast<std::size_t>(linked.find(n))] = 1;
   }
-  const auto refuse_massless = [&](const Branch& b) {
+  const auto refuse_massless = [&](const Branch& b, const char* how) {
     for (const NodeId node : {b.a, b.b}) {
       if (firm[static_cast<std::size_t>(linked.find(node))]) continue;
       throw SimulationError(network.spot_of(b.element),
-                            fmt::format("the force of `{}` falls with the velocity, and node `{}` has no mass: no balance of forces determines its "
+                            fmt::format("the force of `{}` {} the velocity, and node `{}` has no mass: no balance of forces determines its "
                                         "velocity; give it a mass",
-                                        network.name_of(b), network.node_name(node)));
+                                        network.name_of(b), how, network.node_name(node)));
     }
   };
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->falls(i)) refuse_massless(network.rates[static_cast<std::size_t>(laws.first) + i]);
+      if (laws.batch->falls(i)) refuse_massless(network.rates[static_cast<std::size_t>(laws.first) + i], "falls with");
     }
   }
   for (const Network::Slider& slider : network.sliders) {
-    if (slider.component->over_velocity && slider.component->over_velocity(slider.values)) refuse_massless(slider.branch);
+    if (slider.component->over_velocity && slider.component->over_velocity(slider.values)) refuse_massless(slider.branch, "falls with");
+  }
+  for (const Network::Force& force : network.forces) {
+    if (force.beside) refuse_massless({force.element, force.a, force.b}, "depends, by its damping, on");
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/netlist/characteristic.hpp"
 #include "core/netlist/records.hpp"
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"

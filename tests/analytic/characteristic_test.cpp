@@ -207,6 +207,21 @@ output = { points = 201 }
   CHECK(refusal(massless).find("node `n` has no mass") != std::string::npos);
 }
 
+TEST_CASE("characteristic: parts of a scene are told apart beside such a dashpot") {
+  const RunTable rows = simulate(R"(
+[nodes]
+a = { velocity = 1 }
+[elements]
+d = { type = "dashpot", between = ["a", "b"], force = [["-1 m/s", "-900 N"], [0, 0]] }
+m = { type = "mass", at = "a", mass = 3 }
+n = { type = "mass", at = "b", mass = 5 }
+other = { type = "mass", at = "c", mass = 49 }
+[simulate]
+stop = 1
+)", 1e-6);
+  CHECK_EQ(rows["a.velocity"].back(), doctest::Approx(3.0 / 8));
+}
+
 TEST_CASE("characteristic: mistakes are refused") {
   const auto says = [](const std::string& element, const std::string& words) {
     const std::string text = refusal("[elements]\nm = { type = \"mass\", at = \"x\", mass = 1 }\ns = { between = [\"x\", \"ground\"], " + element + " }\n[simulate]\nstop = 1\n");

@@ -234,4 +234,8 @@ TEST_CASE("stop: mistakes are refused") {
   says("stiffness = -1, lower = 0.2", "stiffness");
   says("stiffness = 1, lower = \"2 N\"", "`lower`");
   CHECK_EQ(with("stiffness = 1, lower = -0.2"), "");
+  CHECK_EQ(with("stiffness = 1, lower = -0.2, damping = 1"), "");
+  const std::string massless = refusal("[elements]\nd = { type = \"motion\", at = \"a\", velocity = 1 }\nk = { type = \"spring\", between = [\"a\", \"n\"], stiffness = 1 }\n"
+                                       "s = { type = \"stop\", between = [\"n\", \"ground\"], upper = 1, stiffness = 9, damping = 1 }\n[simulate]\nstop = 1\n");
+  CHECK_MESSAGE(massless.find("the force of `s` depends, by its damping, on the velocity, and node `n` has no mass") != std::string::npos, massless);
 }

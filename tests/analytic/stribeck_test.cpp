@@ -117,6 +117,7 @@ TEST_CASE("stribeck: mistakes and limits") {
     return refusal("[elements]\n" + more + "\nrub = { type = \"slider\", between = [\"x\", \"ground\"], " + parameters + " }\n[simulate]\nstop = 1\n");
   };
   CHECK_EQ(with("coulomb = 1, breakaway = 2, stribeck = 0.1"), "");
+  CHECK_EQ(with("coulomb = \"inf\", stribeck = 0.1"), "");
   CHECK(with("coulomb = 1, breakaway = 2, stribeck = 0").find("`stribeck`") != std::string::npos);
   CHECK(with("coulomb = 1, breakaway = 2, stribeck = 0.1, shape = 0.1").find("`shape`") != std::string::npos);
   CHECK(with("coulomb = { ramp = 1 }, breakaway = 2, stribeck = 0.1").find("constant `coulomb`") != std::string::npos);

@@ -58,7 +58,7 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     } else if (found != with_signal.end()) {
       const auto which = static_cast<std::size_t>(found - with_signal.begin());
       values.push_back(fmt::format("{} = {}", name, in_words(element.signals[which], unit)));
-    } else if (!std::isnan(element.values[i])) {
+    } else if (!std::isnan(element.values[i]) && parameter.kind != Parameter::Kind::characteristic) {
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
   }
