@@ -18,42 +18,51 @@ struct NonlinearSpring : MemorylessLaw {
 
   explicit NonlinearSpring(const LawValues& v) : curve(*v.characteristic), rest(v[1]), preload(v[2]) {}
 
-  bool has_corners() const { return !curve.corners().empty(); }
+  std::size_t line_at(double p) const { return curve.lines() ? curve.lines()->line_at(p) : 0; }
+  double force_on(std::size_t number, double p, double& slope) const {
+    if (!curve.lines()) return curve.force(p, slope);
+    const Polyline::Line& along = curve.lines()->lines()[number];
+    slope = along.slope;
+    return along.at(p);
+  }
   template <class T>
   T force(const T& p) const {
     double slope;
-    const double f = has_corners() ? curve.force_on(line, value_of(p), slope) : curve.force(value_of(p), slope);
+    const double f = force_on(line, value_of(p), slope);
     return f + slope * (p - value_of(p));
   }
   double start(double d) {
     const double p = std::isnan(preload) ? d - rest : curve.where(preload);
-    line = curve.piece(p);
+    line = line_at(p);
     return p;
   }
   double start_with(double f) {
     const double p = curve.where(f);
     if (curve.falls_at() || std::isinf(p)) return not_given;
-    line = curve.piece(p);
+    line = line_at(p);
     return p;
   }
-  int event_count() const { return has_corners() ? 2 : 0; }
+  int event_count() const { return curve.lines() && !curve.lines()->ends().empty() ? 2 : 0; }
   void event_functions(double p, double, double, double, double* g) const {
-    g[0] = line < curve.corners().size() ? curve.corners()[line] - p : 1;
-    g[1] = line > 0 ? p - curve.corners()[line - 1] : 1;
+    const std::vector<double>& ends = curve.lines()->ends();
+    g[0] = line < ends.size() ? ends[line] - p : 1;
+    g[1] = line > 0 ? p - ends[line - 1] : 1;
   }
   void switch_memory(int which, double, double) { which == 0 ? ++line : --line; }
-  void follow(double p, double step) { line = curve.piece(p + step); }
+  void follow(double p, double step) { line = line_at(p + step); }
   double jump(double p, double step) {
     follow(p, step);
     return 0;
   }
   double slope_along(double p, int direction) const {
-    const std::vector<double>& corners = curve.corners();
     std::size_t along = line;
-    if (direction > 0 && line < corners.size() && p >= corners[line]) ++along;
-    if (direction < 0 && line > 0 && p <= corners[line - 1]) --along;
+    if (event_count() > 0) {
+      const std::vector<double>& ends = curve.lines()->ends();
+      if (direction > 0 && line < ends.size() && p >= ends[line]) ++along;
+      if (direction < 0 && line > 0 && p <= ends[line - 1]) --along;
+    }
     double slope;
-    has_corners() ? curve.force_on(along, p, slope) : curve.force(p, slope);
+    force_on(along, p, slope);
     return slope;
   }
   double stored_energy(double p) const { return curve.work(p); }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/dae/block_signals.hpp"
-#include "core/network/rigid_links.hpp"
 
 namespace rheonet {
 
@@ -22,18 +21,6 @@ std::string path_of(const Network& network, const Blocks::Sensor& sensor) {
 }
 
 }  // namespace
-
-std::vector<char> firm_nodes(const Network& network, const Structure& classified) {
-  DisjointSets linked = joined_by_links(network);
-  std::vector<char> firm(network.nodes(), 0);
-  for (std::size_t n = 0; n < firm.size(); ++n) {
-    const Kind kind = classified.kind[n];
-    if (kind == Kind::known || kind == Kind::massive) firm[at(linked.find(static_cast<NodeId>(n)))] = 1;
-  }
-  std::vector<char> result(firm);
-  for (std::size_t n = 0; n < firm.size(); ++n) result[n] = firm[at(linked.find(static_cast<NodeId>(n)))];
-  return result;
-}
 
 void BlockSignals::check_sensors(const Network& network, const Structure& classified) const {
   const std::vector<char> firm = firm_nodes(network, classified);

@@ -13,9 +13,6 @@
 
 namespace rheonet {
 
-/// Of each node: it has a mass or a prescribed motion, or a rigid link joins it to such a node.
-std::vector<char> firm_nodes(const Network& network, const Structure& classified);
-
 /// The blocks of a network in operation: computes the output of each block from the functions of time, the states, the sensor
 /// values and the past.
 ///
@@ -105,12 +102,12 @@ class BlockSignals {
     std::size_t which = 0;   ///< of the switches of a function
   };
   const std::vector<Limit>& limits() const { return limits_; }
-  /// Guard: positive while the limiter or switch keeps its side [unit of the output, of what the switch compares].
+  /// Positive while the limiter or switch stays on its side. Unit: that of the limiter's output, or of the values that the switch compares.
   double event_function(std::size_t limit);
   /// The guards of these limits have fired: the next `choose` switches them, whatever round-off says of their inputs. Returns whether
   /// the output of a function jumps by that.
   bool fire(const std::vector<int>& limits);
-  /// What the last `fire` returned.
+  /// Whether the output of a function jumps by the events that the last call of `fire` was given.
   bool jumps() const { return jumps_; }
   /// After `run(false)`: each limiter and switch takes the side on which its input is now, except for those that have fired.
   void choose();

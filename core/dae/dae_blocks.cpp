@@ -147,7 +147,7 @@ double Dae::output_rate(int block) const {
   return sum;
 }
 
-/// Of a node whose motion is given, by a block too [m/s^2].
+/// Acceleration of a node whose motion is prescribed, by a function of time or by a block [m/s^2].
 double Dae::known_acceleration(NodeId node) const {
   const int m = structure_->motion[at(node)];
   return a_[at(node)] + (m >= 0 && network_->motions[at(m)].block >= 0 ? acceleration_by(network_->motions[at(m)]) : 0);

@@ -23,20 +23,10 @@ EventTransition::EventTransition(const Network& network, const Structure& classi
       slipping_(network.sliders.size(), 0),
       came_to_rest_(network.sliders.size(), Modes::stuck),
       slack_(classified.kind.size(), 0),
-      led_by_(classified.kind.size(), -1),
-      firm_(classified.kind.size(), 0) {
-  DisjointSets linked = joined_by_links(network);
-  const auto set = [&](std::size_t n) { return at(linked.find(static_cast<NodeId>(n))); };
-  std::vector<NodeId> known(led_by_);
-  std::vector<char> firm(firm_);
-  for (std::size_t n = 0; n < led_by_.size(); ++n) {
-    if (classified.kind[n] == Kind::known) known[set(n)] = static_cast<NodeId>(n);
-    if (classified.kind[n] == Kind::known || classified.kind[n] == Kind::massive) firm[set(n)] = 1;
-  }
-  for (std::size_t n = 0; n < led_by_.size(); ++n) {
-    led_by_[n] = classified.kind[n] == Kind::known ? static_cast<NodeId>(n) : known[set(n)];
-    firm_[n] = firm[set(n)];
-  }
+      firm_(firm_nodes(network, classified)) {
+  std::vector<char> known;
+  for (const Kind kind : classified.kind) known.push_back(kind == Kind::known);
+  led_by_ = linked_to(network, known);
 }
 
 // A slider that slips must come to rest, and break away, before it slips the other way.

@@ -83,8 +83,7 @@ class StartBalance {
     for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
         const Branch& b = network_.deflections[at(laws.first) + i];
-        const bool by_place = laws.batch->start(i, 1) != laws.batch->start(i, 0);
-        if (by_place) laws.batch->jump(i, state_.p[at(laws.first) + i], 0);  // its memory was that of the last displacement tried
+        const bool by_place = laws.batch->starts_by_place(i);
         const double value = initial(network_, b, by_place ? Quantity::position : Quantity::force);
         const bool given = !std::isnan(value) || (by_place && fixed_[at(b.a)] && fixed_[at(b.b)]);
         const bool forced = !std::isnan(value) && (by_place || value != 0);

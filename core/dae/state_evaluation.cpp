@@ -203,7 +203,7 @@ double Dae::dissipated_power() const {
   }
   for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
   for (std::size_t k = 0; k < slip_force_.size(); ++k) power += slip_force_[k] * view_.slider_velocity[k];
-  // What these elements store is deducted from their heat.
+  // All power that such a force takes from the motion counts as heat here; `heat_of_laws` subtracts the part that it stores.
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
     if (f.resists) power -= inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));

@@ -29,16 +29,11 @@ double boundary(double out, double in, Holds holds) {
 Characteristic::Characteristic(std::vector<double> x, std::vector<double> force, bool smooth) : x_(x), force_(force), smooth_(smooth) {
   for (std::size_t i = 0; i + 1 < x.size(); ++i) {
     if (!falls_at_ && force[i + 1] < force[i]) falls_at_ = x[i + 1];
-    const double slope = (force[i + 1] - force[i]) / (x[i + 1] - x[i]);
-    const bool straight_on = !lines_.empty() && std::abs(slope - lines_.back().slope) <=
-                                                    numerics::equal_values * (std::abs(slope) + std::abs(lines_.back().slope));
-    if (straight_on) continue;
-    if (!lines_.empty()) corners_.push_back(x[i]);
-    lines_.push_back({x[i], force[i], slope});
+    const Polyline::Line line{x[i], force[i], (force[i + 1] - force[i]) / (x[i + 1] - x[i])};
+    i == 0 ? void(lines_.emplace(line, largest_of(force))) : lines_->append(x[i], line);
   }
-  if (!smooth || corners_.empty()) return;
-  corners_.clear();
-  lines_.clear();
+  if (!smooth || lines_->ends().empty()) return;
+  lines_.reset();
   curve_.emplace(std::move(x), std::move(force));
 }
 
@@ -77,19 +72,13 @@ Characteristic Characteristic::scaled(double by_x, double by_force) const {
   return Characteristic(std::move(x), std::move(force), smooth_);
 }
 
-double Characteristic::force_on(std::size_t piece, double x, double& slope) const {
-  const Line& line = lines_[piece];
-  slope = line.slope;
-  return line.force + line.slope * (x - line.x);
-}
-
-std::size_t Characteristic::piece(double x) const {
-  return static_cast<std::size_t>(std::upper_bound(corners_.begin(), corners_.end(), x) - corners_.begin());
-}
-
 double Characteristic::force(double x, double& slope) const {
   if (function_) return function_(x, slope);
-  if (!curve_) return force_on(piece(x), x, slope);
+  if (lines_) {
+    const Polyline::Line& line = lines_->lines()[lines_->line_at(x)];
+    slope = line.slope;
+    return line.at(x);
+  }
   const double inside = std::clamp(x, x_.front(), x_.back());
   slope = curve_->rate(inside);
   return curve_->value(inside) + slope * (x - inside);
@@ -100,19 +89,14 @@ double Characteristic::integral(double x) const {
     const double inside = std::clamp(x, x_.front(), x_.back()), beyond = x - inside;
     return curve_->area(inside) + beyond * (curve_->value(inside) + curve_->rate(inside) * beyond / 2);
   }
+  const std::vector<double>& corners = lines_->ends();
   double sum = 0, from = x_.front();
-  const auto add = [&](std::size_t piece, double to) {
-    double slope;
-    sum += (to - from) * force_on(piece, from + (to - from) / 2, slope);
+  for (std::size_t k = 0; k < lines_->lines().size(); ++k) {
+    const double to = k < corners.size() ? std::min(corners[k], x) : x;
+    if (k == 0 || to > from) sum += (to - from) * lines_->lines()[k].at(from + (to - from) / 2);
+    if (to == x) break;
     from = to;
-  };
-  if (x < x_.front()) {
-    add(0, x);
-    return sum;
   }
-  std::size_t k = 0;
-  for (; k < corners_.size() && corners_[k] < x; ++k) add(k, corners_[k]);
-  add(k, x);
   return sum;
 }
 
@@ -150,11 +134,7 @@ double Characteristic::where(double wanted) const {
 
 double Characteristic::last_slope(int side) const {
   double slope;
-  if (function_ || curve_) {
-    force(function_ ? side * numerics::far_out : side < 0 ? x_.front() : x_.back(), slope);
-  } else {
-    force_on(side < 0 ? 0 : lines_.size() - 1, 0, slope);
-  }
+  force(side * numerics::far_out, slope);
   return slope;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/netlist/curve.hpp"
+#include "core/netlist/polyline.hpp"
 
 namespace rheonet {
 
@@ -36,25 +37,19 @@ class Characteristic {
   /// Slope in the limit of large x, in the direction of `side` (-1 or 1).
   double last_slope(int side) const;
 
-  /// Where the slope jumps, in order.
-  const std::vector<double>& corners() const { return corners_; }
-  /// Number of corners up to x.
-  std::size_t piece(double x) const;
-  /// The force on the straight line between corners number `piece - 1` and `piece`, extended beyond them.
-  double force_on(std::size_t piece, double x, double& slope) const;
+  /// The straight lines between its corners; nullptr for a spline and an expression.
+  const Polyline* lines() const { return lines_ ? &*lines_ : nullptr; }
 
   /// The first point whose force is less than that of the point before it; absent if there is none.
   std::optional<double> falls_at() const { return falls_at_; }
 
  private:
-  struct Line { double x, force, slope; };
   double integral(double x) const;
 
   Function function_;
   std::vector<double> x_, force_;     ///< the points
   bool smooth_ = false;
-  std::vector<Line> lines_;           ///< one more than corners; each goes through (x, force)
-  std::vector<double> corners_;
+  std::optional<Polyline> lines_;
   std::optional<Curve> curve_;
   std::optional<double> falls_at_;
 };

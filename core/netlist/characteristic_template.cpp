@@ -65,24 +65,13 @@ void CharacteristicTemplate::read_points(const TomlValue& source, Context& conte
                               fmt::format("{} = {}", name, example));
     return;
   }
-  for (const TomlValue& item : source.items) {
-    if (!item.is_array() || item.items.size() != 2) {
-      context.diagnostics.error(item.spot, fmt::format("a point of `{}` is an array of two values, [{}, force], but this {}", name,
-                                                       argument(),
-                                                       item.is_array() ? fmt::format("has {}", item.items.size()) : "is " + describe(item)));
-      return;
-    }
-    const std::string over = argument(), force = name_of(parameter_->quantity, context.domain);
-    points_.push_back({Formula(item.items[0], "the " + over + " of a point", context.diagnostics),
-                       Formula(item.items[1], "the " + force + " of a point", context.diagnostics)});
-    constant_ = constant_ && points_.back().x.identifiers().empty() && points_.back().force.identifiers().empty();
-  }
+  points_ = read_table_points(source, argument(), name_of(parameter_->quantity, context.domain), context.diagnostics);
 }
 
 std::shared_ptr<const Characteristic> CharacteristicTemplate::evaluate(const Environment& environment, Context& context) const {
   if (!sound_) return nullptr;
   if (expression_) return of_expression(environment, context);
-  if (constant_ && made_) return made_;
+  if (points_.constant && made_) return made_;
   std::optional<Numbers> found = file_name_ ? numbers_of_file(context) : numbers(environment, context);
   made_ = nullptr;
   if (found && check(*found, context)) made_ = std::make_shared<const Characteristic>(std::move(found->x), std::move(found->force), smooth_);
@@ -91,9 +80,9 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::evaluate(const Env
 
 std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers(const Environment& environment, Context& context) const {
   Numbers result;
-  for (const Point& point : points_) {
+  for (const TablePoints::Point& point : points_.points) {
     const auto x = point.x.evaluate_finite(environment, parameter_->over, context.domain, context.diagnostics);
-    const auto force = point.force.evaluate_finite(environment, parameter_->quantity, context.domain, context.diagnostics);
+    const auto force = point.y.evaluate_finite(environment, parameter_->quantity, context.domain, context.diagnostics);
     if (!x || !force) return {};
     result.x.push_back(*x);
     result.force.push_back(*force);
@@ -132,9 +121,7 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
   if (!expression.uses(0))
     return refuse(0, fmt::format("does not depend on `{}`, the {}", variable, over), "write an expression over `" + variable + "`, or points");
   auto function = [expression = std::move(expression)](double x, double& slope) {
-    std::vector<double> sides(expression.switches());
-    expression.find_sides({&x, 1}, sides);
-    const std::optional<double> force = expression.value({&x, 1}, sides, {&slope, 1});
+    const std::optional<double> force = expression.value({&x, 1}, {}, {&slope, 1});
     if (!force) slope = not_given;
     return force.value_or(not_given);
   };
@@ -149,7 +136,7 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
     if (force * x < 0) return refuse(0, is(force, x) + ": it must resist the motion", "");
   }
   for (const double side : {-1.0, 1.0}) {
-    const double slow = function(side * 1e-6, slope), slower = function(side * 1e-9, slope);
+    const double slow = function(side * numerics::slow, slope), slower = function(side / numerics::far_out, slope);
     if (parameter_->resists && slow != 0 && slower / slow > numerics::rest_jump)
       return refuse(0, "jumps where the motion reverses: that is dry friction", "a `slider` sticks there; put one beside the dashpot");
   }
@@ -157,7 +144,7 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
 }
 
 Spot CharacteristicTemplate::spot_of(std::size_t point) const {
-  return points_.empty() ? (file_name_ ? file_name_->spot : source_->spot) : points_[point].x.source().spot;
+  return points_.points.empty() ? (file_name_ ? file_name_->spot : source_->spot) : points_.points[point].x.source().spot;
 }
 
 bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) const {

@@ -8,7 +8,7 @@
 #include "core/netlist/characteristic.hpp"
 #include "core/netlist/context.hpp"
 #include "core/netlist/table_reader.hpp"
-#include "core/netlist/values.hpp"
+#include "core/netlist/table_points.hpp"
 
 namespace rheonet {
 
@@ -23,7 +23,6 @@ class CharacteristicTemplate {
   std::shared_ptr<const Characteristic> evaluate(const Environment& environment, Context& context) const;
 
  private:
-  struct Point { Formula x, force; };
   struct Numbers { std::vector<double> x, force; };
 
   std::string argument() const { return parameter_->over == Quantity::velocity ? "velocity" : "displacement"; }
@@ -37,8 +36,8 @@ class CharacteristicTemplate {
 
   const TomlValue* source_;
   const Parameter* parameter_;
-  bool sound_ = true, constant_ = true, smooth_ = false;
-  std::vector<Point> points_;
+  bool sound_ = true, smooth_ = false;
+  TablePoints points_;
   bool expression_ = false;
   std::optional<TomlValue> file_name_;
   std::vector<TomlValue> columns_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/netlist/curve.hpp"
+#include "core/netlist/polyline.hpp"
 #include "core/netlist/switched_function.hpp"
 
 namespace rheonet {
@@ -18,7 +19,7 @@ class LookupTable final : public SwitchedFunction {
   LookupTable(std::vector<double> arguments, std::vector<double> values, bool smooth, std::size_t variables);
 
   std::size_t variables() const override { return variables_; }
-  std::size_t switches() const override { return ends_.empty() ? 0 : 1; }
+  std::size_t switches() const override { return lines_.ends().empty() ? 0 : 1; }
   bool uses(std::size_t variable) const override { return variable == 0; }
   std::string text() const override;
   std::optional<double> value(std::span<const double> arguments, std::span<const double> sides = {}) const override;
@@ -28,13 +29,10 @@ class LookupTable final : public SwitchedFunction {
   bool switching_functions(std::span<const double> arguments, std::span<const double> sides, std::span<double> values) const override;
 
  private:
-  /// value + slope (u - origin), or the curve.
-  struct Piece { double origin, value, slope; bool curved = false; };
-  double number_at(double u) const;
-  const Piece& piece(double u, std::span<const double> sides) const;
+  std::size_t number_at(double u, std::span<const double> sides) const;
+  bool curved(std::size_t number) const { return curve_ && number == 1; }
 
-  std::vector<Piece> pieces_;
-  std::vector<double> ends_;  ///< between piece k and piece k + 1
+  Polyline lines_;              ///< if there is a curve, it takes the place of the second line
   std::optional<Curve> curve_;
   std::size_t variables_, points_;
 };

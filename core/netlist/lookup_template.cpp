@@ -14,7 +14,6 @@ namespace rheonet {
 
 namespace {
 
-
 /// The numbers of one column, which share a unit.
 struct Column {
   std::vector<double> values;
@@ -45,23 +44,13 @@ const char* const LookupTemplate::example = "points [input, output], or the name
 LookupTemplate::LookupTemplate(const TomlValue& table, const TomlEntry* smooth, const TomlEntry* columns, Context& context) : source_(&table) {
   DiagnosticList& diagnostics = context.diagnostics;
   const std::size_t before = diagnostics.errors();
-  if (!table.is_string()) read_points(table, diagnostics);
+  if (!table.is_string() && expect_array(table, "`table`", diagnostics, example)) {
+    if (table.items.empty()) diagnostics.error(table.spot, "`table` has no points", example);
+    points_ = read_table_points(table, "input", "output", diagnostics);
+  }
   if (columns) columns_ = read_column_names(*columns, table.is_string(), "input", "\"gap\", \"force\"", diagnostics);
   smooth_ = smooth && expect_boolean(smooth->value, "`smooth`", diagnostics, "smooth = true") && smooth->value.boolean;
   sound_ = diagnostics.errors() == before;
-}
-
-void LookupTemplate::read_points(const TomlValue& table, DiagnosticList& diagnostics) {
-  if (!expect_array(table, "`table`", diagnostics, example)) return;
-  if (table.items.empty()) diagnostics.error(table.spot, "`table` has no points", example);
-  for (const TomlValue& item : table.items) {
-    if (!item.is_array() || item.items.size() != 2) {
-      diagnostics.error(item.spot, "a point of a table is an array of two values, [input, output], but this " +
-                                       (item.is_array() ? "has " + std::to_string(item.items.size()) : "is " + describe(item)));
-      return;
-    }
-    points_.push_back({Formula(item.items[0], "the input of a point", diagnostics), Formula(item.items[1], "the output of a point", diagnostics)});
-  }
 }
 
 std::optional<Lookup> LookupTemplate::evaluate(const Environment& environment, Context& context) const {
@@ -79,9 +68,9 @@ std::optional<Lookup> LookupTemplate::evaluate(const Environment& environment, C
       outputs.values.push_back(multiplied(output, file->unit.value));
     }
   }
-  for (const Point& point : points_) {
-    if (!inputs.add(point.input, "inputs", environment, diagnostics) || !outputs.add(point.output, "outputs", environment, diagnostics)) return {};
-    spots.push_back(point.input.source().spot);
+  for (const TablePoints::Point& point : points_.points) {
+    if (!inputs.add(point.x, "inputs", environment, diagnostics) || !outputs.add(point.y, "outputs", environment, diagnostics)) return {};
+    spots.push_back(point.x.source().spot);
   }
   const auto spot_of = [&](std::size_t k) { return spots.empty() ? source_->spot : spots[k]; };
   for (std::size_t k = 1; k < inputs.values.size(); ++k) {

@@ -7,7 +7,7 @@
 #include "core/netlist/context.hpp"
 #include "core/netlist/document.hpp"
 #include "core/netlist/switched_function.hpp"
-#include "core/netlist/values.hpp"
+#include "core/netlist/table_points.hpp"
 
 namespace rheonet {
 
@@ -31,11 +31,9 @@ class LookupTemplate {
   std::optional<Lookup> evaluate(const Environment& environment, Context& context) const;
 
  private:
-  struct Point { Formula input, output; };
-  void read_points(const TomlValue& table, DiagnosticList& diagnostics);
 
   const TomlValue* source_;
-  std::vector<Point> points_;  ///< empty: from a file
+  TablePoints points_;  ///< empty: from a file
   std::vector<TomlValue> columns_;
   bool smooth_ = false, sound_ = true;
 };

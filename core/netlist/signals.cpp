@@ -130,18 +130,8 @@ void SignalTemplate::read_points(const TomlValue& source, Context& context) {
     return;
   }
   if (source.items.empty()) context.diagnostics.error(source.spot, "`table` has no points");
-  points_.reserve(source.items.size());
-  for (const TomlValue& item : source.items) {
-    if (!item.is_array() || item.items.size() != 2) {
-      context.diagnostics.error(
-          item.spot, "a point of a table is an array of two values, [time, value], but this " +
-                         (item.is_array() ? "has " + std::to_string(item.items.size()) : "is " + describe(item)));
-      return;
-    }
-    points_.push_back({Formula(item.items[0], "the time of a point", context.diagnostics),
-                       Formula(item.items[1], "the value of a point", context.diagnostics)});
-    constant_ = constant_ && points_.back().time.identifiers().empty() && points_.back().value.identifiers().empty();
-  }
+  points_ = read_table_points(source, "time", "value", context.diagnostics);
+  constant_ = constant_ && points_.constant;
 }
 
 std::optional<Signal> SignalTemplate::evaluate(const Environment& environment, Context& context) const {
@@ -151,7 +141,7 @@ std::optional<Signal> SignalTemplate::evaluate(const Environment& environment, C
   unit_ = quantity_ ? BlockUnit{dimension_of(*quantity_, context.domain), 0, false} : BlockUnit{};
   made_ = make(environment, context);
   if (made_ && !is_finite(*made_)) {
-    context.diagnostics.error((file_name_ ? *file_name_ : points_.empty() ? main_.source() : points_.front().value.source()).spot,
+    context.diagnostics.error((file_name_ ? *file_name_ : points_.points.empty() ? main_.source() : points_.points.front().y.source()).spot,
                            "signal `" + name_ + "` has values, rates or periods beyond the range of numbers",
                            "a jump in a table is two points at one time");
     made_.reset();
@@ -364,12 +354,12 @@ std::optional<Signal> SignalTemplate::make_table(const Environment& environment,
     }
     return Signal(std::move(table));
   }
-  for (const Point& point : points_) {
-    const auto t = point.time.evaluate_finite(environment, Quantity::time, context.domain, context.diagnostics);
-    const auto value = scaled(point.value, environment, context);
+  for (const TablePoints::Point& point : points_.points) {
+    const auto t = point.x.evaluate_finite(environment, Quantity::time, context.domain, context.diagnostics);
+    const auto value = scaled(point.y, environment, context);
     if (!t || !value) return {};
     if (!table.times.empty() && *t < table.times.back()) {
-      context.diagnostics.error(point.time.source().spot, "the times of a table must not decrease");
+      context.diagnostics.error(point.x.source().spot, "the times of a table must not decrease");
       return {};
     }
     table.times.push_back(*t);

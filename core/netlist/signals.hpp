@@ -11,6 +11,7 @@
 #include "core/netlist/scene.hpp"
 #include "core/netlist/signal.hpp"
 #include "core/netlist/table_file.hpp"
+#include "core/netlist/table_points.hpp"
 #include "core/netlist/values.hpp"
 
 namespace rheonet {
@@ -33,10 +34,6 @@ class SignalTemplate {
  private:
   enum class Shape { step, ramp, sine, cosine, square, triangle, chirp, pulse, table, constant };
   enum Key { amplitude, frequency, end_frequency, duration, width, phase, time, offset, key_count };
-  struct Point {
-    Formula time;
-    Formula value;
-  };
 
   static const std::array<std::string, key_count>& key_names();
   /// The entry that determines the shape; nullptr, with a mistake, unless exactly one does.
@@ -68,7 +65,7 @@ class SignalTemplate {
   bool constant_ = true;  ///< contains no names: one evaluation serves all elements
   Formula main_;
   std::array<Formula, key_count> keys_;
-  std::vector<Point> points_;
+  TablePoints points_;
   std::optional<TomlValue> file_name_;  ///< of a CSV file with the points
   bool smooth_ = false;                 ///< a spline through the points
   std::vector<TomlValue> columns_;      ///< names of the columns of times and values; empty: the file has two columns

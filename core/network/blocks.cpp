@@ -53,6 +53,10 @@ class Finder {
     };
     result_.order = sort([](const Blocks::Block& b) { return b.breaks_loops(); }, refuse_loop);
     sort([](const Blocks::Block& b) { return b.law.state; }, refuse_delays);
+    for (const Network::Force& force : network_.forces) {
+      std::vector<char> seen(result_.blocks.size(), 0);
+      if (force.energy >= 0) refuse_energy_of_forces(force, force.energy, seen);
+    }
     return std::move(result_);
   }
 
@@ -274,6 +278,22 @@ class Finder {
     if (found != result_.sensors.end()) return static_cast<int>(found - result_.sensors.begin());
     result_.sensors.push_back(wanted);
     return static_cast<int>(result_.sensors.size()) - 1;
+  }
+
+  /// What an element dissipates needs the rate of its energy, and that of a force is not always known.
+  void refuse_energy_of_forces(const Network::Force& force, int block, std::vector<char>& seen) const {
+    if (std::exchange(seen[at(block)], 1)) return;
+    for (const Blocks::Input& input : result_.blocks[at(block)].inputs) {
+      if (input.from_block) {
+        if (!result_.blocks[at(input.index)].law.state) refuse_energy_of_forces(force, input.index, seen);
+        continue;
+      }
+      const Blocks::Sensor& sensor = result_.sensors[at(input.index)];
+      if (sensor.what != Blocks::Sensor::What::force) continue;
+      throw SimulationError(network_.spot_of(force.element),
+                            fmt::format("the energy that `{}` stores depends on `{}`: it may depend on displacements, velocities and states of blocks alone",
+                                        scene_.elements[at(force.element)].name, scene_.sensed[at(sensor.record)].path));
+    }
   }
 
   /// Depth-first topological sort: a block follows the blocks whose outputs it needs. `stops`: it needs no present input.

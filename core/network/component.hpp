@@ -60,6 +60,8 @@ class DeflectionBatch {
   /// The deflection of element i at the start, when the relative displacement of its ends is d. For a spring it follows from
   /// d, for a law with a memory from its initial force.
   virtual double start(std::size_t i, double d) = 0;
+  /// Whether it follows from d.
+  virtual bool starts_by_place(std::size_t i) const = 0;
   /// The same where the balance with its neighbours requires an initial force; NaN if the law accepts none.
   virtual double start_with(std::size_t i, double force) = 0;
 

@@ -135,6 +135,7 @@ class IwanBatch final : public DeflectionBatch {
   bool creeps(std::size_t) const override { return false; }
   double delay(std::size_t) const override { return 0; }
   double start(std::size_t, double) override { return 0; }
+  bool starts_by_place(std::size_t) const override { return false; }
   double start_with(std::size_t, double) override { return std::numeric_limits<double>::quiet_NaN(); }
   int events(std::size_t) const override { return 2; }
   void event_functions(std::size_t i, double p, double dp, double w, double dead_band, double* g) const override;

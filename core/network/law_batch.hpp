@@ -86,6 +86,11 @@ class DeflectionBatchOf final : public DeflectionBatch {
     return 0;
   }
   double start(std::size_t i, double d) override { return laws_[i].start(d); }
+  bool starts_by_place(std::size_t i) const override {
+    Law trial = laws_[i];  // a start sets its memory
+    const double one = trial.start(1);
+    return trial.start(0) != one;
+  }
   double start_with(std::size_t i, double force) override {
     if constexpr (requires(Law law) { law.start_with(force); }) {
       return laws_[i].start_with(force);

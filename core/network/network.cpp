@@ -264,13 +264,10 @@ void refuse_falling_friction(const Network& network) {
   firm[ground] = 1;
   for (const Network::Mass& mass : network.masses) firm[static_cast<std::size_t>(mass.node)] = 1;
   for (const Network::Motion& motion : network.motions) firm[static_cast<std::size_t>(motion.node)] = 1;
-  DisjointSets linked = joined_by_links(network);
-  for (NodeId n = 0; static_cast<std::size_t>(n) < network.nodes(); ++n) {
-    if (firm[static_cast<std::size_t>(n)]) firm[static_cast<std::size_t>(linked.find(n))] = 1;
-  }
+  const std::vector<NodeId> held = linked_to(network, firm);
   const auto refuse_massless = [&](const Branch& b, const char* how) {
     for (const NodeId node : {b.a, b.b}) {
-      if (firm[static_cast<std::size_t>(linked.find(node))]) continue;
+      if (held[static_cast<std::size_t>(node)] >= 0) continue;
       throw SimulationError(network.spot_of(b.element),
                             fmt::format("the force of `{}` {} the velocity, and node `{}` has no mass: no balance of forces determines its "
                                         "velocity; give it a mass",

@@ -20,6 +20,16 @@ DisjointSets joined_by_links(const Network& network) {
   return joined;
 }
 
+std::vector<NodeId> linked_to(const Network& network, const std::vector<char>& marked) {
+  DisjointSets joined = joined_by_links(network);
+  std::vector<NodeId> of_set(marked.size(), -1), result(marked.size());
+  for (std::size_t n = 0; n < marked.size(); ++n) {
+    if (marked[n]) of_set[at(joined.find(static_cast<NodeId>(n)))] = static_cast<NodeId>(n);
+  }
+  for (std::size_t n = 0; n < marked.size(); ++n) result[n] = marked[n] ? static_cast<NodeId>(n) : of_set[at(joined.find(static_cast<NodeId>(n)))];
+  return result;
+}
+
 LinksBetween links_between(const Network& network, NodeId from, NodeId to) {
   std::vector<std::vector<const Branch*>> around(network.nodes());
   for (const Network::Slider& s : network.sliders) {

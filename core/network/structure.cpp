@@ -14,6 +14,14 @@
 
 namespace rheonet {
 
+std::vector<char> firm_nodes(const Network& network, const Structure& structure) {
+  std::vector<char> marked;
+  for (const Kind kind : structure.kind) marked.push_back(kind == Kind::known || kind == Kind::massive);
+  const std::vector<NodeId> held = linked_to(network, marked);
+  for (std::size_t n = 0; n < marked.size(); ++n) marked[n] = held[n] >= 0;
+  return marked;
+}
+
 namespace {
 
 using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS>;
@@ -87,14 +95,10 @@ void assign_inertia(const Network& network, Structure& s) {
   if (s.inerters.empty()) return;
   const auto firm = [&](NodeId node) { return s.kind[at(node)] == Kind::known || s.kind[at(node)] == Kind::massive; };
   // Rigid links hold a node as inerters do.
-  DisjointSets linked = joined_by_links(network);
-  std::vector<char> holds(s.kind.size(), 0);
-  for (std::size_t n = 0; n < holds.size(); ++n) {
-    if (firm(static_cast<NodeId>(n))) holds[at(linked.find(static_cast<NodeId>(n)))] = 1;
-  }
+  const std::vector<char> held = firm_nodes(network, s);
   for (const Branch& b : s.inerters) {
     for (const NodeId node : {b.a, b.b}) {
-      if (!firm(node) && holds[at(linked.find(node))]) s.kind[at(node)] = Kind::massive;
+      if (!firm(node) && held[at(node)]) s.kind[at(node)] = Kind::massive;
     }
   }
   for (bool again = true; std::exchange(again, false);) {

@@ -76,6 +76,9 @@ struct Structure {
   std::vector<char> driven;      ///< of each deflection branch: its deflection is a function of time alone
 };
 
+/// Marks the nodes that have a mass or a prescribed motion, and those that rigid links join to one. No force makes their velocity jump.
+std::vector<char> firm_nodes(const Network& network, const Structure& structure);
+
 /// Minus the velocity of a node relative to another one, as a sum along the tree (`branch` is -1). Relative to ground, a
 /// node that is not floating has a single term, its own velocity.
 Structure::Loop minus_velocity(const Structure& structure, NodeId node, NodeId against);

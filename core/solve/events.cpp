@@ -139,7 +139,7 @@ void NetworkEvents::report_against_force(double t, int slider) const {
 
 void NetworkEvents::begin(double t, const double* y, const double* yp) {
   right_time_ = not_looked;
-  find_held();
+  find_returning();
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
@@ -210,7 +210,7 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
 }
 
 bool NetworkEvents::sticks() const {
-  return !limit_margin_.empty() || !held_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
+  return !limit_margin_.empty() || !returning_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
 
 double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_t k) {
@@ -220,34 +220,33 @@ double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_
 }
 
 void NetworkEvents::all_at(const Dae::View& view, std::vector<double>& g) const {
-  g.resize(suddens() + held_.size());
+  g.resize(suddens() + returning_.size());
   for (std::size_t i = 0; i < g.size(); ++i) g[i] = looked_at(i, view);
 }
 
 double NetworkEvents::looked_at(std::size_t i, const Dae::View& view) const {
-  return i < suddens() ? sudden_function(i, view) : held_function(held_[i - suddens()], view);
+  return i < suddens() ? sudden_function(i, view) : returning_function(returning_[i - suddens()], view);
 }
 
-double NetworkEvents::held_function(const Held& held, const Dae::View& view) const {
-  const Watched& law = watched_[held.law];
+double NetworkEvents::returning_function(const Returning& returning, const Dae::View& view) const {
+  const Watched& law = watched_[returning.law];
   const auto [velocity, dead_band] = flow(law, view);
   std::array<double, numerics::held_law_events> g;
   law.batch->event_functions(law.i, view.p[at(law.branch)], view.dp[at(law.branch)], velocity, dead_band, g.data());
-  return g[at(held.which)] + law_margin_[held.event];
+  return g[at(returning.which)] + law_margin_[returning.event];
 }
 
-/// Collects the events of the laws that are held at rest, and of those that may just be touched.
-void NetworkEvents::find_held() {
-  held_.clear();
-  any_held_ = false;
+void NetworkEvents::find_returning() {
+  returning_.clear();
+  any_at_rest_ = false;
   std::size_t event = 0;
   for (std::size_t w = 0; w < watched_.size(); ++w) {
     const int events = watched_[w].batch->events(watched_[w].i);
     const bool held = events <= static_cast<int>(numerics::held_law_events) && watched_[w].batch->holds(watched_[w].i);
     const bool looked_at = held || watched_[w].batch->contact(watched_[w].i) == 0;
-    any_held_ = any_held_ || held;
+    any_at_rest_ = any_at_rest_ || held;
     for (int k = 0; k < events; ++k, ++event) {
-      if (looked_at) held_.push_back({w, k, event});
+      if (looked_at) returning_.push_back({w, k, event});
     }
   }
 }
@@ -269,7 +268,7 @@ void NetworkEvents::look_at_step(const Integrator& integrator, double a, double 
 }
 
 const Dae::View& NetworkEvents::seen_between(double t, const double* y, const double* yp) {
-  return any_held_ ? resolved(t, y, yp) : dae_.view(t, y, yp);
+  return any_at_rest_ ? resolved(t, y, yp) : dae_.view(t, y, yp);
 }
 
 double NetworkEvents::slope(const Slipping& one, const Dae::View& view) const {
@@ -298,7 +297,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
   std::vector<char> dipping(sliders_.size(), 0);
   for (const Slipping& one : slipping_) dipping[one.watched] = one.dips;
   look_at_step(integrator, a, b);
-  for (std::size_t i = 0; i < suddens() + held_.size(); ++i) {
+  for (std::size_t i = 0; i < suddens() + returning_.size(); ++i) {
     if (i < sliders_.size() && !dae_.structure().stuck[at(sliders_[i])] && !dipping[i]) continue;
     double left = a, middle = (a + b) / 2, right = b;
     double gl = left_[i], gm = middle_[i], gr = right_[i];
@@ -321,7 +320,7 @@ std::optional<NetworkEvents::Missed> NetworkEvents::missed(const Integrator& int
       if (half <= left || half >= middle) break;
       (at_time(integrator, half, i) > 0 ? left : middle) = half;
     }
-    const std::size_t which = i < suddens() ? events_.size() - suddens() + i : held_[i - suddens()].event;
+    const std::size_t which = i < suddens() ? events_.size() - suddens() + i : returning_[i - suddens()].event;
     if (!first || middle < first->t) first = Missed{middle, static_cast<int>(which)};
   }
   dae_.view(b, integrator.y().data(), integrator.yp().data());
@@ -335,7 +334,7 @@ const Dae::View& NetworkEvents::resolved(double t, const double* y, const double
   // give y'. No polynomial follows a velocity that grows like a power of time. A law held at rest may be so near its guard
   // that a change of rates within one step matters, and a polynomial of order 1, as after a restart, has constant rates.
   const bool between_steps = dae_.rough() || dae_.follows_time();
-  if (!rates_needed_ && !any_held_ && !(between_steps && !events_.empty())) return dae_.view(t, y, yp);
+  if (!rates_needed_ && !any_at_rest_ && !(between_steps && !events_.empty())) return dae_.view(t, y, yp);
   try {
     return resolved(t, y, between_steps);
   } catch (const SimulationError&) {  // the step itself reports the error

@@ -70,11 +70,11 @@ class NetworkEvents final : public EventFunctions {
   double at_time(const Integrator& integrator, double t, std::size_t k);
   /// View for the search of missed events within a step.
   const Dae::View& seen_between(double t, const double* y, const double* yp);
-  /// An event of a law that is held at rest, or not in contact (DeflectionBatch::contact): index of the watched law, its
-  /// event, and the number among all events.
-  struct Held { std::size_t law; int which; std::size_t event; };
-  void find_held();
-  double held_function(const Held& held, const Dae::View& view) const;
+  /// An event whose guard may cross 0 and return within one step: one of a law that is held at rest, or not in contact
+  /// (DeflectionBatch::contact). Index of the watched law, its event, and the number among all events.
+  struct Returning { std::size_t law; int which; std::size_t event; };
+  void find_returning();
+  double returning_function(const Returning& returning, const Dae::View& view) const;
   /// A slider that slips between known or massive nodes: its index among all sliders and in `sliders_`. `slope`: rate of its
   /// slip speed at the end of the last step [m/s^2]. `dips`: that speed had a minimum within the step.
   struct Slipping { int slider; std::size_t watched; double slope; bool dips; };
@@ -99,11 +99,11 @@ class NetworkEvents final : public EventFunctions {
   std::vector<double> y_, yp_;
   std::vector<Watched> watched_;
   std::vector<int> sliders_;
-  std::vector<Held> held_;
-  bool any_held_ = false;  ///< at rest
+  std::vector<Returning> returning_;
+  bool any_at_rest_ = false;  ///< any law is held at rest
   std::vector<Slipping> slipping_;
   std::vector<double> step_y_, step_yp_;
-  std::vector<double> left_, middle_, right_;  ///< guards of sliders, limits and laws held at rest over a step
+  std::vector<double> left_, middle_, right_;  ///< guards of sliders, limits and `returning_` over a step
   static constexpr double not_looked = std::numeric_limits<double>::quiet_NaN();
   double right_time_ = not_looked;  ///< time of right_, since the last `begin`
   std::vector<double> margin_;  ///< of each slider
