@@ -13,15 +13,17 @@ std::optional<Misfit> zero_ratio(std::span<const double> v) {
 Declaration declared(const char* type, const char* summary, const char* ratio) {
   return {
       .type = type,
+      .supported = true,
       .parameters = {{.name = "ratio", .quantity = Quantity::number, .lower = -std::numeric_limits<double>::infinity(), .symbol = "i", .description = ratio}},
       .check = zero_ratio,
       .summary = summary,
-      .law = "v_a = i v_b, f_b = -i f_a",
-      .equation = R"(v_a = i\,v_b,\qquad f_b = -i\,f_a)",
-      .notes = "Its force is that at its first node a; at its second node b it is -i times as large, and the frame, which does not move, takes up the "
-               "difference. Without losses: stores and dissipates nothing.\n"
-               "Positions keep this ratio to the start positions: x_a - i x_b is constant. Transmissions in a loop need one common ratio, and share the load as "
-               "rigid links do.",
+      .law = "v_a - v_s = i (v_b - v_s), f_b = -i f_a",
+      .equation = R"(v_a - v_s = i\,(v_b - v_s),\qquad f_b = -i\,f_a)",
+      .notes = "It turns against `support` s, a node, or ground if none is named. Its force is that at its first node a; at its second node b it is -i "
+               "times as large, and its support takes up the difference. Without losses: stores and dissipates nothing.\n"
+               "Positions keep this ratio to the start positions. Transmissions that make a loop by themselves need one common ratio, and share the load as "
+               "rigid links do. In a loop with other elements, or with a support that moves, two of its nodes need an inertia, a prescribed motion, or elements that "
+               "lead to one.",
   };
 }
 

@@ -18,7 +18,7 @@ inline Box rigid_transmission(std::span<const Dual>) {
 inline Component lossless_transmission(Declaration declaration, std::function<double(std::span<const double>)> ratio, Symbol drawing) {
   declaration.ports = Declaration::Ports::between;
   declaration.source = "definition";
-  Component component{.declaration = std::move(declaration), .role = Role::slip, .box = rigid_transmission, .ratio = std::move(ratio)};
+  Component component{.declaration = std::move(declaration), .role = Role::slip, .with_row = "gear train", .box = rigid_transmission, .ratio = std::move(ratio)};
   component.drawing = std::move(drawing);
   return component;
 }

@@ -17,7 +17,7 @@ constexpr double difference_rounding = numerics::sum_ulps * std::numeric_limits<
 }  // namespace
 
 ConvexNetwork::ConvexNetwork(int nodes)
-    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), given_(origin_), cluster_(at(nodes), 0) {}
+    : origin_(at(nodes), 0), base_(origin_), u_(origin_), inertia_(origin_), applied_(origin_), fixed_(at(nodes), 0), tied_(fixed_), given_(origin_), cluster_(at(nodes), 0) {}
 
 void ConvexNetwork::fix(int node, double change) {
   fixed_[at(node)] = 1;
@@ -33,7 +33,7 @@ bool ConvexNetwork::torn(int node) const {
 // Round-off must not separate nodes that are together, or were until a branch released them: a massless node takes both numbers
 // (base and u) of the node that it follows.
 void ConvexNetwork::follow(int node, int head) {
-  if (fixed_[at(node)] || inertia_[at(node)] > 0) {
+  if (firm(at(node))) {
     u_[at(node)] = (base_[at(head)] - base_[at(node)]) + u_[at(head)];
   } else {
     base_[at(node)] = base_[at(head)];
@@ -96,9 +96,8 @@ void ConvexNetwork::choose_weak() {
     for (int node : {b.a, b.b}) least[at(node)] = std::min(least[at(node)], slope);
   }
   for (const double slope : least) least_of_all = std::min(least_of_all, slope);
-  const auto heavy = [&](int node) { return fixed_[at(node)] || inertia_[at(node)] > 0; };
   for (Branch& b : branches_) {
-    if (heavy(b.a) && heavy(b.b)) continue;  // no regularisation needed
+    if (firm(at(b.a)) && firm(at(b.b))) continue;  // no regularisation needed
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
     if (!b.jumps && flatter > numerics::flat_law * steeper) continue;
     const double around = std::min(least[at(b.a)], least[at(b.b)]);
@@ -120,7 +119,7 @@ void ConvexNetwork::stick_at_first() {
   std::vector<char> heavy(n, 0);  // of each set: its value is given
   std::vector<int> head(n);       // the node that gives it
   for (std::size_t k = 0; k < n; ++k) {
-    heavy[k] = fixed_[k] || inertia_[k] > 0;
+    heavy[k] = firm(k);
     head[k] = static_cast<int>(k);
   }
   std::vector<char> fixed(fixed_);
@@ -281,6 +280,9 @@ bool ConvexNetwork::balanced(std::vector<double>& gradient) const {
     add(node, inertia_[k] * u_[k]);
     blur(node, inertia_[k], u_[k]);
   }
+  for (const Equation& e : equations_) {
+    for (std::size_t i = 0; i < e.node.size(); ++i) add(e.node[i], e.factor[i] * e.force);
+  }
   bool met = true;
   for (std::size_t c = 0; c < gradient.size(); ++c) met = met && std::abs(gradient[c]) <= rounding[c];
   return met;
@@ -325,6 +327,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
     merge();
     while (stick_where_met()) merge();  // several may come together in one step
     if (rounds_ == 0) let_prescribed_part();
+    if (rounds_ == 0) meet_equations();
     bool settled = balanced(gradient) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d, false)) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -8,9 +9,12 @@
 
 namespace rheonet {
 
+struct Conductance;
+
 /// A network of set-valued monotone laws, and the values x of its nodes at which everything balances:
 ///
-///     inertia_n u_n + sum of +-f_b = applied_n    at every free node,     f_b in law_b(x_a - x_b)
+///     inertia_n u_n + sum of +-f_b + sum of factor_cn f_c = applied_n    at every free node,     f_b in law_b(x_a - x_b),
+///     sum over n of factor_cn (change of x_n) = given_c                  for every equation c between nodes
 ///
 /// where u is the change of x from its start value. This x minimises a convex function; Newton's method on an active set, with
 /// exact line search, finds it. A branch whose law jumps at 0 sticks (joins its ends) while its force stays within the jump.
@@ -37,6 +41,8 @@ class ConvexNetwork {
   void set_inertia(int node, double inertia) { inertia_[at(node)] = inertia; }
   /// Returns the index of the branch.
   int add(int a, int b, Law law);
+  /// The changes of these nodes, times their factors, sum to `given`. Each of them has an inertia, or follows from those that have.
+  void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
@@ -77,6 +83,17 @@ class ConvexNetwork {
     int side = 1;  ///< the bound at which the force is while the branch slips and w is 0
     int before = 0;  ///< see was_apart; 0: no guess
   };
+  struct Equation {
+    std::array<int, 3> node;
+    std::array<double, 3> factor;
+    double given;
+    double force = 0;
+  };
+  /// Its value does not follow from the forces of branches alone.
+  bool firm(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || tied_[node]; }
+  std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
+  bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
+  void meet_equations();
   /// A force without a bound holds a branch, or ends a motion to the side of w that the law forbids.
   static bool forbids(const Branch& b, double w);
   /// Argument of the law, from the values of the nodes.
@@ -108,7 +125,8 @@ class ConvexNetwork {
   std::vector<double> origin_;    ///< start value of x
   std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows
   std::vector<double> inertia_, applied_;
-  std::vector<char> fixed_;
+  std::vector<char> fixed_, tied_;
+  std::vector<Equation> equations_;
   std::vector<double> given_;  ///< prescribed change of each fixed node
   std::vector<Branch> branches_;
   std::vector<int> cluster_;  ///< of each node: its cluster, the nodes that sticking branches join

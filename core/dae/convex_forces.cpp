@@ -19,6 +19,9 @@ void ConvexNetwork::find_bond_forces() {
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
+  for (const Equation& e : equations_) {
+    for (std::size_t i = 0; i < e.node.size(); ++i) left[at(e.node[i])] += e.factor[i] * e.force;
+  }
   std::vector<int> row(u_.size(), -1);
   int rows = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
@@ -112,7 +115,7 @@ bool ConvexNetwork::run_away() {
   std::vector<char> heavy(u_.size(), 0);
   double farthest = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (!fixed_[k] && inertia_[k] == 0) continue;
+    if (!firm(k)) continue;
     heavy[at(cluster_[k])] = 1;
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
@@ -147,7 +150,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   }
   std::vector<char> held(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (fixed_[k] || inertia_[k] > 0) held[at(parts.find(static_cast<int>(k)))] = 1;
+    if (firm(k)) held[at(parts.find(static_cast<int>(k)))] = 1;
     forces[at(parts.find(static_cast<int>(k)))] += std::abs(applied_[k]);
     const int column = column_[at(cluster_[k])];
     if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += gradient[at(column)];

@@ -36,7 +36,7 @@ bool ConvexNetwork::direction_of_descent(const std::vector<double>& gradient, st
     if (column >= 0 && inertia_[k] > 0) slopes.push_back({column, -1, inertia_[k]});
   }
   Eigen::VectorXd step = -Eigen::Map<const Eigen::VectorXd>(gradient.data(), columns_);
-  if (!solve_conductances(slopes, step)) return false;
+  if (!(equations_.empty() ? solve_conductances(slopes, step) : step_within_equations(slopes, step))) return false;
   d.assign(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
     const int column = column_[at(cluster_[k])];

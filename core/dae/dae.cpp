@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace rheonet {
 
@@ -47,6 +50,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   rate_out_ = rate_d_ = rate_in_;
   df_.assign(nd, 0);
   dc_ = df_;
+  view_.train_force.assign(network.trains.size(), 0);
   view_.velocity = view_.acceleration = view_.nodal = view_.applied = view_.position = v_;
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
@@ -91,7 +95,9 @@ struct Dae::Drafts {
   void put(int row, int column, double value) {
     if (column >= 0) constants.push_back({builder.ticket(row, column), value});
   }
-  void put_mass(int row, int column, double mass) { masses.push_back({builder.ticket(row, column), mass}); }
+  void put_mass(int row, int column, double mass) {
+    if (mass != 0 && row >= 0 && column >= 0) masses.push_back({builder.ticket(row, column), mass});
+  }
   void depend(int row, int column, Source source, int index, Sign sign) {
     if (row >= 0 && column >= 0) scatter.push_back({builder.ticket(row, column), index, source, sign});
   }
@@ -105,6 +111,7 @@ void Dae::build_pattern() {
   if (idle_) drafts.put_mass(0, 0, 1);
   for (const int z : iz_) drafts.put_mass(z, z, 1);
   build_couplings(drafts.builder);
+  share_balances_of_pivots(drafts);
   find_parallels();
   for (Follower& f : followers_) {
     f.own_entry = drafts.builder.ticket(f.row, ip_[at(f.branch)]);
@@ -130,14 +137,60 @@ void Dae::draft_balances(Drafts& drafts) const {
     drafts.depend(group_row(b.b), ip_[j], Source::force, index, -1);
   }
   for (std::size_t n = 0; n < iv_.size(); ++n) {
-    if (structure_->kind[n] == Kind::massive) drafts.put_mass(iv_[n], iv_[n], structure_->inertia[n]);
+    if (structure_->kind[n] == Kind::massive) drafts.put_mass(iv_[n], iv_[n], structure_->mass[n]);
   }
   for (std::size_t k = 0; k < structure_->inerters.size(); ++k) {
     const Branch& b = structure_->inerters[k];
-    if (b.a == b.b || iv_[at(b.a)] < 0 || iv_[at(b.b)] < 0) continue;
-    drafts.put_mass(iv_[at(b.a)], iv_[at(b.b)], -network_->inerters[k].inertance);
-    drafts.put_mass(iv_[at(b.b)], iv_[at(b.a)], -network_->inerters[k].inertance);
+    if (b.a == b.b) continue;
+    const double inertance = network_->inerters[k].inertance;
+    for (const NodeId node : {b.a, b.b}) drafts.put_mass(iv_[at(node)], iv_[at(node)], inertance);
+    drafts.put_mass(iv_[at(b.a)], iv_[at(b.b)], -inertance);
+    drafts.put_mass(iv_[at(b.b)], iv_[at(b.a)], -inertance);
   }
+}
+
+void Dae::share_balances_of_pivots(Drafts& drafts) {
+  if (structure_->tied.empty()) return;
+  std::map<int, const Structure::Tied*> of_row;
+  for (const Structure::Tied& tied : structure_->tied) of_row.emplace(iv_[at(tied.pivot)], &tied);
+  const auto share = [&](const Structure::Tied& tied, auto visit) {
+    for (const auto& [node, factor] : tied.terms) {
+      if (iv_[at(node)] >= 0) visit(iv_[at(node)], -factor);
+    }
+  };
+  std::vector<Constant> masses;
+  std::swap(masses, drafts.masses);
+  for (const Constant& mass : masses) {
+    const PatternBuilder::Place place = drafts.builder.places()[at(mass.entry)];
+    const auto found = of_row.find(place.row);
+    if (found == of_row.end()) {
+      drafts.masses.push_back(mass);
+    } else {
+      share(*found->second, [&](int row, double factor) { drafts.put_mass(row, place.column, factor * mass.value); });
+    }
+  }
+  std::set<std::pair<int, int>> places;  // row and column
+  for (const PatternBuilder::Place& place : drafts.builder.places()) {
+    if (of_row.contains(place.row)) places.emplace(place.row, place.column);
+  }
+  for (const auto& [from, column] : places) {
+    share(*of_row.at(from), [&](int row, double factor) {
+      shared_entries_.push_back({drafts.builder.ticket(from, column), drafts.builder.ticket(row, column), factor});
+    });
+  }
+  for (const auto& [row, tied] : of_row) {
+    tied_.push_back({drafts.builder.ticket(row, row), 1});
+    for (const auto& [node, factor] : tied->terms) {
+      if (iv_[at(node)] >= 0) tied_.push_back({drafts.builder.ticket(row, iv_[at(node)]), factor});
+    }
+  }
+}
+
+/// Shares the balances of pivots, and writes the equations of the trains in their rows.
+void Dae::tie(double* values) const {
+  for (const SharedEntry& s : shared_entries_) values[s.to] += s.factor * values[s.from];
+  for (const int entry : pivot_entries_) values[entry] = 0;
+  for (const Constant& c : tied_) values[c.entry] += c.value;
 }
 
 void Dae::draft_rates(Drafts& drafts) const {
@@ -200,6 +253,13 @@ void Dae::take_entries(Drafts& drafts) {
   masses_ = copy(drafts.masses);
   scatter_ = copy(drafts.scatter);
   flow_entries_ = copy(flow_entries_);
+  for (SharedEntry& s : shared_entries_) s = {entry[at(s.from)], entry[at(s.to)], s.factor};
+  take(tied_);
+  std::vector<char> of_pivot(at(size_), 0);
+  for (const Structure::Tied& tied : structure_->tied) of_pivot[at(iv_[at(tied.pivot)])] = 1;
+  for (int e = 0; !structure_->tied.empty() && e < pattern_.entries(); ++e) {
+    if (of_pivot[at(pattern_.row[at(e)])]) pivot_entries_.push_back(e);
+  }
   take(creep_entries_);
   take(felt_entries_);
   take(couplings_);
@@ -212,7 +272,7 @@ void Dae::take_entries(Drafts& drafts) {
     }
   }
   std::vector<char> with_mass(at(pattern_.entries()), 0);
-  for (const Constant& mass : masses_) with_mass[at(mass.entry)] = mass.value != 0;
+  for (const Constant& mass : masses_) with_mass[at(mass.entry)] = 1;
   const auto begin = [&](int column) { return with_mass.begin() + pattern_.column_start[at(column)]; };
   differentiated_.resize(at(size_));
   for (int i = 0; i < size_; ++i) {

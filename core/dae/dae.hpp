@@ -28,7 +28,8 @@ namespace rheonet {
 ///   x  position of a node that is requested and does not follow from deflections, or that a block senses or gives [m]
 ///   z  state of a block                                                                                 [its output]
 /// Equations, each in the row of the unknown that it stands for:
-///   v  balance of forces at the node:  sum f + m v' - applied = 0
+///   v  balance of forces at the node:  sum f + m v' - applied = 0;  of the pivot of a train: the equation between velocities, while the
+///      other nodes of the train share the balance of its pivot (Structure::Tied)
 ///   p  of a tree branch: balance of its group as a whole;  else the loop that the branch closes:
 ///      sum +-(p' + creep) + sum +-v = 0
 ///   f  v_a - v_b - rate(f) = 0
@@ -82,6 +83,7 @@ class Dae {
     std::vector<double> dp;            ///< p' of each deflection branch [m/s]
     std::vector<double> rate_velocity, rate_force;  ///< of each rate branch
     std::vector<double> slider_velocity, slider_force;  ///< of each slider; one that sticks may exceed its bound by round-off
+    std::vector<double> train_force;   ///< of each train [N]
     std::vector<double> position;      ///< of each known node, and of those marked as needed [m]
   };
   const View& view(double t, const double* y, const double* yp);
@@ -255,7 +257,9 @@ class Dae {
   void draft_balances(Drafts& drafts) const;
   void draft_rates(Drafts& drafts) const;
   void draft_rows(Drafts& drafts);
+  void share_balances_of_pivots(Drafts& drafts);
   void take_entries(Drafts& drafts);
+  void tie(double* values) const;
   template <class Visit>
   void for_each_mass(Visit visit) const;
   // residual.cpp
@@ -296,6 +300,11 @@ class Dae {
   Pattern pattern_;
   struct Constant { int entry; double value; };
   std::vector<Constant> constants_;        ///< of dF/dy
+  /// Entries of the balances of pivots, which other rows share; then they make way for the equations of the trains.
+  struct SharedEntry { int from, to; double factor; };
+  std::vector<SharedEntry> shared_entries_;
+  std::vector<int> pivot_entries_;         ///< in the rows of pivots
+  std::vector<Constant> tied_;             ///< the coefficients of these equations
   std::vector<Constant> masses_;           ///< of dF/dy', except for flow_entries_
   struct FlowEntry { int entry, branch; double sign; };
   /// An entry due to the present velocity that a delayed branch feels.

@@ -87,7 +87,11 @@ bool Dae::any_follows_time() const {
     const Branch& b = structure_->sliders[k];
     return b.a != b.b && (at_once(b.a) || at_once(b.b));
   };
-  return std::any_of(structure_->rates.begin(), structure_->rates.end(), pulled) ||
+  const auto turned = [&](const Structure::Tied& tied) {
+    return std::any_of(tied.terms.begin(), tied.terms.end(), [&](const Structure::Tied::Term& term) { return moves(term.node); });
+  };
+  return std::any_of(structure_->tied.begin(), structure_->tied.end(), turned) ||
+         std::any_of(structure_->rates.begin(), structure_->rates.end(), pulled) ||
          std::any_of(varying_.begin(), varying_.end(), rubbed) ||
          std::any_of(network_->forces.begin(), network_->forces.end(), pushed);
 }

@@ -102,6 +102,11 @@ class EventTransition {
   void add_deflection_laws(ModeSelection& selection, const State& state) const;
   void add_rate_laws(ModeSelection& selection, const State& state) const;
   void add_inerters(ModeSelection& selection) const;
+  /// `given`: what the changes of velocities at each train, times their factors, sum to [m/s].
+  void add_trains(ConvexNetwork& problem, const std::vector<double>& given) const;
+  /// Of each train: the sum of velocities times factors [m/s], which is 0 while it holds.
+  std::vector<double> slips_of_trains(const std::vector<double>& velocity) const;
+  double turn_trains(double t, State& state, std::vector<std::string>& notes);
   void add_sliders(ModeSelection& selection) const;
   static ConvexNetwork::Law released(ConvexNetwork::Law law, double slope, double creep);
   static ConvexNetwork::Law law_of(const RateBatch& batch, std::size_t i, double w0, double scale, double steepest);

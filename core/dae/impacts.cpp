@@ -35,10 +35,16 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, S
   for (std::size_t n = 0; started_ && n < jump.size(); ++n) {
     if (led_by_[n] >= 0) jump[n] = given_velocity(led_by_[n]) - state.velocity[n];
   }
+  const double turned = started_ ? 0 : turn_trains(t, state, notes);
   started_ = true;
   const bool pushed = std::any_of(momentum.begin(), momentum.end(), [](double p) { return p != 0; });
   const auto jolted = [&](const Network::Inerter& i) { return jump[at(i.branch.a)] != 0 || jump[at(i.branch.b)] != 0; };
-  if (!network_.inerters.empty() && (pushed || std::any_of(network_.inerters.begin(), network_.inerters.end(), jolted))) {
+  const auto jerked = [&](const Network::Train& train) {
+    return std::any_of(train.node.begin(), train.node.end(), [&](NodeId node) { return jump[at(node)] != 0; });
+  };
+  const bool coupled = !network_.inerters.empty() || !network_.trains.empty();
+  if (coupled && (pushed || std::any_of(network_.inerters.begin(), network_.inerters.end(), jolted) ||
+                  std::any_of(network_.trains.begin(), network_.trains.end(), jerked))) {
     share_impulses(t, jump, momentum, state);
   } else {
     for (std::size_t n = 0; pushed && n < momentum.size(); ++n) {
@@ -46,19 +52,51 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, S
     }
   }
   const std::vector<int> backwards = moving_backwards(state);
-  if (backwards.empty()) return 0;
+  if (backwards.empty()) return turned;
   const double before = kinetic_energy(state);
   const std::vector<double> none(structure_.kind.size(), 0);
   share_impulses(t, none, none, state);
   const double lost = std::max(0.0, before - kinetic_energy(state));
   // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
   const bool impact = lost > numerics::equal_energies * before;
-  if (!impact && t > 0) return lost;
+  if (!impact && t > 0) return turned + lost;
   std::vector<std::string> names;
   for (const int k : backwards) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
   notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
                               names.size() > 1 ? "their" : "its",
                               impact ? fmt::format(", which turns {:.6g} J into heat{}", lost, t > 0 ? "" : ", before the energy account begins") : ""));
+  return turned + lost;
+}
+
+std::vector<double> EventTransition::slips_of_trains(const std::vector<double>& velocity) const {
+  std::vector<double> result;
+  for (const Network::Train& train : network_.trains) {
+    double sum = 0;
+    for (std::size_t i = 0; i < train.node.size(); ++i) sum += train.factor[i] * velocity[at(train.node[i])];
+    result.push_back(sum);
+  }
+  return result;
+}
+
+/// At the start, nodes that trains join need not have velocities that fit. They go on with common momentum, and the energy that this
+/// takes is heat [J].
+double EventTransition::turn_trains(double t, State& state, std::vector<std::string>& notes) {
+  if (network_.trains.empty()) return 0;
+  for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
+    if (structure_.kind[n] == Kind::known) state.velocity[n] = given_velocity(static_cast<NodeId>(n));
+  }
+  const std::vector<double> slips = slips_of_trains(state.velocity);
+  if (std::all_of(slips.begin(), slips.end(), [](double slip) { return slip == 0; })) return 0;
+  const double before = kinetic_energy(state);
+  const std::vector<double> none(structure_.kind.size(), 0);
+  share_impulses(t, none, none, state);
+  const double lost = std::max(0.0, before - kinetic_energy(state));
+  if (lost <= numerics::equal_energies * before) return 0;
+  std::vector<std::string> names;
+  for (const Network::Train& train : network_.trains) names.push_back(network_.scene->elements[at(train.element)].name);
+  notes.push_back(fmt::format("{} transmission{} {} join{} masses that start with velocities that do not fit: they go on together, and lose {:.6g} J at "
+                              "once, before the energy account begins",
+                              at_time(*network_.scene, t), names.size() > 1 ? "s" : "", format_list(names), names.size() > 1 ? "" : "s", lost));
   return lost;
 }
 
@@ -79,6 +117,13 @@ void EventTransition::share_impulses(double t, const std::vector<double>& jump, 
     problem.set_inertia(slot(node), structure_.mass[n]);
     problem.load(slot(node), momentum[n]);
   }
+  std::vector<double> before = state.velocity;
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    if (structure_.kind[n] == Kind::known) before[n] = given_velocity(static_cast<NodeId>(n)) - jump[n];
+  }
+  std::vector<double> slips = slips_of_trains(before);
+  for (double& slip : slips) slip = -slip;
+  add_trains(problem, slips);
   for (const auto& [branch, inertance] : network_.inerters) {
     problem.add(slot(branch.a), slot(branch.b), {.backward = inertance, .forward = inertance, .of_change = true});
   }

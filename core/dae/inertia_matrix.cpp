@@ -1,6 +1,7 @@
 #include "core/dae/inertia_matrix.hpp"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Dense>
+#include <Eigen/SparseLU>
 
 #include <array>
 
@@ -9,12 +10,13 @@
 namespace rheonet {
 
 struct InertiaMatrix::Factors {
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> of;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> of;
+  Eigen::MatrixXd train_force;  ///< the forces of the trains, from those of the equations in Structure::tied
 };
 
 InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
     : network_(network), structure_(structure) {
-  if (network.inerters.empty()) return;
+  if (network.inerters.empty() && network.trains.empty()) return;
   row_.assign(structure.kind.size(), -1);
   std::vector<Eigen::Triplet<double>> entries;
   const auto row = [&](NodeId node) {
@@ -38,17 +40,51 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
     entries.emplace_back(i, j, -inertance);
     entries.emplace_back(j, i, -inertance);
   }
-  const auto size = static_cast<Eigen::Index>(nodes_.size());
+  for (const Structure::Tied& tied : structure.tied) {
+    row(tied.pivot);
+    for (const auto& [node, factor] : tied.terms) row(node);
+  }
+  for (std::size_t k = 0; k < structure.tied.size(); ++k) {
+    const int r = static_cast<int>(nodes_.size() + k);
+    const auto put = [&](NodeId node, double factor) {
+      const int i = row_[at(node)];
+      if (i < 0) return;
+      entries.emplace_back(r, i, factor);
+      entries.emplace_back(i, r, factor);
+    };
+    put(structure.tied[k].pivot, 1);
+    for (const auto& [node, factor] : structure.tied[k].terms) put(node, factor);
+  }
+  factors_ = std::make_unique<Factors>();
+  find_train_forces();
+  if (nodes_.empty()) return;
+  const auto size = static_cast<Eigen::Index>(nodes_.size() + structure.tied.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  factors_ = std::make_unique<Factors>();
   factors_->of.compute(matrix);
 }
 
 InertiaMatrix::~InertiaMatrix() = default;
 
-void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<double>& acceleration) const {
-  Eigen::VectorXd right(static_cast<Eigen::Index>(nodes_.size()));
+/// The equation of a train is the sum of those of the pivots in it, each times the factor of the pivot: so the force of each of these
+/// equations is the sum of the forces of the trains times these factors. Where equations were left out, the forces have least norm.
+void InertiaMatrix::find_train_forces() {
+  const std::vector<Structure::Tied>& tied = structure_.tied;
+  Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(tied.size()), static_cast<Eigen::Index>(network_.trains.size()));
+  for (std::size_t i = 0; i < tied.size(); ++i) {
+    for (std::size_t j = 0; j < network_.trains.size(); ++j) {
+      const Network::Train& train = network_.trains[j];
+      for (std::size_t k = 0; k < train.node.size(); ++k) {
+        if (structure_.rigid[at(train.node[k])] == tied[i].pivot) factors(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += train.factor[k];
+      }
+    }
+  }
+  if (factors.size() > 0) factors_->train_force = factors.completeOrthogonalDecomposition().pseudoInverse();
+}
+
+void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<double>& acceleration, std::vector<double>& train_force) const {
+  const std::vector<Structure::Tied>& tied = structure_.tied;
+  Eigen::VectorXd right(static_cast<Eigen::Index>(nodes_.size() + tied.size()));
   for (std::size_t i = 0; i < nodes_.size(); ++i) right[static_cast<Eigen::Index>(i)] = force[at(nodes_[i])];
   for (std::size_t k = 0; k < structure_.inerters.size(); ++k) {
     const Branch& b = structure_.inerters[k];
@@ -58,8 +94,17 @@ void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<dou
       }
     }
   }
+  for (std::size_t k = 0; k < tied.size(); ++k) {
+    double& given = right[static_cast<Eigen::Index>(nodes_.size() + k)] = 0;
+    for (const auto& [node, factor] : tied[k].terms) {
+      if (row_[at(node)] < 0) given -= factor * acceleration[at(node)];
+    }
+  }
   const Eigen::VectorXd solved = factors_->of.solve(right);
   for (std::size_t i = 0; i < nodes_.size(); ++i) acceleration[at(nodes_[i])] = solved[static_cast<Eigen::Index>(i)];
+  if (tied.empty()) return;
+  const Eigen::VectorXd forces = factors_->train_force * solved.tail(static_cast<Eigen::Index>(tied.size()));
+  for (std::size_t j = 0; j < train_force.size(); ++j) train_force[j] = forces[static_cast<Eigen::Index>(j)];
 }
 
 }  // namespace rheonet

@@ -12,6 +12,8 @@ namespace rheonet {
 ///     M_ii += b,   M_jj += b,   M_ij -= b,   M_ji -= b.
 /// Prescribed nodes have no rows and columns. M is positive definite, because each group of nodes that inerters join has a
 /// mass or a prescribed node (see Structure).
+///
+/// The equations of trains, C v = 0, add their forces C' f and hold for the accelerations too: [ M  C' ; C  0 ].
 class InertiaMatrix {
  public:
   /// Network and structure must outlive this.
@@ -19,11 +21,14 @@ class InertiaMatrix {
   ~InertiaMatrix();
 
   bool coupled() const { return !nodes_.empty(); }
-  /// Solves M a = force - (the inerters' forces due to the accelerations of prescribed nodes), for the coupled nodes alone.
-  /// `acceleration` holds those of prescribed nodes [m/s^2], `force` the sum of the forces that act on each node [N].
-  void accelerate(const std::vector<double>& force, std::vector<double>& acceleration) const;
+  /// Solves M a + C' f = force - (the inerters' forces due to the accelerations of prescribed nodes) with C a = 0, for the coupled
+  /// nodes alone. `acceleration` holds those of prescribed nodes [m/s^2], `force` the sum of the forces that act on each node [N];
+  /// `train_force` gets the force of each train [N].
+  void accelerate(const std::vector<double>& force, std::vector<double>& acceleration, std::vector<double>& train_force) const;
 
  private:
+  void find_train_forces();
+
   struct Factors;
   const Network& network_;
   const Structure& structure_;

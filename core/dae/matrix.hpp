@@ -20,11 +20,13 @@ class PatternBuilder {
     places_.push_back({row, column});
     return static_cast<int>(places_.size()) - 1;
   }
+  struct Place { int row, column; };
+  /// Of each ticket.
+  const std::vector<Place>& places() const { return places_; }
   /// The pattern, and for each ticket its entry in it: tickets for the same place get the same entry.
   Pattern build(int size, std::vector<int>& entry_of_ticket) const;
 
  private:
-  struct Place { int row, column; };
   std::vector<Place> places_;  ///< of each ticket
 };
 

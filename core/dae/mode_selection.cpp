@@ -93,6 +93,7 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
   add_deflection_laws(selection, state);
   add_rate_laws(selection, state);
   add_inerters(selection);
+  add_trains(selection.problem, std::vector<double>(network_.trains.size(), 0));
   add_sliders(selection);
   if (const ConvexNetwork::Outcome outcome = selection.problem.solve(); outcome != ConvexNetwork::Outcome::solved) {
     if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, selection.problem.runaways(), state);
@@ -234,6 +235,13 @@ void EventTransition::add_inerters(ModeSelection& selection) const {
   for (const Network::Inerter& inerter : network_.inerters) {
     const double slope = inerter.inertance / selection.h;
     selection.problem.add(slot(inerter.branch.a), slot(inerter.branch.b), {.backward = slope, .forward = slope, .of_change = true});
+  }
+}
+
+void EventTransition::add_trains(ConvexNetwork& problem, const std::vector<double>& given) const {
+  for (std::size_t k = 0; k < network_.trains.size(); ++k) {
+    const Network::Train& train = network_.trains[k];
+    problem.tie({slot(train.node[0]), slot(train.node[1]), slot(train.node[2])}, train.factor, given[k]);
   }
 }
 

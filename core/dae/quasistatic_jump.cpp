@@ -30,6 +30,18 @@ void EventTransition::position_steps(double t, std::vector<double>& dx, std::vec
                                       at_time(*network_.scene, t), network_.name_of(b),
                                       with_unit(*network_.scene, network_.element_of(b), dx[at(b.a)] - dx[at(b.b)], Quantity::position)));
   }
+  for (const Network::Train& train : network_.trains) {
+    double sum = 0, size = 0;
+    for (std::size_t i = 0; i < train.node.size(); ++i) {
+      sum += train.factor[i] * dx[at(train.node[i])];
+      size += std::abs(train.factor[i] * dx[at(train.node[i])]);
+    }
+    if (std::abs(sum) <= numerics::equal_given_values * size) continue;
+    throw SimulationError(network_.spot_of(train.element),
+                          fmt::format("{} a step in position turns transmission `{}` in no time, which takes a force beyond any bound; give the step a time "
+                                      "to rise in",
+                                      at_time(*network_.scene, t), network_.scene->elements[at(train.element)].name));
+  }
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double by = dx[at(b.a)] - dx[at(b.b)];

@@ -120,6 +120,15 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - inputs_->felt[at(row.delayed)];
   }
   for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - inputs_->blocks().rate(k);
+  for (const Structure::Tied& tied : structure_->tied) {
+    double& row = r[iv_[at(tied.pivot)]];
+    double sum = v_[at(tied.pivot)];
+    for (const auto& [node, factor] : tied.terms) {
+      sum += factor * v_[at(node)];
+      if (iv_[at(node)] >= 0) r[iv_[at(node)]] -= factor * row;
+    }
+    row = sum;
+  }
   for (const Follower& f : followers_) {
     if (f.active) r[f.row] = share(f, yp[ip_[at(f.branch)]], yp[ip_[at(f.leader)]]).difference;
   }
@@ -175,6 +184,11 @@ void Dae::magnitudes(double* r) const {
       r[row.row] += std::abs(velocities_[at(k)].sign * v_[at(velocities_[at(k)].index)]);
     }
   }
+  for (const Structure::Tied& tied : structure_->tied) {
+    double& row = r[iv_[at(tied.pivot)]];
+    row = std::abs(v_[at(tied.pivot)]);
+    for (const auto& [node, factor] : tied.terms) row += std::abs(factor * v_[at(node)]);
+  }
 }
 
 void Dae::jacobian(double t, double cj, const double* y, const double* yp, double* values) {
@@ -192,6 +206,7 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
   for (const FlowEntry& f : creep_entries_) values[f.entry] += f.sign * moving_[at(f.branch)] * dc_[at(f.branch)];
   for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * inputs_->felt_now[at(f.delayed)];
   block_jacobian(values);
+  tie(values);
   share_jacobian(cj, yp, values, false);
 }
 
@@ -270,6 +285,11 @@ void Dae::time_derivative(double* r) const {
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     add(network_->forces[k].a, -inputs_->force_rate[k]);
     add(network_->forces[k].b, inputs_->force_rate[k]);
+  }
+  for (const Structure::Tied& tied : structure_->tied) {
+    double& row = r[iv_[at(tied.pivot)]];
+    row = 0;
+    for (const auto& [node, factor] : tied.terms) row += factor * a_[at(node)];
   }
 }
 

@@ -32,6 +32,10 @@ void Dae::share_among_joined(double t) {
     left[at(b.a)] += inerter_force(k);
     left[at(b.b)] -= inerter_force(k);
   }
+  for (std::size_t k = 0; k < network_->trains.size(); ++k) {
+    const Network::Train& train = network_->trains[k];
+    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += train.factor[i] * view_.train_force[k];
+  }
   stick_forces_.solve(t, left, view_.slider_force);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
@@ -53,7 +57,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   }
   if (inertia_.coupled()) {
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
-    inertia_.accelerate(work_, view_.acceleration);
+    inertia_.accelerate(work_, view_.acceleration, view_.train_force);
   }
   if (!stick_forces_.empty()) {
     for (std::size_t n = 0; n < v_.size(); ++n) {
@@ -160,6 +164,12 @@ double Dae::reaction(NodeId node) const {
     const Branch& b = network_->inerters[k].branch;
     if (b.a == node) force += inerter_force(k);
     if (b.b == node) force -= inerter_force(k);
+  }
+  for (std::size_t k = 0; k < network_->trains.size(); ++k) {
+    const Network::Train& train = network_->trains[k];
+    for (std::size_t i = 0; i < train.node.size(); ++i) {
+      if (train.node[i] == node) force += train.factor[i] * view_.train_force[k];
+    }
   }
   return force;
 }

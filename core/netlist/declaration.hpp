@@ -111,6 +111,8 @@ struct Declaration {
   std::string rotational_type = {};  ///< an alias that puts its nodes in rotation (`inertia`, `torque`); "" if none
   Ports ports = Ports::between;
   std::vector<Domain> domains = {};  ///< of its two nodes, if the type determines them (`rack`); else both are in one domain
+  bool supported = false;  ///< of a transmission: `support` may name the node against which it turns, in place of ground
+  std::vector<std::string> three = {};  ///< of a transmission between three nodes: what they are in it; the second one is its support
   Inputs inputs = {};  ///< of a block
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)

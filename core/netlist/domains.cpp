@@ -29,11 +29,10 @@ class Spread {
  public:
   Spread(const Scene& scene, Context& context) : scene_(scene), context_(context), places_(scene.nodes.size()), around_(scene.nodes.size()) {
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-      const SceneElement& element = scene.elements[e];
-      if (element.a != ground && element.b != ground && passes(e)) {
-        around_[at_index(element.a)].push_back(static_cast<int>(e));
-        around_[at_index(element.b)].push_back(static_cast<int>(e));
-      }
+      if (!passes(e)) continue;
+      for_each_node(scene.elements[e], [&](NodeId node) {
+        if (node != ground) around_[at_index(node)].push_back(static_cast<int>(e));
+      });
     }
     for (std::size_t e = 0; e < scene.elements.size(); ++e) begin_at(static_cast<int>(e));
     for (std::size_t k = 0; k < reached_.size(); ++k) go_on(reached_[k]);
@@ -44,7 +43,7 @@ class Spread {
   Domain of(std::size_t e) const {
     const SceneElement& element = scene_.elements[e];
     if (!declaration(e).domains.empty()) return declaration(e).domains.front();
-    for (const NodeId node : {element.a, element.b}) {
+    for (const NodeId node : {element.a, element.b, element.support}) {
       if (node != ground && places_[at_index(node)].domain) return *places_[at_index(node)].domain;
     }
     return element.domain.value_or(context_.domain);
@@ -69,12 +68,14 @@ class Spread {
     if (own.empty() && !element.domain) return;
     give(element.a, own.empty() ? *element.domain : own[0], e, ground);
     if (!element.at) give(element.b, own.empty() ? *element.domain : own[1], e, ground);
+    give(element.support, own.empty() ? *element.domain : own[0], e, ground);
   }
 
   void go_on(NodeId node) {
     for (const int e : around_[at_index(node)]) {
-      const SceneElement& element = scene_.elements[at_index(e)];
-      give(element.a == node ? element.b : element.a, *places_[at_index(node)].domain, e, node);
+      for_each_node(scene_.elements[at_index(e)], [&](NodeId other) {
+        if (other != node) give(other, *places_[at_index(node)].domain, e, node);
+      });
     }
   }
 
@@ -151,6 +152,7 @@ void set_node_domains(Scene& scene, const Declarations& declarations) {
     const Domain first = domain_of(scene, element), second = declaration.domains.empty() ? first : declaration.domains[1];
     if (element.a != ground) scene.nodes[at_index(element.a)].domain = first;
     if (!element.at && element.b != ground) scene.nodes[at_index(element.b)].domain = second;
+    if (element.support != ground) scene.nodes[at_index(element.support)].domain = first;
   }
 }
 

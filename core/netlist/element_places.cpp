@@ -1,4 +1,5 @@
 // The nodes of an entry, and its repetition.
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,10 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
     return;
   }
   const std::string two = ports == 2 ? "two nodes" : std::to_string(ports) + " nodes";
-  const std::string between_hint = ports == 2 ? "between = [\"a\", \"ground\"]" : "one for each port of the model";
+  const std::vector<std::string>& three = context_.declarations[static_cast<std::size_t>(plan.declaration)]->three;
+  const std::string between_hint = plan.model && ports != 2 ? "one for each port of the model"
+                                   : ports == 3             ? "between = [\"" + three[0] + "\", \"" + three[1] + "\", \"" + three[2] + "\"]"
+                                                            : "between = [\"a\", \"ground\"]";
   if (at && !may_be_at) {
     diagnostics.error(at->spot, "`" + plan.name + "` is between " + two + ", not `at` one", between_hint);
     return;
@@ -60,11 +64,31 @@ void TemplateReader::read_place(ElementTemplate& plan, Scope* scope, std::size_t
     return;
   }
   for (const TomlValue& item : items) take(item);
+  // The support comes last.
+  if (!plan.model && plan.nodes.size() == 3) std::swap(plan.nodes[1], plan.nodes[2]);
   for (std::size_t i = 0; i < items.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (items[i].is_string() && items[j].is_string() && items[i].text == items[j].text)
         diagnostics.error(items[i].spot, "`between` names the node `" + items[i].text + "` twice",
                        "an element is between different nodes");
+}
+
+void TemplateReader::read_support(ElementTemplate& plan, Scope* scope, TableReader& reader) {
+  DiagnosticList& diagnostics = context_.diagnostics;
+  const TomlEntry* entry = reader.find("support");
+  if (!entry || !expect_string(entry->value, "`support`", diagnostics, "the node against which it turns: support = \"carrier\"")) return;
+  if (!scope) {
+    diagnostics.error(entry->spot, "a member of `series` or `parallel` has no `support`", "give it an entry of its own in [elements]");
+    return;
+  }
+  if (!expect_name(entry->value.text, entry->value.spot, "a node", diagnostics)) return;
+  const int support = scope->node(entry->value.text, entry->value.spot);
+  if (std::find(plan.nodes.begin(), plan.nodes.end(), support) != plan.nodes.end()) {
+    diagnostics.error(entry->value.spot, "`support` names the node `" + entry->value.text + "`, which `between` names too",
+                      "a transmission turns against a third node; without `support` that is ground");
+    return;
+  }
+  plan.nodes.push_back(support);
 }
 
 void TemplateReader::read_domain(ElementTemplate& plan, TableReader& reader) {
@@ -88,7 +112,7 @@ void TemplateReader::read_repeat(ElementTemplate& plan, TableReader& reader) {
   TableReader repeat_keys(entry->value, "`repeat`");
   Repeat repeat;
   const auto is_block = [&] { return context_.declarations[static_cast<std::size_t>(plan.declaration)]->ports == Declaration::Ports::block; };
-  const bool chainable = plan.kind == ElementTemplate::Kind::element    ? !plan.at && !is_block()
+  const bool chainable = plan.kind == ElementTemplate::Kind::element    ? !plan.at && !is_block() && plan.nodes.size() <= 2
                          : plan.kind == ElementTemplate::Kind::instance ? plan.model->ports.size() == 2
                                                              : true;
   repeat.series = chainable;

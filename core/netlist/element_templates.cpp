@@ -228,11 +228,15 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     diagnostics.error(type.value.spot,
                    article(type.value.text) + " stands at a node: it cannot be a member of `series` or `parallel`",
                    "give it an entry of its own in [elements], with `at`");
+  else if (!scope && !declaration.three.empty())
+    diagnostics.error(type.value.spot, article(type.value.text) + " joins three nodes: it cannot be a member of `series` or `parallel`",
+                   "give it an entry of its own in [elements]");
   if (block) {
     plan.at = true;
     plan.inputs = read_inputs(declaration, plan.name, plan.spot, reader, diagnostics);
   } else {
-    read_place(plan, scope, may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, reader);
+    read_place(plan, scope, !declaration.three.empty() ? 3 : may_be_at && !may_be_between ? 1 : 2, may_be_at, may_be_between, reader);
+    if (declaration.supported) read_support(plan, scope, reader);
     if (declaration.domains.empty()) {
       read_domain(plan, reader);
     } else if (const TomlEntry* domain = reader.find_quietly("domain")) {

@@ -46,7 +46,7 @@ struct ElementTemplate {
   std::string name;    ///< within its assembly; "" for an unnamed group, which adds no level
   Spot spot;           ///< of its name, or of its table
   const TomlValue* source = nullptr;
-  std::vector<int> nodes;  ///< `at`, `between`: indices into Scope::nodes, or Scope::ground. Empty within a group
+  std::vector<int> nodes;  ///< `at`, `between`, then `support`: indices into Scope::nodes, or Scope::ground. Empty within a group
   std::optional<Repeat> repeat;
 
   int declaration = 0;          ///< of an element
@@ -124,6 +124,7 @@ class TemplateReader {
   void read_instance(ElementTemplate& plan, Model& model, Scope* scope, TableReader& reader);
   void read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader);
   void read_place(ElementTemplate& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, TableReader& reader);
+  void read_support(ElementTemplate& plan, Scope* scope, TableReader& reader);
   void read_domain(ElementTemplate& plan, TableReader& reader);
   void read_repeat(ElementTemplate& plan, TableReader& reader);
   const Declaration* find_type(const std::string& type) const;

@@ -151,6 +151,7 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   element.declaration = plan.declaration;
   element.a = ends.empty() ? ground : ends[0];
   element.b = plan.at ? ground : ends[1];
+  if (ends.size() == 3) element.support = ends[2];
   element.at = plan.at;
   element.spot = plan.spot;
   // A source (motion or force) has the force that it applies; any other element has the force applied to it.

@@ -158,6 +158,10 @@ Expander::Terms Expander::take_port_forces(NodeId port, NodeId actual, std::size
   Terms terms;
   for (std::size_t i = first_element; i < scene_.elements.size(); ++i) {
     SceneElement& element = scene_.elements[i];
+    if (element.support == port) {
+      element.support = actual;
+      terms.push_back({static_cast<int>(i), 1, true});
+    }
     // A source (motion or force) has the force that it applies; any other element has the force applied to it.
     const double applied = context_.declarations[static_cast<std::size_t>(element.declaration)]->is_source() ? -1 : 1;
     if (element.a == port) {

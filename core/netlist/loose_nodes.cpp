@@ -42,8 +42,7 @@ std::vector<Diagnostic> loose_nodes(const Scene& scene) {
     meeting.only = &element;
   };
   for (const SceneElement& element : scene.elements) {
-    meet(element.a, element);
-    if (!element.at) meet(element.b, element);
+    for_each_node(element, [&](NodeId node) { meet(node, element); });
   }
   const auto loose = std::count_if(meetings.begin() + 1, meetings.end(), [](const Meeting& m) { return m.count == 1; });
   std::vector<Diagnostic> warnings;

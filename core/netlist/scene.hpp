@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,7 @@ struct SceneElement {
   int declaration = 0; ///< index into the declarations that the scene was read with
   NodeId a = ground;
   NodeId b = ground;   ///< ground for an element `at` one node
+  NodeId support = ground;  ///< of a transmission: the node against which it turns
   bool at = false;     ///< written with `at`
   Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent optional values
   std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
@@ -58,12 +60,26 @@ struct SceneElement {
   Spot spot;           ///< of its name
   std::optional<Domain> domain = {};  ///< that of its first node, if not that of the scene: see domain_of
   double scale = 1;    ///< its velocity is multiplied by this: core/network/transmission.hpp
+  /// Of a transmission that is an equation of its own: these factors times the velocities of a, b and support sum to 0. All 0 for
+  /// any other element: core/network/transmission.hpp
+  std::array<double, 3> row{};
+
+  bool has_row() const { return row[0] != 0; }
 };
+
+/// Calls visit(node) for each node of an element.
+template <class Visit>
+void for_each_node(const SceneElement& element, Visit visit) {
+  visit(element.a);
+  if (!element.at) visit(element.b);
+  if (element.support != ground) visit(element.support);
+}
 
 /// A composed element (series, parallel, repeat, an instance of a model with two ports). Its force is the signed sum of the
 /// forces of its elements that end at its first node.
 struct SceneAssembly {
-  struct Term { int element; double sign; };
+  /// With `at_support`, the force of a transmission at its support.
+  struct Term { int element; double sign; bool at_support = false; };
   std::string name;
   NodeId a = ground;
   NodeId b = ground;

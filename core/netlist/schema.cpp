@@ -137,6 +137,11 @@ Json ports_properties(Declaration::Ports ports) {
 Json element_schema(const Declaration& declaration) {
   Json properties{{"type", {{"enum", types_of(declaration)}}}};
   properties.update(ports_properties(declaration.ports));
+  if (declaration.supported) properties["support"] = text("the node against which it turns; without it, ground");
+  if (!declaration.three.empty()) {
+    const std::vector<std::string>& three = declaration.three;
+    properties["between"] = described(list_of(text("a node; `ground` never moves"), 3), "its nodes: " + three[0] + ", " + three[1] + " and " + three[2]);
+  }
   if (declaration.inputs.most > 0 && declaration.ports == Declaration::Ports::block)
     properties["in"] = inputs_schema(declaration.inputs);
   properties.update(common_properties());

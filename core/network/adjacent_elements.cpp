@@ -13,7 +13,9 @@ std::vector<std::string> elements_at(const Network& network, const std::vector<N
   };
   std::vector<std::string> names;
   for (const SceneElement& e : network.scene->elements) {
-    if (touches(e.a) || (!e.at && touches(e.b))) names.push_back(e.name);
+    bool there = false;
+    for_each_node(e, [&](NodeId node) { there = there || touches(node); });
+    if (there) names.push_back(e.name);
   }
   return names;
 }

@@ -27,6 +27,7 @@ enum class Role {
   slip,        ///< sticks under any force up to a bound, otherwise slips at a constant force. Ideal sliders
   mass,        ///< inertia of a node
   inerter,     ///< f = b w'
+  train,       ///< a transmission that is an equation between the velocities of up to three nodes: SceneElement::row
   motion,      ///< prescribes a node's motion
   force,       ///< applies a given force
   block,       ///< not part of the network: computes a signal from other signals
@@ -252,14 +253,16 @@ struct MotionExpression {
 struct Component {
   Declaration declaration = {};
   Role role = Role::deflection;
-  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic
+  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic, or of a transmission with a row
   std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
   std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
+  std::string with_row = {};             ///< the component that a transmission has instead if it is an equation of its own
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
   std::function<Box(std::span<const Dual>)> box = {};
-  /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second. See transmission.hpp.
+  /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
+  /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
   /// For Role::slip: a parameter that depends on the velocity; absent if none does.
   std::function<std::optional<MotionExpression>(std::span<const double>)> over_velocity = {};

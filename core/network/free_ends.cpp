@@ -62,7 +62,7 @@ class FreeEndSearch {
     return false;
   }
 
-  /// Nodes held otherwise than by elements that join nodes: by a mass, a motion, a force or a start value.
+  /// Nodes held otherwise than by elements that join nodes: by a mass, a motion, a force, a transmission or a start value.
   void find_held() {
     held_[ground] = 1;
     for (std::size_t n = 0; n < held_.size(); ++n) {
@@ -71,9 +71,8 @@ class FreeEndSearch {
     }
     for (std::size_t e = 0; e < laws_.size(); ++e) {
       const Role role = role_of(laws_[e]);
-      if (role != Role::mass && role != Role::motion && role != Role::force) continue;
-      held_[at(scene_.elements[e].a)] = 1;
-      if (!scene_.elements[e].at) held_[at(scene_.elements[e].b)] = 1;
+      if (role != Role::mass && role != Role::motion && role != Role::force && role != Role::train) continue;
+      for_each_node(scene_.elements[e], [this](NodeId node) { held_[at(node)] = 1; });
     }
   }
 

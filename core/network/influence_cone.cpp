@@ -74,8 +74,7 @@ class InfluenceSearch {
       const Quiet what = quiet(e);
       if (what.kind == Quiet::Kind::none) continue;
       if (!std::isfinite(what.value) || what.kind == Quiet::Kind::other || (!e.at && e.a == e.b)) {
-        begin_at(e.a);
-        if (!e.at) begin_at(e.b);
+        begin_at(e);
       } else if (what.kind == Quiet::Kind::mass) {
         mass_[at(e.a)] += what.value;
       } else {
@@ -89,8 +88,7 @@ class InfluenceSearch {
     if (node != ground) distance_[at(node)] = 0;
   }
   void begin_at(const SceneElement& e) {
-    begin_at(e.a);
-    if (!e.at) begin_at(e.b);
+    for_each_node(e, [this](NodeId node) { begin_at(node); });
   }
 
   void mark_what_begins() {

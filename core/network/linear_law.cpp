@@ -10,6 +10,7 @@ namespace rheonet {
 
 Reduced law_of(const Scene& scene, const SceneElement& element) {
   Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene, element));
+  if (element.has_row()) return {find_component(law.component->with_row), {}};
   if (law.component && element.characteristic && !law.component->with_characteristic.empty()) {
     law.component = find_component(law.component->with_characteristic);
     law.values.resize(law.component->declaration.parameters.size(), not_given);

@@ -204,6 +204,12 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       place_in(network.inerters);
       network.inerters.push_back({ends, law.values[0]});
       break;
+    case Role::train: {
+      const auto node = [&](NodeId n) { return network.node_of[static_cast<std::size_t>(n)]; };
+      place_in(network.trains);
+      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row});
+      break;
+    }
     case Role::motion:
       place_in(network.motions);
       network.motions.push_back({index, ends.a, element.signals.at(0).seen_from(scene.start), prescribes(element, Quantity::position),
@@ -242,11 +248,19 @@ void feed_sources(Network& network) {
   }
 }
 
-/// The acceleration of a node that a block moves is not known beforehand: an inerter there has no force to be computed.
+/// The acceleration of a node that a block moves is not known beforehand: an inerter or a train there has no force to be computed.
 void refuse_inerters_at_blocks(const Network& network) {
   for (const Network::Motion& motion : network.motions) {
     const std::vector<SceneFeed>& feeds = network.scene->feeds;
     const bool fed = std::any_of(feeds.begin(), feeds.end(), [&](const SceneFeed& feed) { return feed.element == motion.element; });
+    for (const Network::Train& train : network.trains) {
+      if (!fed || std::find(train.node.begin(), train.node.end(), motion.node) == train.node.end()) continue;
+      const std::string& name = network.scene->elements[static_cast<std::size_t>(train.element)].name;
+      throw SimulationError(network.spot_of(train.element),
+                            fmt::format("transmission `{}` joins node `{}`, which a block moves: its acceleration, and with it the force of the "
+                                        "transmission, is not known; put a stiff spring between",
+                                        name, network.node_name(motion.node)));
+    }
     for (const Network::Inerter& inerter : network.inerters) {
       if (!fed || (inerter.branch.a != motion.node && inerter.branch.b != motion.node)) continue;
       throw SimulationError(network.spot_of(inerter.branch.element),
@@ -289,6 +303,16 @@ void refuse_falling_friction(const Network& network) {
 
 }  // namespace
 
+/// A balance of forces at rest or in steady motion does not know of trains yet.
+void refuse_balanced_start_of_trains(const Network& network) {
+  if (network.trains.empty() || network.scene->start_from == Scene::StartFrom::given) return;
+  const int element = network.trains.front().element;
+  throw SimulationError(network.spot_of(element),
+                        fmt::format("with transmission `{}`, whose support moves or which is in a loop with other elements, a start from rest or in steady "
+                                    "motion is not available; start from given values, and give it time to settle",
+                                    network.scene->elements[static_cast<std::size_t>(element)].name));
+}
+
 Network build_network(const Scene& scene) {
   Network network;
   network.scene = &scene;
@@ -325,6 +349,7 @@ Network build_network(const Scene& scene) {
     const Branch ends{index, node_of(element.a), node_of(element.b)};
     name_node(ends.a);
     if (!element.at) name_node(ends.b);
+    if (element.support != ground) name_node(node_of(element.support));
     if (!network.places[e].paired && !hangs[e]) place_element(network, index, laws[e], ends, gathered);
   }
   batch_up(gathered.deflections, Role::deflection, network.deflections, network.deflection_laws, network.places,
@@ -335,6 +360,7 @@ Network build_network(const Scene& scene) {
   feed_sources(network);
   network.blocks = find_blocks(network);
   refuse_inerters_at_blocks(network);
+  refuse_balanced_start_of_trains(network);
   refuse_falling_friction(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;

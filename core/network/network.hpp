@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -36,6 +37,13 @@ struct Laws {
 struct Network {
   struct Mass { int element; NodeId node; double mass; };
   struct Inerter { Branch branch; double inertance; };
+  /// Sum of factors times velocities is 0; the force at each node is its factor times that of the train. The factor of ground counts
+  /// for nothing.
+  struct Train {
+    int element;
+    std::array<NodeId, 3> node;
+    std::array<double, 3> factor;
+  };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given. A given
   /// acceleration is integrated by such a block.
   struct Motion {
@@ -67,7 +75,7 @@ struct Network {
     int energy = -1;
     std::optional<MotionExpression> beside = {};  ///< of a force beside another law of its element: its block is made for it
   };
-  /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, motions or forces.
+  /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, trains, motions or forces.
   /// If `paired`, an index into `pairs` for either role.
   struct Place { Role role; int index; bool paired = false; };
 
@@ -79,6 +87,7 @@ struct Network {
   std::vector<Slider> sliders;
   std::vector<Mass> masses;
   std::vector<Inerter> inerters;
+  std::vector<Train> trains;  ///< transmissions that are no change of units: transmission.hpp
   std::vector<Motion> motions;
   std::vector<Force> forces;
   std::map<int, int> beside;  ///< of an element: index into `forces` of the force beside its law

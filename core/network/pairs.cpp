@@ -60,8 +60,7 @@ std::vector<Touch> touches(const Scene& scene, const std::vector<Reduced>& laws)
       }
       if (starts_displaced(scene, e)) t.start = {not_given};
     };
-    touch(element.a);
-    if (!element.at) touch(element.b);
+    for_each_node(element, touch);
   }
   return result;
 }

@@ -60,8 +60,7 @@ class Joiner {
   }
   void join_ends(int e) {
     const SceneElement& element = scene_.elements[at(e)];
-    join_node(e, element.a);
-    if (!element.at) join_node(e, element.b);
+    for_each_node(element, [&](NodeId node) { join_node(e, node); });
   }
   void join_inputs(const SceneBlock& block) {
     for (const SceneBlock::Input& input : block.inputs) {

@@ -44,8 +44,7 @@ class Merger {
     for (std::size_t e = 0; e < kind_.size(); ++e) {
       const SceneElement& element = scene_.elements[e];
       const auto touch = [&](NodeId node) { count[at(node)] = static_cast<char>(std::min(3, count[at(node)] + 1)); };
-      touch(element.a);
-      if (!element.at) touch(element.b);
+      for_each_node(element, touch);
       find_law(e);
       if (kind_[e] == 0) continue;
       const auto [low, high] = std::minmax(element.a, element.b);

@@ -11,6 +11,7 @@
 #include "core/network/forest.hpp"
 #include "core/network/reductions.hpp"
 #include "core/network/rigid_links.hpp"
+#include "core/network/trains.hpp"
 
 namespace rheonet {
 
@@ -195,6 +196,7 @@ Structure::Loop closed_loop(const Network& network, const Structure& structure, 
 Structure classify(const Network& network) {
   Structure s = blank_structure(network);
   assign_inertia(network, s);
+  assign_trains(network, s, true);
   assign_viscous_and_floating(network, s);
   return s;
 }
@@ -204,6 +206,7 @@ Structure analyse(const Network& network, const Modes& modes) {
   for (std::size_t k = 0; k < s.stuck.size(); ++k) s.stuck[k] = modes.slider[k] == Modes::stuck;
   join(network, modes, s);
   assign_inertia(network, s);
+  assign_trains(network, s, false);
   assign_viscous_and_floating(network, s);
   grow_forest(network, s);
 

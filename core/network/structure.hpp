@@ -9,7 +9,7 @@ namespace rheonet {
 /// The equation that determines the velocity of a node.
 enum class Kind : char {
   known,    ///< ground, or a prescribed motion
-  massive,  ///< its momentum: m dv/dt = sum of forces. It has a mass, or inerters lead to a mass or a known node
+  massive,  ///< its momentum: m dv/dt = sum of forces. It has a mass, inerters lead to a mass or a known node, or it is in a train
   viscous,  ///< massless, joined by dashpots to a known or massive node: its velocity follows from its force balance
   floating, ///< massless, joined to others by springs and laws with a memory alone: its balance contains no velocity
   joined    ///< moves with another node, joined to it by sticking sliders
@@ -56,11 +56,20 @@ struct Structure {
     std::vector<int> elements;  ///< of the scene: those that lead out of the groups
   };
 
+  /// An equation between velocities, v of `pivot` + sum of factors times velocities = 0. The balance of the pivot's forces is that of a
+  /// train; it gives factor times this balance to each of the other nodes, and its own row is this equation.
+  struct Tied {
+    struct Term { NodeId node; double factor; };
+    NodeId pivot;
+    std::vector<Term> terms;  ///< no pivot of any other
+  };
+
   std::vector<NodeId> rigid;     ///< of each node: the node to which it is joined, or itself
   std::vector<Branch> deflections, rates;  ///< the branches of the network, with joined ends replaced
   std::vector<Branch> sliders;             ///< the sliders, likewise
   std::vector<char> stuck;                 ///< of each slider
   std::vector<Branch> inerters;            ///< likewise
+  std::vector<Tied> tied;        ///< the independent equations of the trains, in reduced row echelon form
   std::vector<Tie> ties;         ///< their balances contain no unknown: callers must check them
   std::vector<Kind> kind;        ///< of each node
   std::vector<int> rank;         ///< of each node: its place in Network::node_order
@@ -69,7 +78,8 @@ struct Structure {
   std::vector<int> group;        ///< of each node: index into groups, -1
   std::vector<double> mass;      ///< of each node: its mass and that of nodes joined to it; its own mass if it is known
   std::vector<double> own_mass;  ///< of each node, without nodes joined to it
-  std::vector<double> inertia;   ///< of each node: `mass`, and the inertance of the inerters that end there
+  /// Of each node: `mass`, and the inertance of the inerters that end there; in a train, force over the acceleration that it causes.
+  std::vector<double> inertia;
   std::vector<Group> groups;     ///< sorted by depth: a parent comes before its children
   std::vector<int> closing;      ///< deflection branches that close a loop (`closed_loop`): not in the tree, and not between
                                  ///< known nodes unless the law creeps

@@ -23,10 +23,13 @@ const Component& component_of(const SceneElement& element) { return *components(
 
 bool is_transmission(const SceneElement& element) { return static_cast<bool>(component_of(element).ratio); }
 
-/// Velocity of the first node over that of the second.
+/// Velocity of the first node over that of the second, relative to the support.
 double ratio_of(const SceneElement& element) { return component_of(element).ratio(element.values); }
 
 bool joins_two_nodes(const SceneElement& element) { return !element.at && element.a != ground && element.b != ground; }
+
+/// Its support is at rest: it may be a change of units.
+bool is_two_port(const SceneElement& element) { return is_transmission(element) && element.support == ground; }
 
 /// The elements on a shortest path between two nodes, from the first node on, along elements that `may_pass`. Empty if none.
 template <class MayPass>
@@ -54,17 +57,20 @@ std::vector<int> path_between(const Scene& scene, NodeId from, NodeId to, MayPas
   return path;
 }
 
-/// Finds the scale of each node.
+/// Finds the scale of each node, and the transmissions that cannot be changes of units: those with a moving support, and those that
+/// close a loop with other elements.
 class Scales {
  public:
-  explicit Scales(const Scene& scene) : scene_(scene), regions_(scene.nodes.size()), scale_(scene.nodes.size(), 0), across_(scene.nodes.size()) {
+  explicit Scales(const Scene& scene)
+      : scene_(scene), regions_(scene.nodes.size()), scale_(scene.nodes.size(), 0), across_(scene.nodes.size()), row_(scene.elements.size(), 0) {
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
       const SceneElement& element = scene.elements[e];
       if (joins_two_nodes(element) && !is_transmission(element)) regions_.join(element.a, element.b);
     }
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
       const SceneElement& element = scene.elements[e];
-      if (!joins_two_nodes(element) || !is_transmission(element)) continue;
+      row_[e] = is_transmission(element) && element.support != ground;
+      if (!joins_two_nodes(element) || !is_two_port(element)) continue;
       across_[at(regions_.find(element.a))].push_back(static_cast<int>(e));
       across_[at(regions_.find(element.b))].push_back(static_cast<int>(e));
     }
@@ -75,6 +81,7 @@ class Scales {
   }
 
   double of(NodeId node) { return node == ground ? 1 : scale_[at(regions_.find(node))]; }
+  bool is_row(std::size_t e) const { return row_[e] != 0; }
 
  private:
   void spread(std::size_t first) {
@@ -91,36 +98,31 @@ class Scales {
           scale_[next] = wanted;
           reached.push_back(next);
         } else if (std::abs(scale_[b] - ratio * scale_[a]) > numerics::equal_given_values * std::abs(scale_[b])) {
-          refuse(e);
+          refuse_contradiction(e);
+          row_[at(e)] = 1;
         }
       }
     }
   }
 
-  /// Refuses a loop that this transmission closes.
-  [[noreturn]] void refuse(int e) const {
+  /// Refuses a loop of transmissions alone that this one closes.
+  void refuse_contradiction(int e) const {
     const SceneElement& closing = scene_.elements[at(e)];
-    const auto transmits = [&](int other) { return other != e && is_transmission(scene_.elements[at(other)]); };
-    const std::string& a = scene_.nodes[at(closing.a)].name;
-    const std::string& b = scene_.nodes[at(closing.b)].name;
-    if (const std::vector<int> loop = path_between(scene_, closing.a, closing.b, transmits); !loop.empty()) {
-      double ratio = 1;
-      NodeId node = closing.a;
-      for (const int other : loop) {
-        const SceneElement& element = scene_.elements[at(other)];
-        ratio *= element.a == node ? ratio_of(element) : 1 / ratio_of(element);
-        node = element.a == node ? element.b : element.a;
-      }
-      throw SimulationError(closing.spot,
-                            fmt::format("`{}` makes a loop with {}, and their ratios contradict each other: the velocity of `{}` is {:.10g} times that of "
-                                        "`{}` by `{}`, and {:.10g} times by the others, so that nothing could move; leave one of them out",
-                                        closing.name, names(loop), a, ratio_of(closing), b, closing.name, ratio));
+    const auto transmits = [&](int other) { return other != e && is_two_port(scene_.elements[at(other)]); };
+    const std::vector<int> loop = path_between(scene_, closing.a, closing.b, transmits);
+    if (loop.empty()) return;
+    double ratio = 1;
+    NodeId node = closing.a;
+    for (const int other : loop) {
+      const SceneElement& element = scene_.elements[at(other)];
+      ratio *= element.a == node ? ratio_of(element) : 1 / ratio_of(element);
+      node = element.a == node ? element.b : element.a;
     }
-    const std::vector<int> loop = path_between(scene_, closing.a, closing.b, [&](int other) { return other != e; });
     throw SimulationError(closing.spot,
-                          fmt::format("`{}` makes a loop with {}: other elements beside a transmission between the same nodes (a gear that shifts, a "
-                                      "clutch across a gear) are not available; only loops of transmissions with one common ratio are",
-                                      closing.name, names(loop)));
+                          fmt::format("`{}` makes a loop with {}, and their ratios contradict each other: the velocity of `{}` is {:.10g} times that of "
+                                      "`{}` by `{}`, and {:.10g} times by the others, so that nothing could move; leave one of them out",
+                                      closing.name, names(loop), scene_.nodes[at(closing.a)].name, ratio_of(closing),
+                                      scene_.nodes[at(closing.b)].name, closing.name, ratio));
   }
 
   std::string names(const std::vector<int>& elements) const {
@@ -133,6 +135,7 @@ class Scales {
   DisjointSets regions_;
   std::vector<double> scale_;              ///< of each region's representative; 0: not found yet
   std::vector<std::vector<int>> across_;   ///< of each region's representative: the transmissions at its nodes
+  std::vector<char> row_;                  ///< of each element: a transmission that is no change of units
 };
 
 double flow_index_of(const Declaration& declaration, const Parameter& parameter, const std::vector<double>& values) {
@@ -150,6 +153,9 @@ class Converter {
     Scales scales(whole_);
     result_.common_units = true;
     for (std::size_t n = 1; n < result_.nodes.size(); ++n) convert(result_.nodes[n], scales.of(static_cast<NodeId>(n)));
+    for (std::size_t e = 0; e < result_.elements.size(); ++e) {
+      if (scales.is_row(e)) give_row(result_.elements[e]);
+    }
     for (SceneElement& element : result_.elements) convert(element);
     for (SceneAssembly& assembly : result_.assemblies) {
       for (SceneAssembly::Term& term : assembly.force) term.sign *= force_of(term);
@@ -177,6 +183,13 @@ class Converter {
     node.scale = scale;
     node.position /= own_unit(Quantity::position, scale);
     node.velocity /= own_unit(Quantity::velocity, scale);
+  }
+
+  /// v_a - v_s = i (v_b - v_s) in common units.
+  void give_row(SceneElement& element) const {
+    const double i = ratio_of(element);
+    element.row = {1 / node(element.a).scale, -i / node(element.b).scale, (i - 1) / node(element.support).scale};
+    for (double& factor : element.row) factor *= node(element.a).scale;
   }
 
   void convert(SceneElement& element) const {
@@ -213,6 +226,7 @@ class Converter {
 
   /// The scale of a transmission at its first or its second end, one of which may be at ground.
   double scale_at(const SceneElement& transmission, bool first) const {
+    if (transmission.has_row()) return node(first ? transmission.a : transmission.b).scale;
     if (first && transmission.a == ground) return node(transmission.b).scale / ratio_of(transmission);
     if (!first && transmission.b == ground) return node(transmission.a).scale * ratio_of(transmission);
     return node(first ? transmission.a : transmission.b).scale;
@@ -222,6 +236,8 @@ class Converter {
   /// second node.
   double force_of(const SceneAssembly::Term& term) const {
     const SceneElement& element = result_.elements[at(term.element)];
+    if (term.at_support) return element.row[2] * own_unit(Quantity::force, node(element.support).scale);
+    if (element.has_row() && term.sign < 0) return -element.row[1] * own_unit(Quantity::force, node(element.b).scale);
     const bool at_second = static_cast<bool>(component_of(element).ratio) && term.sign < 0;
     return own_unit(Quantity::force, at_second ? scale_at(element, false) : element.scale);
   }

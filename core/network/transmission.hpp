@@ -14,6 +14,10 @@ namespace rheonet {
 /// throughout each region that elements other than transmissions join, and a transmission is a rigid link between two regions.
 /// Ground is at rest in any unit, and in no region.
 ///
+/// Two kinds of transmissions are no change of units: one with a moving support (a planetary gear), v_a - v_s = i (v_b - v_s), and one
+/// that closes a loop with other elements (a gear that shifts). Such a transmission is an equation of its own (SceneElement::row):
+/// row_a v_a + row_b v_b + row_s v_s = 0, with the forces row_a f, row_b f and row_s f at its nodes.
+///
 /// All laws are dimensionally homogeneous: an element in a region of scale s is the same element with other values, k/s^2 for
 /// a stiffness k. Where s is negative, a motion to the right appears as one to the left. There the two nodes of an element change
 /// places, and its scale is abs(s): laws that tell directions apart (a freewheel) stay what they are.
@@ -23,7 +27,7 @@ double own_unit(Quantity quantity, double scale, double flow_index = 1);
 
 /// The scene in common units; absent if it has no transmissions, or is in common units already. Its records have factors
 /// (Record::factor), by which they give the same values as those of `scene`. Throws SimulationError for a loop of transmissions
-/// whose ratios contradict each other, and for a loop with other elements.
+/// whose ratios contradict each other.
 std::optional<Scene> in_common_units(const Scene& scene);
 
 }  // namespace rheonet

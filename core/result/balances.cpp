@@ -30,7 +30,8 @@ std::vector<char> massless_nodes(const Scene& scene) {
   for (const SceneElement& element : scene.elements) {
     const Component* component = law_of(scene, element).component;
     if (component && (component->role == Role::mass || component->role == Role::motion)) massless[at(element.a)] = 0;
-    if (component && component->role == Role::inerter) massless[at(element.a)] = massless[at(element.b)] = 0;
+    if (!component || (component->role != Role::inerter && component->role != Role::train)) continue;
+    for_each_node(element, [&](NodeId node) { massless[at(node)] = 0; });
   }
   return massless;
 }
@@ -91,7 +92,7 @@ void Balances::find_nodes(const Scene& scene) {
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
     const SceneElement& element = scene.elements[e];
     const Component* component = law_of(scene, element).component;
-    if (!component || component->role == Role::block || component->role == Role::nothing) continue;
+    if (!component || component->role == Role::block || component->role == Role::nothing || component->role == Role::train) continue;
     // An applied force pushes its node; the force of any other element pulls its first end back.
     const double sign = component->role == Role::force ? -1 : 1;
     const auto meet = [&](NodeId id, double s) {

@@ -37,6 +37,8 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
     }
     case Role::inerter:
       return dae_->inerter_force(at(place.index));
+    case Role::train:
+      return view.train_force[at(place.index)];
     case Role::motion:
       return dae_->reaction(network.motions[at(place.index)].node);
     case Role::force:

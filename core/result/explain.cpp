@@ -224,9 +224,10 @@ class Explainer {
     const Structure& structure = dae.structure();
     for (const NodeId node : network_.node_order) {
       const bool massive = structure.kind[at(node)] == Kind::massive;
+      const bool pivot = std::any_of(structure.tied.begin(), structure.tied.end(), [&](const Structure::Tied& tied) { return tied.pivot == node; });
       add(dae.velocity_unknown(node),
           {.quantity = "velocity", .unit = unit(network_.node(node), Quantity::velocity),
-           .equation = massive ? "mass times acceleration is the sum of forces" : "the forces at the node balance", .of_nodes = true},
+           .equation = pivot ? "the velocities at its transmission fit together" : massive ? "mass times acceleration is the sum of forces" : "the forces at the node balance", .of_nodes = true},
           network_.node_name(node));
       add(dae.position_unknown(node),
           {.quantity = "position", .unit = unit(network_.node(node), Quantity::position), .equation = "its rate is the velocity", .of_nodes = true},

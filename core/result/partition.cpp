@@ -91,9 +91,9 @@ class Divider {
       for (std::size_t e = 0; e < scene_.elements.size(); ++e) {
         const int part = parts_.of_element[e];
         if (part < 0) continue;
-        for (const NodeId end : {scene_.elements[e].a, scene_.elements[e].at ? ground : scene_.elements[e].b}) {
+        for_each_node(scene_.elements[e], [&](NodeId end) {
           if (end != ground && parts_.of_node[at(end)] < 0) at_node_[at(end)].insert(part);
-        }
+        });
       }
     }
     return {at_node_[at(node)].begin(), at_node_[at(node)].end()};
@@ -229,6 +229,7 @@ class Divider {
       case Role::force:
       case Role::mass:
       case Role::inerter:
+      case Role::train:
       case Role::nothing:
         break;
     }

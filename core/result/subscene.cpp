@@ -102,6 +102,7 @@ class Taker {
     SceneElement& element = scene_.elements.emplace_back(whole_.elements[at(e)]);
     element.a = numbers_.node[at(element.a)];
     if (!element.at) element.b = numbers_.node[at(element.b)];
+    element.support = numbers_.node[at(element.support)];
   }
 
   int take_assembly(int k) {
@@ -224,8 +225,7 @@ class Cutter {
       const SceneElement& element = scene_.elements[e];
       jobs_of_element_[e].insert(job(parts.of_element[e]));
       if (role(e) == Role::block) continue;
-      jobs_of_node_[at(element.a)].insert(job(parts.of_element[e]));
-      if (!element.at) jobs_of_node_[at(element.b)].insert(job(parts.of_element[e]));
+      for_each_node(element, [&](NodeId node) { jobs_of_node_[at(node)].insert(job(parts.of_element[e])); });
     }
     for (const SceneBlock& block : scene_.blocks) {
       const int part = parts.of_element[at(block.element)];

@@ -184,18 +184,6 @@ J = {{ type = "inertia", at = "c", inertia = 3 }}
   CHECK(message.find("the velocity of `b` is 3 times that of `c` by `g2`, and 2.5 times by the others") != message.npos);
 }
 
-TEST_CASE("gears: other elements across a gear are refused") {
-  const std::string message = refusal(R"~(
-domain = "rotation"
-[elements]
-J = { type = "inertia", at = "a", inertia = 1 }
-g = { type = "gear", between = ["a", "b"], ratio = 2 }
-k = { type = "spring", between = ["a", "b"], stiffness = 1 }
-)~" + run_of(1));
-  CHECK(message.find("`g` makes a loop with `k`") != message.npos);
-  CHECK(message.find("are not available") != message.npos);
-}
-
 TEST_CASE("gears: energy, power and acceleration behind a gear") {
   const double J = 0.83, i = -3.3, k = 41.0, T = 2.2;
   RunTable rows = simulate(fmt::format(R"~(

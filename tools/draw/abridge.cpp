@@ -57,7 +57,7 @@ class Abridgement {
     if (block.kind == Block::Kind::omitted) return "...";
     if (block.kind == Block::Kind::element) {
       const SceneElement& element = scene_.elements[static_cast<std::size_t>(block.element)];
-      return std::to_string(element.declaration) + (element.a == block.left ? "" : "r");
+      return std::to_string(element.declaration) + (block.of_support ? "s" : element.a == block.left ? "" : "r");
     }
     std::string shape = block.kind == Block::Kind::parallel ? "(" : "[";
     for (std::size_t i = 0; i < block.parts.size(); ++i) {

@@ -236,6 +236,12 @@ std::string engineering(double value, const std::string& unit) {
   return sign + (factor == "1" ? "" : factor + "·") + "10" + superscript(power) + plain;
 }
 
+Caption support_caption(const Scene& scene, int element) {
+  const SceneElement& transmission = scene.elements[static_cast<std::size_t>(element)];
+  const Declaration& declaration = declaration_of(transmission);
+  return {transmission.name + " (" + (declaration.three.empty() ? "support" : declaration.three[1]) + ")", {}};
+}
+
 Caption caption_of(const Scene& scene, int index, bool with_values, const Typed& typed) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
   const Declaration& declaration = declaration_of(element);

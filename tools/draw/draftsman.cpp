@@ -81,13 +81,13 @@ Piece Draftsman::draw(const Block& block, double line) const {
 Piece Draftsman::element(const Block& block) const {
   const double size = detail_.symbol;
   Piece piece;
-  const Reach reach = reach_of(symbol_of(scene_, block.element));
+  const Reach reach = reach_of(block.of_support ? support_symbol() : symbol_of(scene_, block.element));
   piece.up = reach.up * size;
   piece.down = reach.down * size;
   double text = 0;
   std::vector<Label> labels;
   if (detail_.names) {
-    const Caption caption = caption_of(scene_, block.element, detail_.values, detail_.typed);
+    const Caption caption = block.of_support ? support_caption(scene_, block.element) : caption_of(scene_, block.element, detail_.values, detail_.typed);
     text = caption_around(caption, 0, piece.up, piece.down, labels) + 14;
     piece.up += line_height + name_gap;
     piece.down += line_height * static_cast<double>(caption.values.size()) + 2;
@@ -100,8 +100,9 @@ Piece Draftsman::element(const Block& block) const {
   }
   piece.ink.marks.push_back({.element = block.element,
                              .box = {left, -size / 2, right, size / 2},
-                             .mirrored = scene_.elements[static_cast<std::size_t>(block.element)].a != block.left,
-                             .ends = {{block.left, {left, 0}}, {block.right, {right, 0}}}});
+                             .mirrored = !block.of_support && scene_.elements[static_cast<std::size_t>(block.element)].a != block.left,
+                             .ends = {{block.left, {left, 0}}, {block.right, {right, 0}}},
+                             .of_support = block.of_support});
   piece.wire(block.left, {{0, 0}, {left, 0}});
   piece.wire(block.right, {{right, 0}, {piece.width, 0}});
   return piece;

@@ -54,14 +54,22 @@ class Reduction {
       if (element.a == ground && rows_at_ground_.empty()) rows_at_ground_.push_back(Block::of_node(ground));
       return;
     }
-    vertex(element.a).there = vertex(element.b).there = true;
-    const Block block = Block::of_element(index, element.a, element.b);
-    if (element.a == ground && element.b == ground) {
+    add_between(Block::of_element(index, element.a, element.b));
+    if (element.support == ground) return;
+    Block support = Block::of_element(index, element.b, element.support);
+    support.of_support = true;
+    add_between(support);
+  }
+
+  void add_between(const Block& block) {
+    const NodeId a = block.left, b = block.right;
+    vertex(a).there = vertex(b).there = true;
+    if (a == ground && b == ground) {
       rows_at_ground_.push_back(Block::in_row({ground, {}}, block, {ground, {}}, true, true));
-    } else if (element.a == ground || element.b == ground) {
-      add_grounded(element.a == ground ? element.b : element.a, block);
+    } else if (a == ground || b == ground) {
+      add_grounded(a == ground ? b : a, block);
     } else {
-      add_edge({element.a, element.b, block});
+      add_edge({a, b, block});
     }
   }
 

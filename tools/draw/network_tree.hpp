@@ -22,6 +22,7 @@ struct Block {
   Kind kind = Kind::element;
   NodeId left = ground, right = ground;
   int element = -1;
+  bool of_support = false;             ///< between the second node of a transmission and its support
   int times = 0;                       ///< of what is omitted: how often it is the same as what is beside it
   std::vector<Block> parts;            ///< in parallel from top to bottom, in a row from left to right
   std::vector<Station> stations;       ///< of a row: one before each part, and one behind the last

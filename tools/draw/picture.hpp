@@ -32,6 +32,7 @@ struct Mark {
   bool mirrored = false;  ///< left and right are exchanged
   std::vector<End> ends;  ///< none of a block
   double unit = 0;        ///< of a box that is stretched: see `fitted` [px]
+  bool of_support = false;  ///< of a transmission: its support alone
   bool framed = false;    ///< the box is drawn, and the symbol within, as wide as the box and without its outline
 };
 

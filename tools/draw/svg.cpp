@@ -50,7 +50,7 @@ Mark in_its_frame(const Mark& mark) {
 std::string symbol(const Mark& mark, const Scene& scene) {
   const SceneElement& element = scene.elements[static_cast<std::size_t>(mark.element)];
   const Component& component = *components()[static_cast<std::size_t>(element.declaration)];
-  const Symbol& drawn = symbol_of(scene, mark.element);
+  const Symbol drawn = mark.of_support ? support_symbol() : symbol_of(scene, mark.element);
   const Mark within = mark.framed ? in_its_frame(mark) : mark;
   return fmt::format("<g class=\"{}\" data-element=\"{}\"><title>{} ({})</title>", component.declaration.type,
                      escaped(element.name), escaped(element.name), component.declaration.type) +

@@ -72,6 +72,10 @@ Symbol symbol_of(const Scene& scene, int element) {
   return symbol;
 }
 
+Symbol support_symbol() {
+  return {.outline = "M.42 .5 A.08 .08 0 1 1 .58 .5 A.08 .08 0 1 1 .42 .5 Z", .lines = "M0 .5 H.42 M.58 .5 H1 M.4 .62 H.6", .solid = "M.47 .5 A.03 .03 0 1 1 .53 .5 A.03 .03 0 1 1 .47 .5 Z"};
+}
+
 Reach reach_of(const Symbol& symbol) {
   double top = 0.5, bottom = 0.5;
   for (const std::string* path : {&symbol.outline, &symbol.lines, &symbol.thin, &symbol.solid})

@@ -12,6 +12,9 @@ const Symbol& symbol_of(const Component& component, Domain domain);
 /// What is drawn of an element, with the shape of its signal where the component says how.
 Symbol symbol_of(const Scene& scene, int element);
 
+/// That of the support of a transmission, between its second node and its support: a bearing.
+Symbol support_symbol();
+
 /// How far a symbol reaches above and below the middle of its box of 1 x 1, by the points that its paths name.
 struct Reach {
   double up, down;

@@ -69,7 +69,8 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     return {element.name, declaration.type, inputs_of(*block, scene), fmt::format("{}", fmt::join(values, "  "))};
   }
   return {element.name, declaration.type,
-          element.at ? "at " + node(element.a) : node(element.a) + " - " + node(element.b),
+          (element.at ? "at " + node(element.a) : node(element.a) + " - " + node(element.b)) +
+              (element.support == ground ? "" : " against " + node(element.support)),
           fmt::format("{}", fmt::join(values, "  "))};
 }
 

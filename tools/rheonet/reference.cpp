@@ -98,8 +98,10 @@ Row row(const Parameter& p, const Declaration& declaration) {
   };
 }
 
-std::string ports(Declaration::Ports p) {
-  switch (p) {
+std::string ports(const Declaration& declaration) {
+  if (const auto& three = declaration.three; !three.empty()) return fmt::format("between = [{}, {}, {}]", three[0], three[1], three[2]);
+  if (declaration.supported) return "between = [a, b], and `support` = node (default ground)";
+  switch (declaration.ports) {
     case Declaration::Ports::between:
       return "between = [a, b]";
     case Declaration::Ports::at:
@@ -203,7 +205,7 @@ std::string as_text(const Component& component) {
     if (!value.empty()) text += fmt::format("  {:<8}{}\n", label, wrapped(value, 10));
   };
   const bool block = d.ports == Declaration::Ports::block;
-  line(block ? "inputs" : "ports", block ? inputs(d.inputs) : ports(d.ports));
+  line(block ? "inputs" : "ports", block ? inputs(d.inputs) : ports(d));
   line("law", d.law);
   line("TeX", d.equation);
 
@@ -244,7 +246,7 @@ std::string as_markdown(const std::vector<const Component*>& components) {
                         d.summary);
     const bool block = d.ports == Declaration::Ports::block;
     if (!d.equation.empty()) text += fmt::format("$${}$$\n\n", d.equation);
-    text += fmt::format("    {}\n\n* {}: `{}`\n", d.law, block ? "Inputs" : "Ports", block ? inputs(d.inputs) : ports(d.ports));
+    text += fmt::format("    {}\n\n* {}: `{}`\n", d.law, block ? "Inputs" : "Ports", block ? inputs(d.inputs) : ports(d));
     for (const Limit& limit : component->limits) text += fmt::format("* `{}`: {}.\n", limit.when, becomes(limit, d));
     if (!d.effects.empty()) text += fmt::format("* Effects: {}.\n", effects_of(d));
     for (const std::string& note : notes(d)) text += fmt::format("* {}\n", prose(note));

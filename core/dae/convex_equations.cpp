@@ -1,0 +1,101 @@
+// Equations between the nodes of a convex problem: those of trains.
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/numerics.hpp"
+#include "core/dae/convex.hpp"
+#include "core/nonsmooth/conductances.hpp"
+
+namespace rheonet {
+
+void ConvexNetwork::tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given) {
+  equations_.push_back({nodes, factors, given});
+  for (const int node : nodes) tied_[at(node)] = 1;
+}
+
+/// The factors of the columns in each equation, and what is left to be changed. An equation whose nodes sticking branches hold, or that
+/// follows from others, has no factors.
+std::vector<std::vector<double>> ConvexNetwork::equations_of_columns(Eigen::VectorXd& left) const {
+  std::vector<std::vector<double>> rows, reduced;
+  left = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(equations_.size()));
+  std::vector<std::size_t> pivots;
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
+    std::vector<double> row(at(columns_), 0);
+    double largest = 0, changed = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int node = equations_[e].node[i], column = column_[at(cluster_[at(node)])];
+      const double factor = equations_[e].factor[i];
+      largest = std::max(largest, std::abs(factor));
+      changed += factor * change(node);
+      if (column >= 0) row[at(column)] += factor;
+    }
+    std::vector<double> own = row;
+    for (std::size_t k = 0; k < reduced.size(); ++k) {
+      const double times = own[pivots[k]] / reduced[k][pivots[k]];
+      for (std::size_t c = 0; times != 0 && c < own.size(); ++c) own[c] -= times * reduced[k][c];
+    }
+    const auto pivot = std::max_element(own.begin(), own.end(), [](double x, double y) { return std::abs(x) < std::abs(y); });
+    if (pivot == own.end() || std::abs(*pivot) <= numerics::equal_given_values * largest) {
+      row.assign(row.size(), 0);
+    } else {
+      left[static_cast<Eigen::Index>(e)] = equations_[e].given - changed;
+      pivots.push_back(static_cast<std::size_t>(pivot - own.begin()));
+      reduced.push_back(std::move(own));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+/// Newton's step and the forces of the equations: [ slopes  C' ; C  0 ]. `step` holds minus the sums of forces, then the step.
+bool ConvexNetwork::step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step) {
+  Eigen::VectorXd left;
+  const std::vector<std::vector<double>> rows = equations_of_columns(left);
+  const Eigen::Index columns = step.size(), size = columns + left.size();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [a, b, value] : slopes) {
+    for (const int i : {a, b}) {
+      if (i >= 0) entries.emplace_back(i, i, value);
+    }
+    if (a < 0 || b < 0) continue;
+    entries.emplace_back(a, b, -value);
+    entries.emplace_back(b, a, -value);
+  }
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    const int row = static_cast<int>(columns + static_cast<Eigen::Index>(e));
+    bool any = false;
+    for (std::size_t c = 0; c < rows[e].size(); ++c) {
+      if (rows[e][c] == 0) continue;
+      any = true;
+      entries.emplace_back(row, static_cast<int>(c), rows[e][c]);
+      entries.emplace_back(static_cast<int>(c), row, rows[e][c]);
+    }
+    if (!any) entries.emplace_back(row, row, 1);
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
+  if (factors.info() != Eigen::Success) return false;
+  Eigen::VectorXd right(size);
+  right << step, left;
+  const Eigen::VectorXd solved = factors.solve(right);
+  step = solved.head(columns);
+  for (std::size_t e = 0; e < equations_.size(); ++e) equations_[e].force += solved[columns + static_cast<Eigen::Index>(e)];
+  return true;
+}
+
+/// Brings the start values to where the equations hold, by the least change that the inertias allow. From there on steps keep them.
+void ConvexNetwork::meet_equations() {
+  if (equations_.empty()) return;
+  Eigen::VectorXd left;
+  equations_of_columns(left);
+  if (left.isZero(0)) return;
+  std::vector<double> d;
+  if (!direction_of_descent(std::vector<double>(at(columns_), 0), d, false)) return;
+  for (std::size_t k = 0; k < u_.size(); ++k) u_[k] += d[k];
+  for (Branch& b : branches_) b.w = nodal_difference(b);
+  for (Equation& e : equations_) e.force = 0;
+}
+
+}  // namespace rheonet

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "core/network/structure.hpp"
+
+namespace rheonet {
+
+/// Writes the equations of the trains (Structure::tied), whose nodes become massive, and the inertia that is felt at each of them.
+/// Equations that follow from others are left out: in some modes sliders lock all nodes of a train. Where `all_slip`, no slider
+/// holds anything: throws SimulationError for a train that has no equation of its own, or whose nodes have too little inertia to
+/// determine their motion.
+void assign_trains(const Network& network, Structure& structure, bool all_slip);
+
+}  // namespace rheonet
