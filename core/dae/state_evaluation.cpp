@@ -36,7 +36,7 @@ void Dae::share_among_joined(double t) {
     const Network::Train& train = network_->trains[k];
     for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += train.factor[i] * view_.train_force[k];
   }
-  stick_forces_.solve(t, left, view_.slider_force);
+  stick_forces_.solve(t, left, view_.slider_force, view_.train_force);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     if (structure_->stuck[k]) add(network_->sliders[k].branch, view_.slider_force[k]);
   }

@@ -62,6 +62,7 @@ struct Structure {
     struct Term { NodeId node; double factor; };
     NodeId pivot;
     std::vector<Term> terms;  ///< no pivot of any other
+    int train;                ///< whose equation it was
   };
 
   std::vector<NodeId> rigid;     ///< of each node: the node to which it is joined, or itself

@@ -84,7 +84,7 @@ class Trains {
       std::erase_if(row, [](const auto& term) { return term.second == 0; });
       for (Row& other : rows) subtract(row, pivot, other);
       rows.push_back(std::move(row));
-      s_.tied.push_back({pivot, {}});
+      s_.tied.push_back({pivot, {}, static_cast<int>(&train - network_.trains.data())});
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (const auto& [node, factor] : rows[r]) {
