@@ -55,6 +55,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   for (const Network::Motion& m : network_->motions) {
     if (m.block >= 0) view_.acceleration[at(m.node)] = known_acceleration(m.node);
   }
+  std::fill(view_.train_force.begin(), view_.train_force.end(), 0.0);
   if (inertia_.coupled()) {
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
     inertia_.accelerate(work_, view_.acceleration, view_.train_force);
