@@ -212,6 +212,7 @@ Json signal_schema() {
                           "`end_frequency` within `duration`")},
       {"pulse",
        described(reference("value"), "height of a pulse of `width`, again at every period if there is a `frequency`")},
+      {"noise", described(reference("value"), "random values, uniformly distributed between minus and plus this, each held for an `interval`")},
   };
   std::vector<std::string> shapes;
   for (const auto& [shape, schema] : properties.items()) shapes.push_back(shape);
@@ -224,6 +225,8 @@ Json signal_schema() {
       {"end_frequency", "of a chirp [Hz]"},
       {"duration", "of the sweep of a chirp [s]"},
       {"width", "of a pulse [s]"},
+      {"interval", "of noise: the time for which each value holds [s]"},
+      {"seed", "of noise: a whole number; signals of one seed have the same values"},
       {"phase", "added to the angle [rad]"},
       {"offset", "added to the signal, also before its `time`"},
       {"time", "when it starts [s]; 0 if absent"},
@@ -233,7 +236,8 @@ Json signal_schema() {
   table.update(one_required(shapes));
   table["dependentRequired"] = {{"sine", {"frequency"}},   {"cosine", {"frequency"}},
                                 {"square", {"frequency"}}, {"triangle", {"frequency"}},
-                                {"pulse", {"width"}},      {"chirp", {"frequency", "end_frequency", "duration"}}};
+                                {"pulse", {"width"}},      {"chirp", {"frequency", "end_frequency", "duration"}},
+                                {"noise", {"interval", "seed"}}};
   Json block = object({{"block", text("the name of a block: its output is the signal, with - its negative")}});
   block["required"] = {"block"};
   return described({{"anyOf", {reference("value"), std::move(table), std::move(block)}}},

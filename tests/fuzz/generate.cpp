@@ -53,6 +53,10 @@ TomlValue signal(Random& random) {
     add("duration", value(random));
   }
   if (shape == "pulse") add("width", value(random));
+  if (shape == "noise") {
+    add("interval", value(random));
+    add("seed", random.below(1000));
+  }
   if (random.below(5) == 0) add("time", random.sign() * random.around(0.1, 10));
   if (random.below(5) == 0) add("offset", random.sign() * value(random));
   return table_value(std::move(entries));

@@ -137,6 +137,7 @@ struct Shape {
     return with("pulse ", s.height) + ", " + say(s.width, "s", typed) +
            (s.frequency > 0 ? ", " + say(s.frequency, "Hz", typed) : "") + beside(s.offset);
   }
+  std::string operator()(const Signal::Noise& s) const { return with("noise ±", s.amplitude) + ", " + say(s.interval, "s", typed) + beside(s.offset); }
   std::string operator()(const Signal::Table& s) const {
     return fmt::format("{}table, {} points", s.smooth ? "smooth " : "", s.times.size()) + beside(s.offset);
   }
