@@ -108,6 +108,12 @@ double BlockSignals::settle(int index, std::vector<char>& on_way) {
   if (block.generates) return out_[at(index)].value;
   if (std::exchange(on_way[at(index)], 1)) refuse_steady(index, "is in a loop of blocks");
   double u = 0;
+  if (block.steady) {
+    for (const Blocks::Input& in : *block.steady) u += in.sign * settle(in.index, on_way);
+    on_way[at(index)] = 0;
+    state[at(state_of(index))] = u;
+    return u;
+  }
   if (block.function) {
     FunctionBlock function(*block.function);
     function.begin(network_->scene->start);

@@ -91,6 +91,8 @@ struct SceneBlock {
   std::vector<Input> inputs;
   BlockUnit unit;
   std::shared_ptr<const SwitchedFunction> function = {};  ///< of the inputs, and of the time in the scene as last; nullptr: none
+  std::vector<std::vector<double>> coefficients = {};     ///< of its parameters of that kind: highest power first, SI
+  bool of_stop_when = false;  ///< stands in no file: made for `simulate.stop_when`
 };
 
 /// The signal of `element` for one of its parameters is the output of `block`, times `sign`.

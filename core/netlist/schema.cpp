@@ -55,6 +55,7 @@ std::vector<std::string> types_of(const Declaration& declaration) {
 std::string units_of(const Parameter& parameter) {
   if (parameter.kind == Parameter::Kind::expression) return "an expression over u1, u2, ... and t";
   if (parameter.kind == Parameter::Kind::table) return "points [input, output], or the name of a CSV file";
+  if (parameter.kind == Parameter::Kind::coefficients) return "any unit, times s for each power of the Laplace variable";
   if (parameter.unit == Parameter::Unit::own) return "any unit";
   if (parameter.unit == Parameter::Unit::input) return "the unit of the input";
   if (parameter.unit == Parameter::Unit::output) return "the unit of the output";
@@ -94,6 +95,7 @@ Json parameter_schema(const Parameter& parameter) {
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
   if (parameter.kind == Parameter::Kind::expression) return text(description);
   if (parameter.kind == Parameter::Kind::table) return table_schema(description);
+  if (parameter.kind == Parameter::Kind::coefficients) return described(list_of(reference("value"), 1), description);
   const bool characteristic = parameter.kind == Parameter::Kind::characteristic;
   Json schema = described(reference(characteristic ? "characteristic" : parameter.takes_signal() ? "signal" : "value"), description);
   if (characteristic) return schema;
@@ -151,7 +153,7 @@ Json element_schema(const Declaration& declaration) {
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
     if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
-    const bool optional = alternative || parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+    const bool optional = alternative || parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
                           !parameter.same_as.empty();
     if (!optional) requirements.push_back(one_required(names));
   }

@@ -230,9 +230,11 @@ class Connection {
     const Declaration::Inputs& inputs = declared.inputs;
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
     for (const OwnUnit& own : loose_.units) {
-      if (own.block != block || parameter(own).unit != Parameter::Unit::own) continue;
-      const bool open = unit.open || own.unit.open;
-      unit = unit_of(product(one_of(unit), one_of(own.unit)));
+      const Parameter::Unit kind = parameter(own).unit;
+      const bool divides = kind == Parameter::Unit::divides;
+      if (own.block != block || (kind != Parameter::Unit::own && !divides)) continue;
+      const bool open = unit.open || (own.unit.open && !divides);
+      unit = unit_of(product(one_of(unit), divides ? raised(one_of(own.unit), -1) : one_of(own.unit)));
       unit.open = open;
     }
     if (inputs.integrates) unit.dimension = unit.dimension * dimension_of(Quantity::time, context_.domain);

@@ -86,6 +86,11 @@ TomlValue parameter_value(const Parameter& parameter, const std::vector<std::str
       points.push_back(array_value({number_value(u), number_value(random.sign() * value(random))}));
     return array_value(std::move(points));
   }
+  if (parameter.kind == Parameter::Kind::coefficients) {
+    std::vector<TomlValue> coefficients;
+    for (int k = random.below(4); k >= 0; --k) coefficients.push_back(number_value(random.below(4) == 0 ? 0 : random.sign() * value(random)));
+    return array_value(std::move(coefficients));
+  }
   if (parameter.may_be_infinite && random.below(10) == 0) return string_value("inf");
   if (parameter.quantity == Quantity::number && random.below(2) == 0) return number_value(random.below(4));
   return number_value(value(random));

@@ -256,7 +256,12 @@ Caption caption_of(const Scene& scene, int index, bool with_values, const Typed&
                                say(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i]), typed)}});
   }
   for (const SceneBlock& block : scene.blocks) {
-    if (block.element == index && block.function) said.push_back({"", {shortened(block.function->text())}});
+    if (block.element != index) continue;
+    auto polynomial = block.coefficients.begin();
+    for (const Parameter& parameter : declaration.parameters) {
+      if (parameter.kind == Parameter::Kind::coefficients) said.push_back({parameter.symbol, {shortened(fmt::format("{:.4g}", fmt::join(*polynomial++, ", ")))}});
+    }
+    if (block.function) said.push_back({"", {shortened(block.function->text())}});
   }
   const bool several = said.size() > 1;
   for (auto& [symbol, lines] : said) {
