@@ -222,7 +222,7 @@ class Divider {
         break;
       case Role::block:
         nature.may_fail = true;
-        nature.switches = nature.switches || law.component->block(law.values).limits() || law.component->declaration.is_function();
+        nature.switches = nature.switches || law.component->block(law.values).limits() || law.component->block(law.values).period > 0 || law.component->declaration.is_function();
         nature.delays = nature.delays || law.component->block(law.values).delay > 0;
         break;
       case Role::motion:

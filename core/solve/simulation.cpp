@@ -114,7 +114,7 @@ class Run {
     std::vector<Inputs::Break> breaks;
     if (t >= inputs_.next_break()) {
       breaks = inputs_.breaks(t);
-      for (const Inputs::Break& b : breaks) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+      for (const Inputs::Break& b : breaks) observer_.event({t, b.element, b.what, b.direction});
     } else if (t >= settings_.stop) {
       return t;
     }
@@ -145,15 +145,22 @@ class Run {
     return stay_close({y, yp, ypp}, {y_, yp_, new_ypp}, ahead, tolerances_.values());
   }
 
+  /// One of several crossings of one time: how many came before, and the heat that they released [J].
+  struct Round {
+    std::size_t number;
+    double heat;
+  };
+
   /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds the new state, reports
   /// both.
-  void cross(double t, bool stepped, const EventTransition::Fired& fired) {
+  void cross(double t, bool stepped, const EventTransition::Fired& fired, const Round& round = {0, 0}) {
     if (stepped) {
       inputs_.enter(t, inputs_.blocks().jumps());
     } else {
       inputs_.mark(t);
     }
-    const EventTransition::Change change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    EventTransition::Change change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    change.heat += round.heat;
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
     const std::shared_ptr<System> before = system_;
     system_ = mode_cache_.of_modes();
@@ -173,6 +180,11 @@ class Run {
     inputs_.blocks().fire({});
     system_->consistency.derivative(t, y_, yp_);
     const Dae::View& view = dae.view(t, y_.data(), yp_.data());
+    // A sample of what has jumped at this time jumps with it. Each round settles at least one sample, as none depends on itself.
+    if (!inputs_.blocks().hold(round.number)) {
+      take_state(t);
+      return cross(t, true, {}, {round.number + 1, change.heat});
+    }
     inputs_.remember(t, view.velocity, view.acceleration);
     for (const std::string& note : check_ties(dae, t, [this] { tell_overload(); })) note_once(note);
     for (const Event& event : mode_changes_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
