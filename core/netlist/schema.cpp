@@ -362,6 +362,7 @@ Json simulate_schema() {
                           {"description", "start values as given; or at rest, or in steady motion, with all forces balanced"},
                           {"default", "given"}}},
                         {"stop", described(reference("value"), "[s]")},
+                        {"stop_when", text("a comparison over records and parameters, at whose event the run ends earlier: a.position > xmax")},
                         {"accuracy", described(reference("value"),
                                                "error allowed, relative to the largest magnitude of "
                                                "each recorded quantity; 1e-6 if absent")},

@@ -275,13 +275,14 @@ class Finder {
       return;
     }
     if (place.role == Role::nothing) return;
-    if (place.role != Role::deflection && place.role != Role::rate && place.role != Role::force)
+    if (place.role != Role::deflection && place.role != Role::rate && place.role != Role::force) {
+      const bool condition = std::any_of(scene_.blocks.begin(), scene_.blocks.end(), [&](const SceneBlock& b) { return b.element == block.element && b.of_stop_when; });
       throw SimulationError(
           scene_.elements[at(block.element)].spot,
-          fmt::format("block `{}` cannot take in `{}`: the force of `{}` is what all others at its node leave over; take "
-                      "in that of a spring or a dashpot beside it",
-                      scene_.elements[at(block.element)].name, scene_.sensed[at(record)].path,
-                      scene_.elements[at(element)].name));
+          fmt::format("{} `{}`: the force of `{}` is what all others at its node leave over; take in that of a spring or a dashpot beside it",
+                      condition ? "`stop_when` cannot depend on" : fmt::format("block `{}` cannot take in", scene_.elements[at(block.element)].name),
+                      scene_.sensed[at(record)].path, scene_.elements[at(element)].name));
+    }
     block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, element, -1, record}), sign});
   }
 

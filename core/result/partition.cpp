@@ -60,6 +60,7 @@ class Divider {
       if (std::exchange(idle[at(block)], 0)) needed.push_back(block);
     };
     for (const SceneFeed& feed : scene_.feeds) need(feed.block);
+    if (scene_.stop_when >= 0) need(scene_.stop_when);
     for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed}) {
       for (const Record& record : *records) {
         for_each_operand(scene_, record, [&](const Record& operand) {

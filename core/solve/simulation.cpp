@@ -52,7 +52,7 @@ class Run {
   SimulationStatistics go() {
     double t = 0;
     begin();
-    while (t < settings_.stop) {
+    while (t < settings_.stop && !ended_) {
       try {
         t = advance(t);
       } catch (const UndeterminedError&) {
@@ -66,7 +66,8 @@ class Run {
         throw;
       }
     }
-    observer_.end(settings_.stop);
+    if (ended_) statistics_.ended = t;
+    observer_.end(t);
     statistics_.integrator = mode_cache_.statistics();
     return std::move(statistics_);
   }
@@ -95,6 +96,7 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
+    if (ended_) refuse_condition();
     regularisation_.begin(inputs_, state_.velocity);
     if (const double steps = settings_.stop / inputs_.history().longest_step(); steps > numerics::many_steps) {
       statistics_.notes.push_back(fmt::format(
@@ -111,6 +113,7 @@ class Run {
   /// Integrates to the next discontinuity of an input, crosses it, and returns its time.
   double advance(double from) {
     const double t = stretch(from);
+    if (ended_) return t;
     std::vector<Inputs::Break> breaks;
     if (t >= inputs_.next_break()) {
       breaks = inputs_.breaks(t);
@@ -191,6 +194,14 @@ class Run {
       if (t > 0) tell(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
+    const int condition = network_.scene->stop_when;
+    ended_ = condition >= 0 && inputs_.blocks().out(condition).value != 0;
+  }
+
+  [[noreturn]] void refuse_condition() const {
+    const Blocks::Block& block = network_.blocks.blocks[at(network_.scene->stop_when)];
+    throw SimulationError(network_.spot_of(block.element), fmt::format("the condition of `stop_when`, `{}`, holds at the start: the run would end before it begins; `stop_when` "
+                                                                       "is what is to happen later", block.function->text()));
   }
 
   void note_once(const std::string& note) {
@@ -295,6 +306,7 @@ class Run {
       }
       switch_memories(t);
       if (settings_.profile) settings_.profile->blame(fired_);
+      if (ended_) return t;
       if (gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
@@ -420,6 +432,7 @@ class Run {
   ModeChangeLog mode_changes_;
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
+  bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
   long steps_ = 0;       ///< in the last interval
   bool smooth_ = false;  ///< the last discontinuity was negligible

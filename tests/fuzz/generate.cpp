@@ -174,6 +174,9 @@ TomlValue generated_scene(Random& random) {
     block ? blocks.push_back(name) : paths.push_back(name + ".force");
   }
   Entries simulate{{"stop", number_value(random.below(8) == 0 ? odd_number(random) : random.around(1, 30))}};
+  if (random.below(8) == 0 && !paths.empty())
+    simulate.emplace_back("stop_when", string_value(fmt::format("{} > {:g}", paths[static_cast<std::size_t>(random.below(static_cast<int>(paths.size())))],
+                                                                random.sign() * random.around(0.1, 10))));
   if (random.below(2) == 0) simulate.emplace_back("accuracy", number_value(std::pow(10, -1 - random.below(10))));
   if (random.below(4) == 0) simulate.emplace_back("start", number_value(random.below(2) == 0 ? odd_number(random) : random.uniform(-2, 2)));
   if (random.below(4) == 0) simulate.emplace_back("start_from", string_value(random.below(2) == 0 ? "rest" : "steady"));
