@@ -19,6 +19,7 @@ struct Trace {
   std::string operator()(const Signal::Pulse& s) const {
     return s.frequency > 0 ? "M.14 .68 H.2 V.32 H.34 V.68 H.56 V.32 H.7 V.68 H.86" : "M.14 .68 H.38 V.32 H.6 V.68 H.86";
   }
+  std::string operator()(const Signal::Noise&) const { return "M.14 .5 H.2 V.34 H.28 V.62 H.36 V.42 H.44 V.7 H.52 V.28 H.6 V.56 H.68 V.38 H.76 V.66 H.86"; }
   std::string operator()(const Signal::Table&) const { return "M.14 .66 L.28 .38 L.44 .52 L.62 .3 L.74 .36 L.86 .6"; }
 };
 

@@ -55,7 +55,8 @@ void BlockSignals::refuse_loops(const Network& network, const Structure& classif
     for (std::size_t k = 0; motion.block >= 0 && k < sensed.size(); ++k) {
       const Blocks::Sensor& sensor = blocks_->sensors[k];
       if (!depends(motion.block, state.size() + k)) continue;
-      if (sensor.what == What::position && !loose(network, sensor, classified, firm)) continue;
+      const bool follows = follows_[at(motion.block) * atoms() + state.size() + k] != 0 && sensor.what != What::position;
+      if (!follows && !loose(network, sensor, classified, firm)) continue;
       throw SimulationError(network.spot_of(motion.element),
                             fmt::format("the velocity of `{}` follows at the same instant from `{}`, of which it is not known how fast "
                                         "it changes, so that no acceleration would be known; put a `lag` between them",
@@ -108,6 +109,12 @@ double BlockSignals::settle(int index, std::vector<char>& on_way) {
   if (block.generates) return out_[at(index)].value;
   if (std::exchange(on_way[at(index)], 1)) refuse_steady(index, "is in a loop of blocks");
   double u = 0;
+  if (block.steady) {
+    for (const Blocks::Input& in : *block.steady) u += in.sign * settle(in.index, on_way);
+    on_way[at(index)] = 0;
+    state[at(state_of(index))] = u;
+    return u;
+  }
   if (block.function) {
     FunctionBlock function(*block.function);
     function.begin(network_->scene->start);
@@ -119,6 +126,7 @@ double BlockSignals::settle(int index, std::vector<char>& on_way) {
   }
   on_way[at(index)] = 0;
   if (block.law.delay > 0) return u;
+  if (block.law.period > 0) return quantised(block.law, u);
   if (!block.law.state) return limited(block, block.law.gain * u).value;
   Dual& z = state[at(state_of(index))];
   if (block.law.leak > 0) z = block.law.gain / block.law.leak * u;

@@ -40,7 +40,7 @@ double BlockSignals::find_reach(int index) const {
   const Blocks::Block& block = blocks_->blocks[at(index)];
   double reach = 0;
   for (const Blocks::Input& in : block.inputs) {
-    if (in.from_block && !block.law.state) reach = std::max(reach, find_reach(in.index));
+    if (in.from_block && !block.law.state && block.law.period == 0) reach = std::max(reach, find_reach(in.index));
   }
   return reach + block.law.delay;
 }
@@ -52,7 +52,7 @@ void BlockSignals::take_in(const Blocks::Block& block, std::vector<char>& seen, 
       if (blocks_->sensors[at(in.index)].motion < 0) atoms_of[state.size() + at(in.index)] = 1;
     } else if (state_of(in.index) >= 0) {
       atoms_of[at(state_of(in.index))] = 1;
-    } else if (!std::exchange(seen[at(in.index)], 1)) {
+    } else if (sampler_of_[at(in.index)] < 0 && !std::exchange(seen[at(in.index)], 1)) {
       take_in(blocks_->blocks[at(in.index)], seen, atoms_of);
     }
   }
@@ -60,6 +60,7 @@ void BlockSignals::take_in(const Blocks::Block& block, std::vector<char>& seen, 
 
 bool BlockSignals::of_time_alone(int index) const {
   const Blocks::Block& block = blocks_->blocks[at(index)];
+  if (block.law.period > 0) return true;  // until the next sample
   return !block.law.state && std::all_of(block.inputs.begin(), block.inputs.end(), [&](const Blocks::Input& in) {
     return in.from_block ? of_time_alone(in.index) : blocks_->sensors[at(in.index)].motion >= 0;
   });
@@ -144,6 +145,11 @@ Dual BlockSignals::earlier(int index, double t, Look& look) const {
     const double then = t - block.law.delay;
     if (then + look.aside >= 0) return earlier_input(block, then, look);
     return before_run_.empty() ? block.law.initial : before_run_[at(index)];
+  }
+  if (sampler_of_[at(index)] >= 0) {
+    const Sampler& sampler = samplers_[at(sampler_of_[at(index)])];
+    const auto later = std::upper_bound(sampler.taken.begin(), sampler.taken.end(), t + look.aside, [](double x, const Taken& s) { return x < s.t; });
+    return later == sampler.taken.begin() ? sampler.value : std::prev(later)->value;
   }
   if (block.function) return earlier_function(block, t, look);
   return limited(block, Dual(block.law.gain) * earlier_input(block, t, look));

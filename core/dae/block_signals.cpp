@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
 
 namespace rheonet {
@@ -25,6 +26,13 @@ BlockSignals::BlockSignals(const Network& network, const Structure& classified)
       state_blocks_.push_back(block);
     }
     if (law.delay > 0) delays_.push_back(law.delay);
+    sampler_of_.push_back(law.period > 0 ? static_cast<int>(samplers_.size()) : -1);
+    if (law.period > 0) {
+      const double start = network.scene->start;
+      double number = std::floor(start / law.period);
+      if (beat(0, number + 1, law.period).t <= start) ++number;  // the quotient was rounded
+      samplers_.push_back({.block = block, .number = number, .next = 0.0, .taken = {}});
+    }
     function_of_.push_back(-1);
     if (const SwitchedFunction* expression = blocks_->blocks[k].function.get()) {
       function_of_.back() = static_cast<int>(functions_.size());
@@ -63,6 +71,8 @@ void BlockSignals::find_dependence() {
   delay_slope_.assign(out_.size() * atoms(), 0);
   // By magnitudes of gains: in `x - limiter(x)` everything cancels until the limiter limits.
   find_slopes(true, delay_slope_, slope_, rate_slope_);
+  follows_ = nonzero(slope_);
+  find_slopes(true, delay_slope_, slope_, rate_slope_, true);
   depends_ = nonzero(slope_);
   std::vector<double> any = delay_slope_;
   for (const Pair& pair : pairs_) any[pair.delay * atoms() + pair.atom] = 1;
@@ -84,7 +94,48 @@ TimePoint BlockSignals::enter(TimePoint now) {
     stretches.push_back({t, block.signal.piece(t), false, 0});
     next = std::min(next, exact_end(block.signal, t));
   }
+  for (Sampler& sampler : samplers_) {
+    if (t >= sampler.next.t) {
+      sampler.taking = true;
+      sampler.next = beat(-network_->scene->start, ++sampler.number, blocks_->blocks[at(sampler.block)].law.period);
+      if (sampler.next.t <= t) sampler.next = std::nextafter(t, std::numeric_limits<double>::infinity());
+    }
+    next = std::min(next, sampler.next);
+  }
   return next;
+}
+
+std::vector<int> BlockSignals::due(double t) const {
+  std::vector<int> result;
+  for (const Sampler& sampler : samplers_) {
+    if (t >= sampler.next.t) result.push_back(sampler.block);
+  }
+  return result;
+}
+
+double BlockSignals::quantised(const BlockLaw& law, double u) {
+  return law.quantum > 0 && std::isfinite(u / law.quantum) ? law.quantum * std::round(u / law.quantum) : u;
+}
+
+void BlockSignals::take_samples() {
+  for (Sampler& sampler : samplers_) {
+    if (sampler.taking) sampler.value = sampled(blocks_->blocks[at(sampler.block)]);
+  }
+}
+
+bool BlockSignals::hold(std::size_t round) {
+  const auto jumps = [&](const Sampler& sampler) {
+    const double now = sampled(blocks_->blocks[at(sampler.block)]);
+    return sampler.taking && std::abs(now - sampler.value) > numerics::function_jump * std::max({std::abs(now), std::abs(sampler.value), sampler.largest});
+  };
+  if (round < samplers_.size() && std::any_of(samplers_.begin(), samplers_.end(), jumps)) return false;
+  for (Sampler& sampler : samplers_) {
+    if (!std::exchange(sampler.taking, false)) continue;
+    while (sampler.taken.size() > 1 && sampler.taken[1].t < now_ - reach_) sampler.taken.pop_front();
+    sampler.taken.push_back({now_, sampler.value});
+    sampler.largest = std::max(sampler.largest, std::abs(sampler.value));
+  }
+  return true;
 }
 
 void BlockSignals::follow(int motion, double t, const Piece& piece, bool by_position, double position) {
@@ -178,6 +229,11 @@ void BlockSignals::run(bool sides) {
       out_[k] = of_function(index, sides);
       continue;
     }
+    if (sampler_of_[k] >= 0) {
+      const Sampler& sampler = samplers_[at(sampler_of_[k])];
+      out_[k] = sampler.taking && !sides ? sampled(block) : sampler.value;
+      continue;
+    }
     const Dual u = input(block), v(block.law.gain * u.value, block.law.gain * u.derivative);
     before_limits_[k] = v;
     out_[k] = !sides ? limited(block, v) : side_[k] > 0 ? Dual(block.law.upper) : side_[k] < 0 ? Dual(block.law.lower) : v;
@@ -191,7 +247,7 @@ double BlockSignals::rate(std::size_t k) const {
 
 /// Derivatives, given the derivatives of the outputs of delays. With `magnitudes` of the gains nothing cancels.
 void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_delays, std::vector<double>& slope,
-                               std::vector<double>& rate_slope) const {
+                               std::vector<double>& rate_slope, bool sampling) const {
   const std::size_t n = atoms();
   slope.assign(out_.size() * n, 0);
   rate_slope.assign(state.size() * n, 0);
@@ -216,7 +272,7 @@ void BlockSignals::find_slopes(bool magnitudes, const std::vector<double>& of_de
       row[at(state_of(index))] = 1;
     } else if (block.law.delay > 0) {
       std::copy_n(of_delays.begin() + index * static_cast<std::ptrdiff_t>(n), n, row);
-    } else if (!block.generates && side_[at(index)] == 0) {
+    } else if (!block.generates && side_[at(index)] == 0 && (block.law.period == 0 || sampling)) {
       add_inputs(block, row, function(index));
     }
   }

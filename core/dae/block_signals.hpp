@@ -40,7 +40,8 @@ class BlockSignals {
   double longest_step() const { return longest_step_; }
 
   // --- Functions of time.
-  /// Generators switch to the pieces of their signals that begin at t. Returns the end of the piece that ends first [s].
+  /// Generators switch to the pieces of their signals that begin at t, and samples that are due at t begin. Returns the end of the piece
+  /// that ends first, or the time of the next sample [s].
   TimePoint enter(TimePoint t);
   /// From t on a prescribed motion follows `piece`: its position or its velocity. `position` is where it is at t [m].
   void follow(int motion, double t, const Piece& piece, bool by_position, double position);
@@ -83,7 +84,7 @@ class BlockSignals {
   }
   /// Recomputes them if the derivatives of delayed outputs by the present atoms have changed.
   void update_slopes(const DelayHistory& history);
-  /// Whether an output can depend on an atom at the same time.
+  /// Whether an output can depend on an atom at the same time, if only when a sample is taken.
   bool depends(int block, std::size_t atom) const { return depends_[at(block) * atoms() + atom] != 0; }
   /// The same for an output, or for the rate of a state, through delays shorter than a step as well.
   bool couples(int block, std::size_t atom) const { return couples_[at(block) * atoms() + atom] != 0; }
@@ -119,6 +120,14 @@ class BlockSignals {
   /// Throws SimulationError if a function had no finite value or slope at its last evaluation, at `since` [s] or later.
   void refuse_undefined(double since = 0) const;
 
+  // --- Blocks that sample.
+  std::vector<int> due(double t) const;  ///< blocks with a sample at t
+  /// Samples that are due since `enter` take their input as it is now, which may jump at the same time: until `hold` they can be taken again.
+  void take_samples();
+  /// Ends that. Returns false, and ends nothing, if an input has jumped by more than round-off since its sample was taken. `round`: how many
+  /// calls at this time came before; once there were as many as samplers, it holds in any case.
+  bool hold(std::size_t round);
+
   /// Sets the states to their equilibrium under the present outputs of the generators. Throws SimulationError if there is none,
   /// or if it depends on how the network moves.
   void settle();
@@ -134,13 +143,15 @@ class BlockSignals {
   void take_in(const Blocks::Block& block, std::vector<char>& seen, std::vector<char>& atoms_of) const;
   bool of_time_alone(int block) const;
   void find_slopes(bool magnitudes, const std::vector<double>& of_delays, std::vector<double>& slope,
-                   std::vector<double>& rate_slope) const;
+                   std::vector<double>& rate_slope, bool sampling = false) const;
   void refresh_slopes() const {
     if (stale_) find_slopes(false, delay_slope_, slope_, rate_slope_);
     stale_ = false;
   }
   Dual source(const Blocks::Input& in) const { return in.from_block ? out_[at(in.index)] : sensed[at(in.index)]; }
   Dual of_function(int block, bool held);
+  static double quantised(const BlockLaw& law, double u);
+  double sampled(const Blocks::Block& block) const { return quantised(block.law, input(block).value); }  ///< a sample of the present input
   void find_dependence();
   bool feeds_motion(int block) const;
   void find_longest_step(const Network& network, const Structure& classified);
@@ -183,6 +194,18 @@ class BlockSignals {
   struct Fired { int block; signed char side; };
   std::vector<Fired> fired_;
   bool jumps_ = false;
+  struct Taken { double t, value; };
+  struct Sampler {
+    int block;
+    double number;            ///< whole: the last sample was at this multiple of the period, or the first one after that
+    TimePoint next;           ///< time of the next sample; at first the start
+    bool taking = false;      ///< a sample is due, and still follows the input
+    double value = 0;         ///< of the last sample
+    double largest = 0;       ///< magnitude of the samples so far
+    std::deque<Taken> taken;  ///< samples, as far back as reach_
+  };
+  std::vector<int> sampler_of_;           ///< of each block: index into samplers_, or -1
+  std::vector<Sampler> samplers_;
   std::vector<int> function_of_;          ///< of each block: index into functions_, or -1
   std::vector<FunctionBlock> functions_;
   int undefined_ = -1;                    ///< block without a finite value
@@ -191,6 +214,7 @@ class BlockSignals {
   mutable bool stale_ = false;            ///< derivatives of functions have changed since they were found
   std::vector<double> delay_slope_;
   std::vector<char> depends_, couples_, rate_couples_;
+  std::vector<char> follows_;       ///< as depends_, between samples
   std::vector<char> present_;       ///< of each block: a delay that depends on the present too
   struct Pair { std::size_t delay, atom; };
   std::vector<Pair> pairs_;         ///< delays, and the atoms that they may depend on at present

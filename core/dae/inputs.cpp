@@ -107,11 +107,12 @@ std::vector<Inputs::Break> Inputs::breaks(double t) const {
     const bool jumps = std::abs(step) > before.rounding(t) + after.rounding(t);
     const bool bends = std::abs(bend) > numerics::equal_values * (std::abs(after.rate(t)) + std::abs(before.rate(t)));
     const double change = jumps ? step : bends ? bend : 0;
-    result.push_back({element, jumps, change < 0 ? -1 : change > 0 ? 1 : 0});
+    result.push_back({element, jumps ? "jump" : "corner", change < 0 ? -1 : change > 0 ? 1 : 0});
   };
   for (const Motion& m : motions_) look(m.element, m.signal, m.piece);
   for (const Force& f : forces_) look(f.element, f.signal, f.piece);
   for (const BlockSignals::Generator& g : blocks_.generators()) look(g.element, *g.signal, *g.piece);
+  for (const int block : blocks_.due(t)) result.push_back({blocks_.blocks().blocks[static_cast<std::size_t>(block)].element, "sample", 0});
   return result;
 }
 
@@ -236,6 +237,7 @@ void Inputs::sense(double t, const State& state) {
   anew();
   for (std::size_t k = 0; k < blocks_.states(); ++k) base_[k].derivative = blocks_.rate(k);
   blocks_.choose();
+  blocks_.take_samples();
   anew();
 }
 

@@ -36,9 +36,9 @@ class Inputs {
   bool refine(TimePoint t);
   /// The exact time that a double stands for.
   TimePoint exact(double t) const { return t == exact_.t ? exact_ : TimePoint(t); }
-  /// The signals that are discontinuous at t = next_break(); call before `enter`. `jumps`: the signal itself jumps, not only a
-  /// derivative. `direction`: sign of the jump of the signal or of its slope (0: neither jumps).
-  struct Break { int element; bool jumps; int direction; };
+  /// The signals that are discontinuous at t = next_break(), and the samples that are due; call before `enter`. `what`: a "jump" of the signal itself, a
+  /// "corner" of it or of a derivative, or a "sample". `direction`: sign of the jump of the signal or of its slope (0: neither jumps).
+  struct Break { int element; const char* what; int direction; };
   std::vector<Break> breaks(double t) const;
   /// Steps of position at the last `enter` (at the start: from before the run), for each motion.
   const std::vector<double>& steps() const { return steps_; }

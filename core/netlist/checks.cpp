@@ -11,16 +11,6 @@
 
 namespace rheonet {
 
-namespace {
-
-const char* const check_example = "laminar = { that = \"speed < critical_speed\", warn = \"the flow would be turbulent\" }";
-
-/// The comparison operators found in an expression.
-struct Comparisons {
-  bool any = false;
-  std::size_t chained = std::string_view::npos;  ///< the second operator of `a < b < c`
-};
-
 Comparisons comparisons_of(std::string_view text) {
   Comparisons found;
   std::vector<bool> compared{false};  // for each depth of parentheses: a comparison occurred since the last && || ? : ,
@@ -41,6 +31,10 @@ Comparisons comparisons_of(std::string_view text) {
   }
   return found;
 }
+
+namespace {
+
+const char* const check_example = "laminar = { that = \"speed < critical_speed\", warn = \"the flow would be turbulent\" }";
 
 /// The dimension error of a comparison that does not hold; absent if there is none. The value 0 alone does not show it.
 std::optional<TextError> mismatch(std::string_view text, const Environment& environment) {

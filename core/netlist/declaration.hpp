@@ -24,6 +24,7 @@ struct Parameter {
     characteristic,  ///< a function of the displacement or velocity of the element; its value is 1 if it is given
     expression,  ///< the output of a block as an expression over its inputs `u1`, `u2`, ... and the time `t`
     table,       ///< the output of a block by points, [input, output], or a CSV file; goes with `smooth` and `columns`
+    coefficients,  ///< of a polynomial in the Laplace variable s, highest power first; any number of them
   };
 
   /// How the unit of a parameter is determined. The unit of a block's parameter may depend on what the block is connected
@@ -31,6 +32,7 @@ struct Parameter {
   enum class Unit {
     quantity,  ///< that of `quantity`
     own,       ///< any unit; a factor of the unit of the block's output
+    divides,   ///< any unit, by which that of the block's output is divided; without a unit it is a number
     input,     ///< that of the block's inputs
     output,    ///< that of the block's output
   };
@@ -117,6 +119,8 @@ struct Declaration {
   std::vector<Parameter> parameters = {};
   std::vector<std::string> one_of = {};  ///< exactly one of these parameters must be given (`position` or `velocity`)
   std::function<std::optional<Misfit>(std::span<const double>)> check = {};  ///< checks the values of an element together
+  /// Checks the coefficients of its polynomials together.
+  std::function<std::optional<Misfit>(const std::vector<std::vector<double>>&)> check_coefficients = {};
   std::vector<Brought> effects = {};   ///< effects that a scene can leave out
   std::vector<Absence> absences = {};  ///< tried in order, after the `absent` value of each single effect
   bool resists = false;      ///< its signal is a force that it resists with, as a spring does: it applies none

@@ -29,6 +29,7 @@ std::string wanted(const Parameter& parameter, Domain domain) {
     return "a signal: a number or a table such as { step = \"1 " + unit + "\" }";
   if (parameter.kind == Parameter::Kind::expression) return function_example;
   if (parameter.kind == Parameter::Kind::table) return LookupTemplate::example;
+  if (parameter.kind == Parameter::Kind::coefficients) return CoefficientsTemplate::example;
   return parameter.quantity == Quantity::number ? "a number"
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
@@ -275,6 +276,10 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     }
     if (parameter.kind == Parameter::Kind::table) {
       plan.lookup.emplace(entry->value, reader.find("smooth"), reader.find("columns"), context_);
+      continue;
+    }
+    if (parameter.kind == Parameter::Kind::coefficients) {
+      plan.coefficients.emplace_back(entry->value, i, name, diagnostics);
       continue;
     }
     if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && entry->value.is_table())) {

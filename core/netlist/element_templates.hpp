@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/netlist/characteristic_template.hpp"
+#include "core/netlist/coefficients_template.hpp"
 #include "core/netlist/context.hpp"
 #include "core/netlist/lookup_template.hpp"
 #include "core/netlist/parameters.hpp"
@@ -59,6 +60,7 @@ struct ElementTemplate {
   std::vector<SignalConnection> inputs;  ///< of a block
   const TomlValue* function = nullptr;   ///< of a block: the expression of its output
   std::optional<LookupTemplate> lookup;  ///< of a block: the table of its output
+  std::vector<CoefficientsTemplate> coefficients;  ///< of a block
   std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
 
   std::vector<ElementTemplate> members;  ///< of a group

@@ -74,6 +74,7 @@ class Expander {
   bool element_signals(const ElementTemplate& plan, const Environment& environment, SceneElement& element);
   /// Records the wires of the element made last: inputs and units of a block, the feed of a source.
   void connection(const ElementTemplate& plan, const Environment& environment, int element);
+  void polynomials(const ElementTemplate& plan, const Environment& environment);
   std::string path_of(const SignalConnection& connection) const;
   bool instance_parameters(const ElementTemplate& plan, const Environment& around, Environment& inside);
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);

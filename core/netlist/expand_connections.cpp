@@ -31,6 +31,7 @@ void Expander::connection(const ElementTemplate& plan, const Environment& enviro
   if (plan.lookup) {
     if (auto made = plan.lookup->evaluate(environment, context_)) loose_.functions.push_back({block, &plan.lookup->source(), {}, std::move(*made), inside_.path, {}});
   }
+  polynomials(plan, environment);
   for (const SignalConnection& input : plan.inputs) loose_.ends.push_back({&input, path_of(input), inside_.path, block, element});
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Formula& formula = plan.values[i];
@@ -40,6 +41,23 @@ void Expander::connection(const ElementTemplate& plan, const Environment& enviro
   }
   for (std::size_t i = 0; i < plan.signals.size(); ++i)
     loose_.units.push_back({block, plan.signal_parameters[i], plan.signals[i].unit(), nullptr});
+}
+
+/// Evaluates the coefficients of the block made last.
+void Expander::polynomials(const ElementTemplate& plan, const Environment& environment) {
+  const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  SceneBlock& block = scene_.blocks.back();
+  for (const CoefficientsTemplate& given : plan.coefficients) {
+    auto made = given.evaluate(environment, context_);
+    if (!made) return;
+    block.coefficients.push_back(std::move(made->coefficients));
+    loose_.units.push_back({static_cast<int>(scene_.blocks.size()) - 1, static_cast<int>(given.parameter()), unit_of(made->unit), &given.source()});
+  }
+  if (!declaration.check_coefficients) return;
+  const std::optional<Misfit> misfit = declaration.check_coefficients(block.coefficients);
+  if (!misfit) return;
+  const TomlEntry* entry = plan.source->find(misfit->parameter);
+  context_.diagnostics.error(entry->value.spot, "`" + misfit->parameter + "` " + misfit->what);
 }
 
 }  // namespace rheonet

@@ -31,6 +31,7 @@ struct FiniteShape {
     return is_finite_wave(s.amplitude, s.frequency, s.offset) && is_finite_wave(s.amplitude, s.end_frequency, s.offset) &&
            std::isfinite(2 * std::numbers::pi * (s.end_frequency - s.frequency) / s.duration);
   }
+  bool operator()(const Signal::Noise& s) const { return std::isfinite(std::abs(s.offset) + std::abs(s.amplitude)); }
   bool operator()(const Signal::Table& s) const {
     for (std::size_t i = 0; i < s.times.size(); ++i) {
       if (!std::isfinite(s.offset + s.values[i])) return false;

@@ -18,6 +18,7 @@
 #include "core/netlist/read_presentation.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/simulate_table.hpp"
+#include "core/netlist/stop_condition.hpp"
 #include "core/netlist/table_reader.hpp"
 #include "core/netlist/unused_parameters.hpp"
 
@@ -123,6 +124,7 @@ class Reader {
     TemplateReader planner(context_, models);
     Scope scope;
     if (elements) planner.read_elements(elements->value, scope);
+    stop_condition_.read(document_, environment, scope, context_);
     if (elements && elements->value.is_table() && elements->value.entries.empty())
       diagnostics_.error(elements->spot, "the scene has no elements");
     const ActiveOverrides overrides = element_overrides(scope);
@@ -142,6 +144,7 @@ class Reader {
         if (!scope.find(entry.key)) doubtful.insert(entry.key);
     if (!doubtful.empty())
       for (const Scope::Node& node : scope.nodes) doubtful.insert(node.name);
+    stop_condition_.mark(scene_);
     connect(expander.loose_ends(), doubtful, context_, scene_);
     return doubtful;
   }
@@ -329,6 +332,7 @@ class Reader {
   TomlValue document_;
   std::deque<Override> overrides_;
   std::deque<IncludedFile> included_;
+  StopCondition stop_condition_;
   bool laws_missing_ = false;  ///< a law has a mistake, which may be why a type is unknown
   std::deque<Environment> environments_;
   std::deque<std::vector<NamedFormula>> formulas_;

@@ -107,6 +107,8 @@ struct SceneBlock {
   std::vector<Input> inputs;
   BlockUnit unit;
   std::shared_ptr<const SwitchedFunction> function = {};  ///< of the inputs, and of the time in the scene as last; nullptr: none
+  std::vector<std::vector<double>> coefficients = {};     ///< of its parameters of that kind: highest power first, SI
+  bool of_stop_when = false;  ///< stands in no file: made for `simulate.stop_when`
 };
 
 /// The signal of `element` for one of its parameters is the output of `block`, times `sign`.
@@ -196,6 +198,7 @@ struct Scene {
   bool common_units = false;  ///< made by in_common_units: core/network/transmission.hpp
   double start = 0;         ///< s
   double stop = 0;          ///< s, > start
+  int stop_when = -1;       ///< block whose output ends the run as soon as it is not 0; -1: none
   double accuracy = 1e-6;   ///< relative, 1e-12 .. 0.1
   double output_every = 0;  ///< s: rows at start + k output_every, k = 0 .. output_intervals
   std::int64_t output_intervals = 0;

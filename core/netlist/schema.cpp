@@ -55,6 +55,7 @@ std::vector<std::string> types_of(const Declaration& declaration) {
 std::string units_of(const Parameter& parameter) {
   if (parameter.kind == Parameter::Kind::expression) return "an expression over u1, u2, ... and t";
   if (parameter.kind == Parameter::Kind::table) return "points [input, output], or the name of a CSV file";
+  if (parameter.kind == Parameter::Kind::coefficients) return "any unit, times s for each power of the Laplace variable";
   if (parameter.unit == Parameter::Unit::own) return "any unit";
   if (parameter.unit == Parameter::Unit::input) return "the unit of the input";
   if (parameter.unit == Parameter::Unit::output) return "the unit of the output";
@@ -94,6 +95,7 @@ Json parameter_schema(const Parameter& parameter) {
   if (parameter.may_be_infinite) description += "; may be \"inf\"";
   if (parameter.kind == Parameter::Kind::expression) return text(description);
   if (parameter.kind == Parameter::Kind::table) return table_schema(description);
+  if (parameter.kind == Parameter::Kind::coefficients) return described(list_of(reference("value"), 1), description);
   const bool characteristic = parameter.kind == Parameter::Kind::characteristic;
   Json schema = described(reference(characteristic ? "characteristic" : parameter.takes_signal() ? "signal" : "value"), description);
   if (characteristic) return schema;
@@ -156,7 +158,7 @@ Json element_schema(const Declaration& declaration) {
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
     if (alternative) one_of.insert(one_of.end(), names.begin(), names.end());
-    const bool optional = alternative || parameter.kind == Parameter::Kind::initial || parameter.fallback ||
+    const bool optional = alternative || parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
                           !parameter.same_as.empty();
     if (!optional) requirements.push_back(one_required(names));
   }
@@ -217,6 +219,7 @@ Json signal_schema() {
                           "`end_frequency` within `duration`")},
       {"pulse",
        described(reference("value"), "height of a pulse of `width`, again at every period if there is a `frequency`")},
+      {"noise", described(reference("value"), "random values, uniformly distributed between minus and plus this, each held for an `interval`")},
   };
   std::vector<std::string> shapes;
   for (const auto& [shape, schema] : properties.items()) shapes.push_back(shape);
@@ -229,6 +232,8 @@ Json signal_schema() {
       {"end_frequency", "of a chirp [Hz]"},
       {"duration", "of the sweep of a chirp [s]"},
       {"width", "of a pulse [s]"},
+      {"interval", "of noise: the time for which each value holds [s]"},
+      {"seed", "of noise: a whole number; signals of one seed have the same values"},
       {"phase", "added to the angle [rad]"},
       {"offset", "added to the signal, also before its `time`"},
       {"time", "when it starts [s]; 0 if absent"},
@@ -238,7 +243,8 @@ Json signal_schema() {
   table.update(one_required(shapes));
   table["dependentRequired"] = {{"sine", {"frequency"}},   {"cosine", {"frequency"}},
                                 {"square", {"frequency"}}, {"triangle", {"frequency"}},
-                                {"pulse", {"width"}},      {"chirp", {"frequency", "end_frequency", "duration"}}};
+                                {"pulse", {"width"}},      {"chirp", {"frequency", "end_frequency", "duration"}},
+                                {"noise", {"interval", "seed"}}};
   Json block = object({{"block", text("the name of a block: its output is the signal, with - its negative")}});
   block["required"] = {"block"};
   return described({{"anyOf", {reference("value"), std::move(table), std::move(block)}}},
@@ -361,6 +367,7 @@ Json simulate_schema() {
                           {"description", "start values as given; or at rest, or in steady motion, with all forces balanced"},
                           {"default", "given"}}},
                         {"stop", described(reference("value"), "[s]")},
+                        {"stop_when", text("a comparison over records and parameters, at whose event the run ends earlier: a.position > xmax")},
                         {"accuracy", described(reference("value"),
                                                "error allowed, relative to the largest magnitude of "
                                                "each recorded quantity; 1e-6 if absent")},

@@ -8,6 +8,7 @@
 
 #include "core/netlist/curve.hpp"
 #include "core/netlist/fresnel.hpp"
+#include "core/netlist/noise.hpp"
 #include "core/netlist/time_point.hpp"
 
 namespace rheonet {
@@ -195,6 +196,13 @@ struct PieceAt {
     return t < off.t ? constant(high, off) : constant(s.offset, after(t, next));
   }
 
+  Stretch operator()(const Signal::Noise& s) const {
+    if (t < s.time) return constant(s.offset, s.time);
+    const auto start = [&](std::int64_t k) { return beat(s.time, static_cast<double>(k), s.interval); };
+    const std::int64_t k = last_edge(t, std::floor((t - s.time) / s.interval), 0, start);
+    return constant(s.offset + s.amplitude * noise_value(s.seed, static_cast<std::uint64_t>(k)), after(t, start(k + 1)));
+  }
+
   Stretch operator()(const Signal::Table& s) const {
     if (s.times.empty()) return constant(s.offset);
     if (t < s.time) return constant(s.offset, s.time);
@@ -251,7 +259,7 @@ struct Times {
     s.offset *= factor;
     return s;
   }
-  template <class Periodic>  // Sine, Square, Triangle, Chirp
+  template <class Periodic>  // Sine, Square, Triangle, Chirp, Noise
   Signal::Shape operator()(Periodic s) const {
     s.amplitude *= factor;
     s.offset *= factor;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <variant>
@@ -72,7 +73,9 @@ class Signal {
   /// point that of the last. Times do not decrease; two equal times are a jump. Points are relative to `time`. If `smooth`,
   /// a monotone cubic spline (curve.hpp) replaces the straight lines between two jumps.
   struct Table { std::vector<double> times, values; double time, offset; bool smooth = false; };
-  using Shape = std::variant<Constant, Step, Ramp, Sine, Square, Triangle, Chirp, Pulse, Table>;
+  /// amplitude times the random number noise_value(seed, k) (noise.hpp) from time + k interval on, for the length of an interval.
+  struct Noise { double amplitude, interval; std::uint64_t seed; double time, offset; };
+  using Shape = std::variant<Constant, Step, Ramp, Sine, Square, Triangle, Chirp, Pulse, Table, Noise>;
 
   Signal() : shape_(std::make_shared<const Shape>(Constant{0})) {}
   explicit Signal(Shape shape);

@@ -105,6 +105,11 @@ class Connection {
     auto record = std::move(find_records({path}, doubtful_, context_, scene_, true).front());
     if (!record) return -1;
     if (!may_be_sensed(*record)) {
+      if (scene_.blocks[at(end.block)].of_stop_when) {
+        diagnostics_.error(path.spot, "`stop_when` cannot depend on `" + end.path + "`",
+                           "it may depend on positions, velocities, displacements, forces, powers of elements, and outputs of blocks");
+        return -1;
+      }
       diagnostics_.error(path.spot, "a block cannot take in `" + end.path + "`", "it takes in positions, velocities, displacements, forces, and powers of elements");
       return -1;
     }
@@ -210,7 +215,9 @@ class Connection {
     if (refuse_input(function)) return;
     auto expression = expression_of(function);
     if (const auto* wrong = std::get_if<TextError>(&expression)) {
-      diagnostics_.error(diagnostics_.inside(*function.source, wrong->offset), "the output of `" + name(function.block) + "`: " + wrong->message, wrong->hint);
+      const std::string& block = name(function.block);
+      const std::string what = scene_.blocks[at(function.block)].of_stop_when ? "`" + block.substr(block.find('.') + 1) + "`" : "the output of `" + block + "`";
+      diagnostics_.error(diagnostics_.inside(*function.source, wrong->offset), what + ": " + wrong->message, wrong->hint);
       return;
     }
     auto& sound = std::get<RunTimeExpression>(expression);
@@ -230,9 +237,11 @@ class Connection {
     const Declaration::Inputs& inputs = declared.inputs;
     BlockUnit unit = inputs.most == 0 ? BlockUnit{{}, 0, false} : taken_in(block);
     for (const OwnUnit& own : loose_.units) {
-      if (own.block != block || parameter(own).unit != Parameter::Unit::own) continue;
-      const bool open = unit.open || own.unit.open;
-      unit = unit_of(product(one_of(unit), one_of(own.unit)));
+      const Parameter::Unit kind = parameter(own).unit;
+      const bool divides = kind == Parameter::Unit::divides;
+      if (own.block != block || (kind != Parameter::Unit::own && !divides)) continue;
+      const bool open = unit.open || (own.unit.open && !divides);
+      unit = unit_of(product(one_of(unit), divides ? raised(one_of(own.unit), -1) : one_of(own.unit)));
       unit.open = open;
     }
     if (inputs.integrates) unit.dimension = unit.dimension * dimension_of(Quantity::time, context_.domain);
@@ -379,7 +388,7 @@ std::optional<SignalConnection> read_feed(const TomlEntry& feed, const TomlValue
 }
 
 void connect(const LooseEnds& loose, const std::set<std::string>& doubtful, Context& context, Scene& scene) {
-  if (!loose.ends.empty() || !loose.units.empty()) Connection(loose, doubtful, context, scene).make();
+  if (!loose.ends.empty() || !loose.units.empty() || !loose.functions.empty()) Connection(loose, doubtful, context, scene).make();
 }
 
 }  // namespace rheonet

@@ -12,16 +12,23 @@
 
 namespace rheonet {
 
+namespace {
+
+constexpr double largest_seed = 9007199254740992;  // 2^53: doubles are exact up to there
+
+}  // namespace
+
 const std::vector<std::string>& SignalTemplate::shape_names() {
   // In the order of Shape.
   static const std::vector<std::string> names{"step",     "ramp",  "sine",  "cosine", "square",
-                                              "triangle", "chirp", "pulse", "table"};
+                                              "triangle", "chirp", "pulse", "noise", "table"};
   return names;
 }
 
 const std::array<std::string, SignalTemplate::key_count>& SignalTemplate::key_names() {
   static const std::array<std::string, key_count> names{"amplitude", "frequency", "end_frequency", "duration",
-                                                        "width",     "phase",     "time",          "offset"};
+                                                        "width",     "phase",     "time",          "offset",
+                                                        "interval",  "seed"};
   return names;
 }
 
@@ -92,6 +99,9 @@ void SignalTemplate::read_table_signal(const TomlValue& source, Context& context
       required = {width};
       optional.insert(optional.end(), {frequency, phase});
       break;
+    case Shape::noise:
+      required = {interval, seed};
+      break;
     default:
       break;
   }
@@ -102,7 +112,10 @@ void SignalTemplate::read_table_signal(const TomlValue& source, Context& context
     keys_[key] = Formula(entry->value, "`" + entry->key + "`", context.diagnostics);
     constant_ = constant_ && keys_[key].identifiers().empty();
   };
-  for (const Key key : required) take(key, reader.require(key_names()[key], main->spot));
+  const auto hint = [](Key key) {
+    return key == seed ? "a whole number: signals of one seed have the same values" : key == interval ? "the time for which each value holds" : "";
+  };
+  for (const Key key : required) take(key, reader.require(key_names()[key], main->spot, hint(key)));
   for (const Key key : optional) take(key, reader.find(key_names()[key]));
   const TomlEntry* columns = shape_ == Shape::table ? reader.find("columns") : nullptr;
   const TomlEntry* smooth = shape_ == Shape::table ? reader.find("smooth") : nullptr;
@@ -259,7 +272,10 @@ std::optional<double> SignalTemplate::value_of(Key key, const Environment& envir
       case duration:
       case width:
       case time:
+      case interval:
         return Quantity::time;
+      case seed:
+        return Quantity::number;
       case phase:
         return Quantity::angle;
       default:
@@ -273,7 +289,11 @@ std::optional<double> SignalTemplate::value_of(Key key, const Environment& envir
   const auto value = formula.evaluate_finite(environment, quantity, context.domain, context.diagnostics);
   if (!value) return {};
   const bool may_be_zero = shape_ == Shape::chirp && key != duration;
-  const bool positive = key == frequency || key == end_frequency || key == duration || key == width;
+  const bool positive = key == frequency || key == end_frequency || key == duration || key == width || key == interval;
+  if (key == seed && (*value != std::floor(*value) || *value < 0 || *value > largest_seed)) {
+    context.diagnostics.error(formula.source().spot, formula.name() + " must be a whole number from 0 to " + number_text(largest_seed) + ", but is " + number_text(*value));
+    return {};
+  }
   if (positive && (*value < 0 || (*value == 0 && !may_be_zero))) {
     context.diagnostics.error(formula.source().spot,
                            formula.name() + (may_be_zero ? " must be at least 0" : " must be greater than 0") +
@@ -291,13 +311,15 @@ std::optional<Signal> SignalTemplate::make(const Environment& environment, Conte
   const auto f_end = value_of(end_frequency, environment, context, 0);
   const auto length = value_of(duration, environment, context, 0);
   const auto high = value_of(width, environment, context, 0);
+  const auto held = value_of(interval, environment, context, 0);
+  const auto number = value_of(seed, environment, context, 0);
   if (shape_ == Shape::table) {
     if (!start || !level) return {};
     return make_table(environment, context, *start, *level);
   }
   if (is_of_time(environment, context) || is_unknown_name(environment, context)) return {};
   const auto main = scaled(main_, environment, context);
-  if (!main || !start || !level || !angle || !f || !f_end || !length || !high) return {};
+  if (!main || !start || !level || !angle || !f || !f_end || !length || !high || !held || !number) return {};
   switch (shape_) {
     case Shape::step:
       return Signal(Signal::Step{*main, *start, *level});
@@ -324,6 +346,8 @@ std::optional<Signal> SignalTemplate::make(const Environment& environment, Conte
         return {};
       }
       return Signal(Signal::Pulse{*main, *high, *f, *angle, *start, *level});
+    case Shape::noise:
+      return Signal(Signal::Noise{*main, *held, static_cast<std::uint64_t>(*number), *start, *level});
     default:
       return Signal(Signal::Constant{*main});
   }

@@ -32,8 +32,8 @@ class SignalTemplate {
   static const std::vector<std::string>& shape_names();
 
  private:
-  enum class Shape { step, ramp, sine, cosine, square, triangle, chirp, pulse, table, constant };
-  enum Key { amplitude, frequency, end_frequency, duration, width, phase, time, offset, key_count };
+  enum class Shape { step, ramp, sine, cosine, square, triangle, chirp, pulse, noise, table, constant };
+  enum Key { amplitude, frequency, end_frequency, duration, width, phase, time, offset, interval, seed, key_count };
 
   static const std::array<std::string, key_count>& key_names();
   /// The entry that determines the shape; nullptr, with a mistake, unless exactly one does.

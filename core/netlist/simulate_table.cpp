@@ -96,6 +96,7 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
   };
   scene.start = value(reader.find("start"), Quantity::time, 0);
   read_start_from(reader.find("start_from"), diagnostics, scene);
+  reader.find("stop_when");  // see StopCondition
   const TomlEntry* stop = reader.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
   scene.stop = value(stop, Quantity::time, not_given);
   if (scene.stop <= scene.start) {

@@ -29,6 +29,10 @@ struct TimePoint {
   auto operator<=>(const TimePoint&) const = default;
 };
 
+/// begin + number interval, for a whole number. The interval is the decimal fraction that was typed, if there is one: 3 times 0.1 s is
+/// 0.3 s, where something else may happen too, and not the next double.
+TimePoint beat(double begin, double number, double interval);
+
 /// The end of signal.piece(t), not rounded to a double.
 TimePoint exact_end(const Signal& signal, double t);
 

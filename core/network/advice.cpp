@@ -190,6 +190,7 @@ class Adviser {
       if (records == &scene_.records && !records_too) continue;
       for (const Record& record : *records) for_each_operand(scene_, record, ask_for);
     }
+    if (scene_.stop_when >= 0) ask(parts.of_element[at(scene_.blocks[at(scene_.stop_when)].element)]);
     return asked;
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/base/index.hpp"
@@ -11,6 +12,7 @@
 #include "core/network/effects.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
+#include "core/network/transfer_function.hpp"
 
 namespace rheonet {
 
@@ -32,11 +34,11 @@ class Finder {
   Blocks find() {
     const std::vector<int> rates = number_rates();
     const std::vector<Blocks::Block> accelerations = integrate_accelerations(scene_.blocks.size() + rates.size());
-    first_power_ = scene_.blocks.size() + rates.size() + accelerations.size();
+    first_added_ = scene_.blocks.size() + rates.size() + accelerations.size();
     for (const SceneBlock& block : scene_.blocks) add(block);
     for (const int block : rates) add_rate(block);
     result_.blocks.insert(result_.blocks.end(), accelerations.begin(), accelerations.end());
-    result_.blocks.insert(result_.blocks.end(), powers_.begin(), powers_.end());
+    result_.blocks.insert(result_.blocks.end(), added_.begin(), added_.end());
     for (Network::Slider& slider : network_.sliders) {
       for (Network::VaryingParameter& varying : slider.varying) add_parameter(slider, varying);
     }
@@ -69,7 +71,7 @@ class Finder {
       if (motion.block < 0 || !motion.position) continue;
       const SceneElement& giver = scene_.elements[at(scene_.blocks[at(motion.block)].element)];
       const SceneElement& moved = scene_.elements[at(motion.element)];
-      const BlockLaw law = components()[at(giver.declaration)]->block(giver.values);
+      const BlockLaw law = law_of(scene_.blocks[at(motion.block)]);
       if (!law.state)
         throw SimulationError(moved.spot,
                               fmt::format("motion `{}` takes its position from block `{}`, which is no integrator or lag: its rate, "
@@ -184,14 +186,27 @@ class Finder {
     factor.channel = Record::Channel::velocity;
     take_in(power, {.from_block = false, .index = input.index, .sign = 1}, factor);
     for (std::size_t k = forces; k < power.inputs.size(); ++k) power.inputs[k].argument = 1;
-    block.inputs.push_back({true, static_cast<int>(first_power_ + powers_.size()), input.sign});
-    powers_.push_back(std::move(power));
+    block.inputs.push_back({true, next_added(), input.sign});
+    added_.push_back(std::move(power));
   }
+
+  /// The law of a block. The output of a transfer function is a state if it does not depend on the present input.
+  BlockLaw law_of(const SceneBlock& block) const {
+    const SceneElement& element = scene_.elements[at(block.element)];
+    BlockLaw law = components()[at(element.declaration)]->block(resolved_values(scene_, element));
+    if (block.coefficients.empty()) return law;
+    const TransferFunction transfer(block.coefficients[0], block.coefficients[1]);
+    law.state = transfer.order() > 0 && !transfer.direct();
+    if (law.state) law.leak = transfer.a[1];
+    return law;
+  }
+
+  int next_added() const { return static_cast<int>(first_added_ + added_.size()); }
 
   void add(const SceneBlock& made) {
     const SceneElement& element = scene_.elements[at(made.element)];
     Blocks::Block block{.element = made.element,
-                        .law = components()[at(element.declaration)]->block(resolved_values(scene_, element)),
+                        .law = law_of(made),
                         .generates = !element.signals.empty(),
                         .signal = {},
                         .inputs = {}};
@@ -208,6 +223,11 @@ class Finder {
         take_in(block, input, record);
       }
       for (std::size_t k = first; k < block.inputs.size(); ++k) block.inputs[k].argument = argument;
+    }
+    if (!made.coefficients.empty()) {
+      const TransferFunction transfer(made.coefficients[0], made.coefficients[1]);
+      std::vector<Blocks::Block> states = realise(block, transfer, static_cast<int>(result_.blocks.size()), next_added());
+      added_.insert(added_.end(), std::make_move_iterator(states.begin()), std::make_move_iterator(states.end()));
     }
     result_.blocks.push_back(std::move(block));
   }
@@ -255,13 +275,14 @@ class Finder {
       return;
     }
     if (place.role == Role::nothing) return;
-    if (place.role != Role::deflection && place.role != Role::rate && place.role != Role::force)
+    if (place.role != Role::deflection && place.role != Role::rate && place.role != Role::force) {
+      const bool condition = std::any_of(scene_.blocks.begin(), scene_.blocks.end(), [&](const SceneBlock& b) { return b.element == block.element && b.of_stop_when; });
       throw SimulationError(
           scene_.elements[at(block.element)].spot,
-          fmt::format("block `{}` cannot take in `{}`: the force of `{}` is what all others at its node leave over; take "
-                      "in that of a spring or a dashpot beside it",
-                      scene_.elements[at(block.element)].name, scene_.sensed[at(record)].path,
-                      scene_.elements[at(element)].name));
+          fmt::format("{} `{}`: the force of `{}` is what all others at its node leave over; take in that of a spring or a dashpot beside it",
+                      condition ? "`stop_when` cannot depend on" : fmt::format("block `{}` cannot take in", scene_.elements[at(block.element)].name),
+                      scene_.sensed[at(record)].path, scene_.elements[at(element)].name));
+    }
     block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, element, -1, record}), sign});
   }
 
@@ -342,8 +363,8 @@ class Finder {
 
   Network& network_;
   const Scene& scene_;
-  std::size_t first_power_ = 0;         ///< number of the first of `powers_` among all blocks
-  std::vector<Blocks::Block> powers_;   ///< of elements, that blocks take in
+  std::size_t first_added_ = 0;         ///< number of the first of `added_` among all blocks
+  std::vector<Blocks::Block> added_;    ///< powers of elements that blocks take in, and states of transfer functions
   std::vector<char> open_;  ///< blocks whose feedback is left out: they sense no unknown of the network; empty: none
   Blocks result_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/netlist/scene.hpp"
@@ -34,17 +35,18 @@ struct Blocks {
     Signal signal;
     std::vector<Input> inputs;
     std::shared_ptr<const SwitchedFunction> function = {};
+    std::optional<std::vector<Input>> steady = {};  ///< of a state: its value in equilibrium is the sum of these; absent: as its law says
     /// Its present output does not depend on its present input.
     bool breaks_loops() const { return law.state || law.delay > 0; }
   };
 
-  std::vector<Block> blocks;   ///< the blocks of the scene, followed by rates, integrals and varying parameters (see find_blocks)
+  std::vector<Block> blocks;   ///< the blocks of the scene, followed by rates, integrals, states and varying parameters (see find_blocks)
   std::vector<Sensor> sensors;
   std::vector<int> order;      ///< an order of evaluation in which each block follows those whose present outputs it needs
 };
 
 /// Finds the blocks of a network; time counts from the scene's start. A motion whose position a block gives follows an added
-/// block instead, whose output is the velocity; so does a motion whose acceleration is given. Each varying parameter of a slider gets a block too. Throws SimulationError for an algebraic loop, for a loop closed by delays
+/// block instead, whose output is the velocity; so does a motion whose acceleration is given. A transfer function gets a block for each of its states. Each varying parameter of a slider gets a block too. Throws SimulationError for an algebraic loop, for a loop closed by delays
 /// alone, for a force that cannot be sensed, and for a position without a known rate.
 Blocks find_blocks(Network& network);
 

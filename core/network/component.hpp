@@ -193,6 +193,7 @@ struct Box {
 ///
 ///     z, where z' = gain u - leak z and z = initial at first   if it has a state
 ///     u(t - delay), before that `initial`                      if it has a delay
+///     u at the last multiple of `period`                       if it samples
 ///     gain u, but not beyond `lower` and `upper`               else
 struct BlockLaw {
   double gain = 1;     ///< [unit of the output / unit of the inputs], for a state divided by s
@@ -200,6 +201,8 @@ struct BlockLaw {
   bool state = false;
   double leak = 0;     ///< [1/s]
   double delay = 0;    ///< [s]
+  double period = 0;   ///< between samples [s]; 0: it does not sample
+  double quantum = 0;  ///< samples are rounded to multiples of this [unit of the output]; 0: they are not
   double initial = 0;  ///< [unit of the output]
 
   bool limits() const { return upper < std::numeric_limits<double>::infinity() || lower > -std::numeric_limits<double>::infinity(); }

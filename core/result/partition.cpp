@@ -60,6 +60,7 @@ class Divider {
       if (std::exchange(idle[at(block)], 0)) needed.push_back(block);
     };
     for (const SceneFeed& feed : scene_.feeds) need(feed.block);
+    if (scene_.stop_when >= 0) need(scene_.stop_when);
     for (const std::vector<Record>* records : {&scene_.records, &scene_.claimed}) {
       for (const Record& record : *records) {
         for_each_operand(scene_, record, [&](const Record& operand) {
@@ -222,7 +223,7 @@ class Divider {
         break;
       case Role::block:
         nature.may_fail = true;
-        nature.switches = nature.switches || law.component->block(law.values).limits() || law.component->declaration.is_function();
+        nature.switches = nature.switches || law.component->block(law.values).limits() || law.component->block(law.values).period > 0 || law.component->declaration.is_function();
         nature.delays = nature.delays || law.component->block(law.values).delay > 0;
         break;
       case Role::motion:

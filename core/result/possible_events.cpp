@@ -33,6 +33,7 @@ class EventSearch {
     }
     for (const Blocks::Block& block : network_.blocks.blocks) {
       if (block.law.limits()) add("limit, release", block.element);
+      if (block.law.period > 0) add("sample", block.element);
       if (block.function && block.function->switches() > 0) add("switch", block.element);
     }
     for (const Network::Motion& motion : network_.motions) add_breaks(motion.signal, motion.element, motion.block);

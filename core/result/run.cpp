@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/base/numerics.hpp"
+#include "core/netlist/switched_function.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/network.hpp"
 #include "core/network/transmission.hpp"
@@ -124,7 +125,11 @@ class Recorder final : public Observer {
     pending_event_ = true;
   }
 
-  void end(double) override {
+  void end(double t) override {
+    if (t < length_ - slack()) {  // `stop_when` ended the run at an event, where `begin` has seen the state
+      if (const double last = event_time(t); last != written_) write(last, channels_.read(start_, y_, yp_));
+      return;
+    }
     for (; next_ <= scene_.output_intervals; ++next_) {
       write(row_time(next_), last_ ? channels_.read(last_->time(), last_->y(), last_->yp(), rate(*last_))
                                    : channels_.read(start_, y_, yp_));
@@ -193,6 +198,7 @@ class Recorder final : public Observer {
           fmt::format("{} `{}` is beyond the range of double precision; check the values of the elements around it", at_time(scene_, t),
                       scene_.records[k].path));
     }
+    written_ = t;
     csv_.row(scene_time(t), values);
     if (row_) row_(scene_time(t), values);
   }
@@ -210,6 +216,7 @@ class Recorder final : public Observer {
   std::optional<EnergyAccount> energy_;  ///< if requested
   std::vector<long> switched_;  ///< of each element: number of switches
   std::int64_t next_ = 0;
+  double written_ = not_given;  ///< time of the last row [s]
   bool pending_event_ = false;
   int unknowns_ = -1;  ///< largest number in any mode
   const Integrator* last_ = nullptr;  ///< integrator of the last step; null since the last start
@@ -275,7 +282,8 @@ Summary run(const Scene& scene, const RunSettings& settings) {
 Summary run_divided(const Scene& scene, const RunSettings& settings) {
   const auto wall = std::chrono::steady_clock::now();
   // Callbacks between rows, and rows at events, need the whole scene in one integration. Rows of parts are held in memory.
-  const bool whole = scene.output_events || settings.state || settings.event || settings.profile ||
+  // So does a condition that ends all of it.
+  const bool whole = scene.stop_when >= 0 || scene.output_events || settings.state || settings.event || settings.profile ||
                      static_cast<double>(scene.output_intervals) * static_cast<double>(scene.records.size()) > numerics::values_in_memory;
   const Partition partition = divide(scene, {.apart = !whole, .drop = !settings.events && !settings.state});
   if (partition.subscenes.empty()) return run_whole(scene, settings);
@@ -326,9 +334,15 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
     summary.largest = energy->largest();
     summary.missing = energy->missing();
   }
+  if (statistics.ended) summary.ended = scene.start + *statistics.ended;
   summary.findings = recorder.findings();
   summary.notes = network.notes;
   summary.notes.insert(summary.notes.end(), statistics.notes.begin(), statistics.notes.end());
+  if (scene.stop_when >= 0) {
+    const std::string condition = scene.blocks[static_cast<std::size_t>(scene.stop_when)].function->text();
+    summary.notes.push_back(summary.ended ? fmt::format("the run ended at {:.9g} s, where `{}` came true (`stop_when`)", *summary.ended, condition)
+                                          : fmt::format("`{}` (`stop_when`) did not come true: the run went on to its stop", condition));
+  }
   if (std::abs(summary.missing) > numerics::noted_energy_defect * scene.accuracy * summary.largest) {
     summary.notes.push_back(fmt::format(
         "the energy account misses {:.2g} of the largest energy in the run, more than the accuracy of {:g} that was asked for: "

@@ -66,6 +66,7 @@ struct Summary {
   double missing = 0;     ///< supplied - stored - dissipated: 0 except for errors of the solution
   double largest = 0;     ///< largest magnitude in the run of these and of the stored energy: the reference of `missing`
   std::vector<Finding> findings;  ///< of each of the scene's claims
+  std::optional<double> ended;  ///< time at which `simulate.stop_when` ended the run [s]; absent: it went on to the stop
   double wall_seconds = 0;
   double cpu_seconds = 0;  ///< of the thread that called `run`
   std::vector<std::string> notes;  ///< assumptions, and remarks on the result for the user

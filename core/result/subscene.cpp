@@ -41,6 +41,7 @@ class Taker {
     }
     for (const int e : taking.elements) take_element(e);
     for (const int k : taking.blocks) take_block(whole.blocks[at(k)]);
+    if (whole.stop_when >= 0) scene_.stop_when = numbers.block[at(whole.stop_when)];
     for (const int k : taking.feeds) {
       const SceneFeed& feed = whole.feeds[at(k)];
       scene_.feeds.push_back({numbers.element[at(feed.element)], feed.parameter, numbers.block[at(feed.block)], feed.sign});

@@ -52,7 +52,7 @@ class Run {
   SimulationStatistics go() {
     double t = 0;
     begin();
-    while (t < settings_.stop) {
+    while (t < settings_.stop && !ended_) {
       try {
         t = advance(t);
       } catch (const UndeterminedError&) {
@@ -66,7 +66,8 @@ class Run {
         throw;
       }
     }
-    observer_.end(settings_.stop);
+    if (ended_) statistics_.ended = t;
+    observer_.end(t);
     statistics_.integrator = mode_cache_.statistics();
     return std::move(statistics_);
   }
@@ -95,6 +96,7 @@ class Run {
       analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
       throw;
     }
+    if (ended_) refuse_condition();
     regularisation_.begin(inputs_, state_.velocity);
     if (const double steps = settings_.stop / inputs_.history().longest_step(); steps > numerics::many_steps) {
       statistics_.notes.push_back(fmt::format(
@@ -111,10 +113,11 @@ class Run {
   /// Integrates to the next discontinuity of an input, crosses it, and returns its time.
   double advance(double from) {
     const double t = stretch(from);
+    if (ended_) return t;
     std::vector<Inputs::Break> breaks;
     if (t >= inputs_.next_break()) {
       breaks = inputs_.breaks(t);
-      for (const Inputs::Break& b : breaks) observer_.event({t, b.element, b.jumps ? "jump" : "corner", b.direction});
+      for (const Inputs::Break& b : breaks) observer_.event({t, b.element, b.what, b.direction});
     } else if (t >= settings_.stop) {
       return t;
     }
@@ -145,15 +148,22 @@ class Run {
     return stay_close({y, yp, ypp}, {y_, yp_, new_ypp}, ahead, tolerances_.values());
   }
 
+  /// One of several crossings of one time: how many came before, and the heat that they released [J].
+  struct Round {
+    std::size_t number;
+    double heat;
+  };
+
   /// Crosses time t, where inputs may jump (`stepped`) or guards have `fired`: selects modes, finds the new state, reports
   /// both.
-  void cross(double t, bool stepped, const EventTransition::Fired& fired) {
+  void cross(double t, bool stepped, const EventTransition::Fired& fired, const Round& round = {0, 0}) {
     if (stepped) {
       inputs_.enter(t, inputs_.blocks().jumps());
     } else {
       inputs_.mark(t);
     }
-    const EventTransition::Change change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    EventTransition::Change change = transition_.cross(t, horizon(t), stepped, fired, state_, modes_, slider_force_);
+    change.heat += round.heat;
     statistics_.notes.insert(statistics_.notes.end(), change.notes.begin(), change.notes.end());
     const std::shared_ptr<System> before = system_;
     system_ = mode_cache_.of_modes();
@@ -173,12 +183,25 @@ class Run {
     inputs_.blocks().fire({});
     system_->consistency.derivative(t, y_, yp_);
     const Dae::View& view = dae.view(t, y_.data(), yp_.data());
+    // A sample of what has jumped at this time jumps with it. Each round settles at least one sample, as none depends on itself.
+    if (!inputs_.blocks().hold(round.number)) {
+      take_state(t);
+      return cross(t, true, {}, {round.number + 1, change.heat});
+    }
     inputs_.remember(t, view.velocity, view.acceleration);
     for (const std::string& note : check_ties(dae, t, [this] { tell_overload(); })) note_once(note);
     for (const Event& event : mode_changes_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
+    const int condition = network_.scene->stop_when;
+    ended_ = condition >= 0 && inputs_.blocks().out(condition).value != 0;
+  }
+
+  [[noreturn]] void refuse_condition() const {
+    const Blocks::Block& block = network_.blocks.blocks[at(network_.scene->stop_when)];
+    throw SimulationError(network_.spot_of(block.element), fmt::format("the condition of `stop_when`, `{}`, holds at the start: the run would end before it begins; `stop_when` "
+                                                                       "is what is to happen later", block.function->text()));
   }
 
   void note_once(const std::string& note) {
@@ -283,6 +306,7 @@ class Run {
       }
       switch_memories(t);
       if (settings_.profile) settings_.profile->blame(fired_);
+      if (ended_) return t;
       if (gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
@@ -408,6 +432,7 @@ class Run {
   ModeChangeLog mode_changes_;
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
+  bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
   long steps_ = 0;       ///< in the last interval
   bool smooth_ = false;  ///< the last discontinuity was negligible

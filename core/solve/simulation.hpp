@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ class Observer {
   virtual void step(const Integrator& integrator) = 0;
   /// An element has switched at the end of the last step; `begin` follows the last of several events at one time.
   virtual void event(const Event& event) = 0;
-  /// The end of the run.
+  /// The end of the run, which `simulate.stop_when` may have brought at the last event.
   virtual void end(double t) = 0;
 };
 
@@ -44,6 +45,7 @@ struct SimulationStatistics {
   Integrator::Statistics integrator;
   std::vector<std::string> notes;
   std::vector<std::string> chosen;  ///< see StartWords
+  std::optional<double> ended;      ///< time at which `simulate.stop_when` ended the run [s]
 };
 
 /// Integrates from start to stop. `needed` marks the nodes whose positions are requested. Throws SimulationError, with the

@@ -53,6 +53,10 @@ TomlValue signal(Random& random) {
     add("duration", value(random));
   }
   if (shape == "pulse") add("width", value(random));
+  if (shape == "noise") {
+    add("interval", value(random));
+    add("seed", random.below(1000));
+  }
   if (random.below(5) == 0) add("time", random.sign() * random.around(0.1, 10));
   if (random.below(5) == 0) add("offset", random.sign() * value(random));
   return table_value(std::move(entries));
@@ -81,6 +85,11 @@ TomlValue parameter_value(const Parameter& parameter, const std::vector<std::str
     for (int k = random.below(6); k >= 0; --k, u += random.below(5) == 0 ? 0 : random.around(0.1, 10))
       points.push_back(array_value({number_value(u), number_value(random.sign() * value(random))}));
     return array_value(std::move(points));
+  }
+  if (parameter.kind == Parameter::Kind::coefficients) {
+    std::vector<TomlValue> coefficients;
+    for (int k = random.below(4); k >= 0; --k) coefficients.push_back(number_value(random.below(4) == 0 ? 0 : random.sign() * value(random)));
+    return array_value(std::move(coefficients));
   }
   if (parameter.may_be_infinite && random.below(10) == 0) return string_value("inf");
   if (parameter.quantity == Quantity::number && random.below(2) == 0) return number_value(random.below(4));
@@ -165,6 +174,9 @@ TomlValue generated_scene(Random& random) {
     block ? blocks.push_back(name) : paths.push_back(name + ".force");
   }
   Entries simulate{{"stop", number_value(random.below(8) == 0 ? odd_number(random) : random.around(1, 30))}};
+  if (random.below(8) == 0 && !paths.empty())
+    simulate.emplace_back("stop_when", string_value(fmt::format("{} > {:g}", paths[static_cast<std::size_t>(random.below(static_cast<int>(paths.size())))],
+                                                                random.sign() * random.around(0.1, 10))));
   if (random.below(2) == 0) simulate.emplace_back("accuracy", number_value(std::pow(10, -1 - random.below(10))));
   if (random.below(4) == 0) simulate.emplace_back("start", number_value(random.below(2) == 0 ? odd_number(random) : random.uniform(-2, 2)));
   if (random.below(4) == 0) simulate.emplace_back("start_from", string_value(random.below(2) == 0 ? "rest" : "steady"));

@@ -347,4 +347,75 @@ scene.toml:4:101: error: `columns` names columns of a CSV file, but `table` name
   for (const Bad& bad : cases) check_messages(bad);
 }
 
+TEST_CASE("bad netlists: transfer functions and samples") {
+  const Bad cases[] = {
+      {R"~(y = { type = "transfer", in = "shaft.velocity" }
+)~",
+       R"~(
+scene.toml:4:1: error: a `transfer` needs `numerator`
+    4 | y = { type = "transfer", in = "shaft.velocity" }
+      | ^
+  coefficients of the powers of s, the highest first: ["0.1 s", 1] is 0.1 s + 1
+scene.toml:4:1: error: a `transfer` needs `denominator`
+    4 | y = { type = "transfer", in = "shaft.velocity" }
+      | ^
+  coefficients of the powers of s, the highest first: ["0.1 s", 1] is 0.1 s + 1
+)~"},
+      {R"~(y = { type = "transfer", in = "shaft.velocity", numerator = [], denominator = { s = 1 } }
+)~",
+       R"~(
+scene.toml:4:61: error: `numerator` has no coefficients
+    4 | y = { type = "transfer", in = "shaft.velocity", numerator = [], denominator = { s = 1 } }
+      |                                                             ^
+  coefficients of the powers of s, the highest first: ["0.1 s", 1] is 0.1 s + 1
+scene.toml:4:79: error: `denominator` must be an array of coefficients, but is a table
+    4 | y = { type = "transfer", in = "shaft.velocity", numerator = [], denominator = { s = 1 } }
+      |                                                                               ^
+  coefficients of the powers of s, the highest first: ["0.1 s", 1] is 0.1 s + 1
+)~"},
+      {R"~(y = { type = "transfer", in = "shaft.velocity", numerator = [1, 2, 3], denominator = [1, 2] }
+)~",
+       R"~(
+scene.toml:4:61: error: `numerator` has a higher degree than `denominator`: the transfer function would differentiate its input
+    4 | y = { type = "transfer", in = "shaft.velocity", numerator = [1, 2, 3], denominator = [1, 2] }
+      |                                                             ^
+)~"},
+      {R"~(y = { type = "transfer", in = "shaft.velocity", numerator = 1, denominator = [0, 2] }
+)~",
+       R"~(
+scene.toml:4:78: error: `denominator` begins with 0: its first coefficient, that of the highest power of s, must not be 0
+    4 | y = { type = "transfer", in = "shaft.velocity", numerator = 1, denominator = [0, 2] }
+      |                                                                              ^
+)~"},
+      {R"~(y = { type = "transfer", in = "shaft.velocity", numerator = [inf, 1], denominator = [1, "2 m", "3 s"] }
+)~",
+       R"~(
+scene.toml:4:62: error: the coefficient of s of `numerator` must be finite, but is infinite
+    4 | y = { type = "transfer", in = "shaft.velocity", numerator = [inf, 1], denominator = [1, "2 m", "3 s"] }
+      |                                                              ^
+)~"},
+      {R"~(y = { type = "transfer", in = "shaft.velocity", numerator = 1, denominator = ["0.1 s", 1, "5 Hz"] }
+)~",
+       R"~(
+scene.toml:4:91: error: the constant coefficient of `denominator`: s is in radians a second, found a frequency (Hz)
+    4 | y = { type = "transfer", in = "shaft.velocity", numerator = 1, denominator = ["0.1 s", 1, "5 Hz"] }
+      |                                                                                           ^
+  an angular frequency is `2*pi` times a frequency
+)~"},
+      {R"~(y = { type = "sample", in = "shaft.velocity", period = 0, quantum = "1 N*m" }
+z = { type = "sample", in = "shaft.velocity" }
+)~",
+       R"~(
+scene.toml:4:56: error: `period` must be greater than 0, but is 0
+    4 | y = { type = "sample", in = "shaft.velocity", period = 0, quantum = "1 N*m" }
+      |                                                        ^
+scene.toml:5:1: error: a `sample` needs `period`
+    5 | z = { type = "sample", in = "shaft.velocity" }
+      | ^
+  a time, in s
+)~"},
+  };
+  for (const Bad& bad : cases) check_messages(bad);
+}
+
 }  // namespace rheonet::test

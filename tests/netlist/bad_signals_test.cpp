@@ -100,7 +100,7 @@ scene.toml:19:45: error: `velocity` must be finite, but is infinite
 scene.toml:20:45: error: signal `velocity` has no shape
    20 | s = { type = "motion", at = "s", velocity = {} }
       |                                             ^
-  expected one of `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` or `table`
+  expected one of `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` or `table`
 scene.toml:21:47: error: a `chirp` signal needs `end_frequency`
    21 | t = { type = "motion", at = "t", velocity = { chirp = 1, frequency = 1 } }
       |                                               ^
@@ -110,7 +110,7 @@ scene.toml:21:47: error: a `chirp` signal needs `duration`
 scene.toml:22:45: error: signal `velocity` has no shape
    22 | u = { type = "motion", at = "u", velocity = { time = 1 } }
       |                                             ^
-  expected one of `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` or `table`
+  expected one of `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` or `table`
 scene.toml:23:64: error: `time` is not a number (NaN)
    23 | v = { type = "motion", at = "v", velocity = { step = 1, time = nan } }
       |                                                                ^
@@ -140,11 +140,11 @@ b = { type = "force", at = "b", force = { step = "time" } }
 scene.toml:2:45: error: `velocity`: there is no parameter `t`, and no expression is one of the time
     2 | a = { type = "motion", at = "a", velocity = "2*sin(3*t)" }
       |                                             ^
-  a signal that changes is a table, { sine = "1 m/s", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` and `table`
+  a signal that changes is a table, { sine = "1 m/s", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` and `table`
 scene.toml:3:50: error: `step`: there is no parameter `time`, and no expression is one of the time
     3 | b = { type = "force", at = "b", force = { step = "time" } }
       |                                                  ^
-  a signal that changes is a table, { sine = "1 N", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse` and `table`
+  a signal that changes is a table, { sine = "1 N", frequency = "2 Hz" }; there are `step`, `ramp`, `sine`, `cosine`, `square`, `triangle`, `chirp`, `pulse`, `noise` and `table`
 )~"},
       {"the name of a block, and names that are none",
        R"~(
@@ -199,6 +199,52 @@ scene.toml:4:60: error: the value of a point: expected a velocity (m/s), found a
 scene.toml:5:54: error: `sine`: expected a velocity (m/s), found a length (m)
     5 | d = { type = "motion", at = "d", velocity = { sine = "1 m", amplitude = 2, frequency = 1 } }
       |                                                      ^
+)~"},
+      {"noise",
+       R"~(
+[elements]
+a = { type = "motion", at = "a", velocity = { noise = 1 } }
+b = { type = "motion", at = "b", velocity = { noise = 1, interval = 0, seed = 1 } }
+c = { type = "motion", at = "c", velocity = { noise = 1, interval = "1 m", seed = 1.5 } }
+d = { type = "motion", at = "d", velocity = { noise = 1, interval = 1, seed = -1 } }
+e = { type = "motion", at = "e", velocity = { noise = "1 m", interval = 1, seed = 9007199254740994 } }
+f = { type = "motion", at = "f", velocity = { noise = 1, interval = 1, seed = 1, frequency = 2 } }
+g = { type = "motion", at = "g", velocity = { noise = 1, interval = 1, seed = "1 s" } }
+)~",
+       R"~(
+scene.toml:2:47: error: a `noise` signal needs `interval`
+    2 | a = { type = "motion", at = "a", velocity = { noise = 1 } }
+      |                                               ^
+  the time for which each value holds
+scene.toml:2:47: error: a `noise` signal needs `seed`
+    2 | a = { type = "motion", at = "a", velocity = { noise = 1 } }
+      |                                               ^
+  a whole number: signals of one seed have the same values
+scene.toml:3:69: error: `interval` must be greater than 0, but is 0 s
+    3 | b = { type = "motion", at = "b", velocity = { noise = 1, interval = 0, seed = 1 } }
+      |                                                                     ^
+scene.toml:4:69: error: `interval`: expected a time (s), found a length (m)
+    4 | c = { type = "motion", at = "c", velocity = { noise = 1, interval = "1 m", seed = 1.5 } }
+      |                                                                     ^
+scene.toml:4:83: error: `seed` must be a whole number from 0 to 9007199254740992, but is 1.5
+    4 | c = { type = "motion", at = "c", velocity = { noise = 1, interval = "1 m", seed = 1.5 } }
+      |                                                                                   ^
+scene.toml:5:79: error: `seed` must be a whole number from 0 to 9007199254740992, but is -1
+    5 | d = { type = "motion", at = "d", velocity = { noise = 1, interval = 1, seed = -1 } }
+      |                                                                               ^
+scene.toml:6:55: error: `noise`: expected a velocity (m/s), found a length (m)
+    6 | e = { type = "motion", at = "e", velocity = { noise = "1 m", interval = 1, seed = 9007199254740994 } }
+      |                                                       ^
+scene.toml:6:83: error: `seed` must be a whole number from 0 to 9007199254740992, but is 9007199254740994
+    6 | e = { type = "motion", at = "e", velocity = { noise = "1 m", interval = 1, seed = 9007199254740994 } }
+      |                                                                                   ^
+scene.toml:7:82: error: unknown key `frequency` of a `noise` signal
+    7 | f = { type = "motion", at = "f", velocity = { noise = 1, interval = 1, seed = 1, frequency = 2 } }
+      |                                                                                  ^
+  its keys are `noise`, `interval`, `seed`, `amplitude`, `time` and `offset`
+scene.toml:8:79: error: `seed`: expected a number without a unit, found a time (s)
+    8 | g = { type = "motion", at = "g", velocity = { noise = 1, interval = 1, seed = "1 s" } }
+      |                                                                               ^
 )~"},
   });
 }

@@ -143,7 +143,7 @@ TEST_CASE("a signal is a value or one shape with what that needs") {
   CHECK(alternatives[0]["$ref"] == "#/$defs/value");
   const json& table = alternatives[1];
   CHECK(table["oneOf"] ==
-        required({"step", "ramp", "sine", "cosine", "square", "triangle", "chirp", "pulse", "table"})["oneOf"]);
+        required({"step", "ramp", "sine", "cosine", "square", "triangle", "chirp", "pulse", "noise", "table"})["oneOf"]);
   CHECK(table["dependentRequired"]["sine"] == json::array({"frequency"}));
   CHECK(table["dependentRequired"]["pulse"] == json::array({"width"}));
   CHECK_FALSE(table["dependentRequired"].contains("step"));

@@ -63,6 +63,13 @@ TEST_CASE("signals: each shape, in SI") {
   CHECK(chirp.duration == 60);
   CHECK(chirp.phase == 1);
 
+  const auto noise = shape_of<Signal::Noise>("{ noise = \"3 mm/s\", interval = \"10 ms\", seed = 12, time = 1, offset = 2 }");
+  CHECK(noise.amplitude == 0.003);
+  CHECK(noise.interval == 0.01);
+  CHECK(noise.seed == 12);
+  CHECK(noise.time == 1);
+  CHECK(noise.offset == 2);
+
   const auto pulse = shape_of<Signal::Pulse>("{ pulse = 7, width = 0.25 }");
   CHECK(pulse.height == 7);
   CHECK(pulse.width == 0.25);

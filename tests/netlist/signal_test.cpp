@@ -1,5 +1,8 @@
 #include "core/netlist/signal.hpp"
 
+#include "core/netlist/noise.hpp"
+#include "core/netlist/time_point.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -53,6 +56,10 @@ struct Reference {
         s.frequency > 0 ? wrapped(angle(s.frequency, s.phase, s.time)) / turn / s.frequency : t - s.time;
     return s.offset + (within < s.width ? s.height : 0);
   }
+  long double operator()(const Signal::Noise& s) const {
+    if (t < s.time) return s.offset;
+    return s.offset + s.amplitude * noise_value(s.seed, static_cast<std::uint64_t>(std::floor((t - s.time) / s.interval)));
+  }
   long double operator()(const Signal::Table& s) const {
     if (t < s.time || s.times.empty()) return s.offset;
     const long double tau = t - s.time;
@@ -100,6 +107,8 @@ const std::vector<Signal>& examples() {
       Signal(Signal::Pulse{1.8, 0.27, 1.13, -17.3, 0.61, 0.3}),
       Signal(Signal::Pulse{1.8, 2.5, 1.13, 0, 0.61, 0.3}),
       Signal(Signal::Pulse{1.8, 0, 1.13, 0, 0.61, 0.3}),
+      Signal(Signal::Noise{1.7, 0.27, 3, 0.31, -0.4}),
+      Signal(Signal::Noise{-0.6, 0.61, 8, -11.3, 0.2}),
       Signal(Signal::Table{{0, 1, 2}, {0, 0.5, 0}, 0, 0}),
       Signal(Signal::Table{{0.3, 0.8, 0.8, 1.9, 2.2}, {-0.2, 0.7, 1.3, 0.4, 0.9}, 0.45, 0.15}),
       Signal(Signal::Table{{-1.1, 0.8, 1.7}, {0.4, 1.3, -0.6}, 0.45, 0.15}),
@@ -367,4 +376,60 @@ TEST_CASE("a stretch goes on smoothly beyond its ends") {
   CHECK(square.piece(0.25).value(0.2) == Approx(-1.3));
   const Signal triangle(Signal::Triangle{1.4, 2, 0, 0, 0.1});
   CHECK(triangle.piece(0).value(0.2) == Approx(0.1 + 1.4 * 1.6));
+}
+
+TEST_CASE("noise: number k of a seed, the same on every computer") {
+  // From an implementation of SplitMix64 in Python that gives its published first output for the seed 1234567, 6457827717110365317.
+  CHECK_EQ(noise_value(0, 0), 0.3048969727480645);
+  CHECK_EQ(noise_value(0, 2), -0.22575171804842886);
+  CHECK_EQ(noise_value(1, 0), -0.26362096869666096);
+  CHECK_EQ(noise_value(1, 1000), 0.6045047181910211);
+  CHECK_EQ(noise_value(7, 1), 0.29940867293691154);
+  CHECK_EQ(noise_value(9007199254740992, 1000), 0.5068919082950404);
+}
+
+TEST_CASE("noise: uniform, without correlation between its values and between seeds") {
+  constexpr int n = 20000;
+  double sum = 0, squares = 0, fourth = 0, next = 0, other = 0;
+  for (std::uint64_t k = 0; k < n; ++k) {
+    const double x = noise_value(3, k);
+    CHECK(std::abs(x) < 1);
+    sum += x;
+    squares += x * x;
+    fourth += x * x * x * x;
+    next += x * noise_value(3, k + 1);
+    other += x * noise_value(4, k);
+  }
+  const double four_deviations = 4 / std::sqrt(n);
+  CHECK(std::abs(sum / n) < four_deviations / std::sqrt(3.0));
+  CHECK(std::abs(squares / n - 1.0 / 3) < four_deviations * std::sqrt(4.0 / 45));
+  CHECK(std::abs(fourth / n - 1.0 / 5) < four_deviations * std::sqrt(1.0 / 9 - 1.0 / 25));
+  CHECK(std::abs(next / n) < four_deviations / 3);
+  CHECK(std::abs(other / n) < four_deviations / 3);
+}
+
+TEST_CASE("noise: intervals do not drift, and a late start drops none") {
+  const Signal noise(Signal::Noise{1, 0.1, 5, 0, 0});
+  for (const int k : {3, 1000, 1234567}) {
+    const double begin = noise.piece(k * 0.1 - 0.05).end;
+    CHECK_EQ(begin, k / 10.0);  // 0.3, and not 3 * 0.1, which is the next double
+    CHECK_EQ(noise.value(begin), noise_value(5, static_cast<std::uint64_t>(k)));
+    CHECK_EQ(noise.before(begin), noise_value(5, static_cast<std::uint64_t>(k) - 1));
+    CHECK_EQ(noise.seen_from(25).value(begin - 25 + 0.05), noise.value(begin + 0.05));
+  }
+}
+
+TEST_CASE("multiples of an interval are those of the decimal fraction that was typed") {
+  CHECK_EQ(beat(0, 3, 0.1).t, 0.3);
+  CHECK_EQ(beat(0, 7, 0.0025).t, 0.0175);
+  CHECK_EQ(beat(0, 12345, 1e-3).t, 12.345);
+  CHECK_EQ(beat(0, -3, 0.1).t, -0.3);
+  CHECK_EQ(beat(0, 3, 0.1).rest, doctest::Approx(0.3L - static_cast<long double>(0.3)).epsilon(1e-3));
+  CHECK_EQ(beat(-0.3, 6, 0.1).t, 0.3);
+  CHECK_EQ(beat(2, 5, 7).t, 37);
+  const double third = 1.0 / 3;  // no short fraction
+  CHECK_EQ(beat(0, 3, third).t, 1);
+  CHECK_EQ(beat(1, 1e6, third).t, doctest::Approx(1 + 1e6 / 3).epsilon(1e-15));
+  CHECK(std::isinf(beat(0, 1e300, 1e10).t));
+  CHECK_EQ(beat(0, 1e300, 1e-300).t, doctest::Approx(1));
 }

@@ -41,6 +41,9 @@ struct Transform {
   Signal::Shape operator()(Periodic s) const {
     return Periodic{value * s.amplitude, s.frequency / time, s.phase, time * s.time, value * s.offset + add};
   }
+  Signal::Shape operator()(Signal::Noise s) const {
+    return Signal::Noise{value * s.amplitude, time * s.interval, s.seed, time * s.time, value * s.offset + add};
+  }
   Signal::Shape operator()(Signal::Chirp s) const {
     return Signal::Chirp{value * s.amplitude, s.frequency / time,    s.end_frequency / time, time * s.duration, s.phase,
                          time * s.time,       value * s.offset + add};

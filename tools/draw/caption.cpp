@@ -137,6 +137,7 @@ struct Shape {
     return with("pulse ", s.height) + ", " + say(s.width, "s", typed) +
            (s.frequency > 0 ? ", " + say(s.frequency, "Hz", typed) : "") + beside(s.offset);
   }
+  std::string operator()(const Signal::Noise& s) const { return with("noise ±", s.amplitude) + ", " + say(s.interval, "s", typed) + beside(s.offset); }
   std::string operator()(const Signal::Table& s) const {
     return fmt::format("{}table, {} points", s.smooth ? "smooth " : "", s.times.size()) + beside(s.offset);
   }
@@ -261,7 +262,12 @@ Caption caption_of(const Scene& scene, int index, bool with_values, const Typed&
                                say(element.values[i], unit_of_parameter(scene, index, declaration.parameters[i]), typed)}});
   }
   for (const SceneBlock& block : scene.blocks) {
-    if (block.element == index && block.function) said.push_back({"", {shortened(block.function->text())}});
+    if (block.element != index) continue;
+    auto polynomial = block.coefficients.begin();
+    for (const Parameter& parameter : declaration.parameters) {
+      if (parameter.kind == Parameter::Kind::coefficients) said.push_back({parameter.symbol, {shortened(fmt::format("{:.4g}", fmt::join(*polynomial++, ", ")))}});
+    }
+    if (block.function) said.push_back({"", {shortened(block.function->text())}});
   }
   const bool several = said.size() > 1;
   for (auto& [symbol, lines] : said) {

@@ -66,6 +66,10 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
   const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const SceneBlock& one) { return one.element == index; });
   if (block != scene.blocks.end()) {
     if (block->function) values.push_back("out = " + block->function->text());
+    auto polynomial = block->coefficients.begin();
+    for (const Parameter& parameter : declaration.parameters) {
+      if (parameter.kind == Parameter::Kind::coefficients) values.push_back(fmt::format("{} = {:.10g}", parameter.name, fmt::join(*polynomial++, " ")));
+    }
     return {element.name, declaration.type, inputs_of(*block, scene), fmt::format("{}", fmt::join(values, "  "))};
   }
   return {element.name, declaration.type,

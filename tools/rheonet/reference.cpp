@@ -38,7 +38,7 @@ std::string unit(const Parameter& parameter, const Declaration& declaration, Dom
 }
 
 std::string units(const Parameter& parameter, const Declaration& declaration) {
-  if (parameter.unit == Parameter::Unit::own || parameter.kind == Parameter::Kind::expression || parameter.kind == Parameter::Kind::table) return "any";
+  if (parameter.unit == Parameter::Unit::own || parameter.unit == Parameter::Unit::divides || parameter.kind == Parameter::Kind::expression || parameter.kind == Parameter::Kind::table) return "any";
   if (parameter.unit == Parameter::Unit::input) return "of the input";
   if (parameter.unit == Parameter::Unit::output) return "of the output";
   const std::string translation = unit(parameter, declaration, Domain::translation);
@@ -63,6 +63,7 @@ std::string bounds(const Parameter& p) {
   if (p.kind == Parameter::Kind::characteristic) return "points";
   if (p.kind == Parameter::Kind::expression) return "an expression";
   if (p.kind == Parameter::Kind::table) return "points or a CSV file";
+  if (p.kind == Parameter::Kind::coefficients) return "coefficients";
   std::string text;
   if (std::isinf(p.lower)) {
     text = std::isinf(p.upper) ? "any" : "<= " + short_number(p.upper);

@@ -44,6 +44,9 @@ struct Words {
                        number(s.time, "s"), s.frequency > 0 ? ", again at " + number(s.frequency, "Hz") : "",
                        rest(s.phase, 0, s.offset, unit));
   }
+  std::string operator()(const Signal::Noise& s) const {
+    return fmt::format("noise of {}, new every {}, seed {}{}", number(s.amplitude, unit), number(s.interval, "s"), s.seed, rest(0, s.time, s.offset, unit));
+  }
   std::string operator()(const Signal::Table& s) const {
     return fmt::format("{}table of {} points over {} to {}{}", s.smooth ? "smooth " : "", s.times.size(), number(s.times.front(), "s"),
                        number(s.times.back(), "s"), rest(0, s.time, s.offset, unit));
