@@ -9,6 +9,7 @@
 
 #include "core/netlist/characteristic.hpp"
 #include "core/netlist/group_names.hpp"
+#include "core/netlist/laws.hpp"
 
 namespace rheonet {
 
@@ -106,8 +107,9 @@ bool Expander::entries(Locals& locals, const std::string& prefix, const Environm
     if (expanded) {
       ends.clear();
       for (const int index : final_plan.nodes) ends.push_back(node(locals, index));
-      expanded =
-          entry(final_plan, ends, joined(prefix, plan.name), {&locals.scope, environment, deeper, depth, nullptr});
+      // The element of a law has the path of the instance.
+      const std::string path = inside_.law && plan.name == law_element ? prefix : joined(prefix, plan.name);
+      expanded = entry(final_plan, ends, path, {&locals.scope, environment, deeper, depth, nullptr});
     }
     if (!expanded && depth == 0) failed_.insert(plan.name);
     good = good && expanded;
@@ -152,10 +154,13 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   element.a = ends.empty() ? ground : ends[0];
   element.b = plan.at ? ground : ends[1];
   element.at = plan.at;
+  const Declaration& declared = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  if (inside_.law && declared.ports == Declaration::Ports::block)
+    element.part = declared.inputs.integrates ? SceneElement::Part::state : SceneElement::Part::inner;
   element.spot = plan.spot;
   // A source (motion or force) has the force that it applies; any other element has the force applied to it.
   if (around.force)
-    around.force->push_back({static_cast<int>(scene_.elements.size()), context_.declarations[static_cast<std::size_t>(plan.declaration)]->is_source() ? -1.0 : 1.0});
+    around.force->push_back({static_cast<int>(scene_.elements.size()), declared.is_source() ? -1.0 : 1.0});
   scene_.elements.push_back(std::move(element));
   if (!without_values_) connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;

@@ -188,7 +188,7 @@ Json body_schema(Declarations declarations) {
     Json is_it{{"properties", {{"type", {{"enum", types_of(*declaration)}}}}}, {"required", {"type"}}};
     cases.push_back(if_then(std::move(is_it), declaration->type));
   }
-  types.push_back(text("the name of a model"));
+  types.push_back(text("the name of a model or a law"));
   for (const char* kind : {"series", "parallel"}) cases.push_back(if_then({{"required", {kind}}}, "group"));
   Json properties{{"type", {{"anyOf", std::move(types)}}}, {"at", reference("at")}, {"between", reference("between")},
                   {"domain", domain_schema("of its nodes")}};
@@ -269,8 +269,9 @@ Json model_schema() {
 Json law_schema() {
   Json state = object({{"start", described(reference("value"), "its value at the start, with its unit")}, {"rate", text("an expression")}});
   state["required"] = {"start", "rate"};
-  Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states and names in `where`")},
+  Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states, inputs and names in `where`")},
                         {"parameters", described(named(reference("value")), "parameters with their defaults")},
+                        {"inputs", list_of(text("the name of a signal, which each instance gives"), 1)},
                         {"where", described(named(text("an expression")), "names for parts of the expressions")},
                         {"states", described(named(std::move(state)), "rate(z) is the rate of the state z in other expressions")},
                         {"stores", text("the energy stored in it, an expression")},

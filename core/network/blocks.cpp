@@ -22,9 +22,9 @@ class Finder {
     if (scene_.without.empty()) return;
     open_ = acting_blocks(scene_);
     for (std::size_t b = 0; b < open_.size(); ++b) {
-      const std::string& block = scene_.elements[at(scene_.blocks[b].element)].name;
-      open_[b] = open_[b] && std::any_of(scene_.without.begin(), scene_.without.end(), [&](const EffectLeftOut& e) {
-        return e.effect == Effect::feedback && e.concerns(block);
+      const SceneElement& block = scene_.elements[at(scene_.blocks[b].element)];
+      open_[b] = open_[b] && block.part == SceneElement::Part::none && std::any_of(scene_.without.begin(), scene_.without.end(), [&](const EffectLeftOut& e) {
+        return e.effect == Effect::feedback && e.concerns(block.name);
       });
     }
   }
@@ -258,9 +258,9 @@ class Finder {
     if (place.role != Role::deflection && place.role != Role::rate && place.role != Role::force)
       throw SimulationError(
           scene_.elements[at(block.element)].spot,
-          fmt::format("block `{}` cannot take in `{}`: the force of `{}` is what all others at its node leave over; take "
+          fmt::format("{} cannot take in `{}`: the force of `{}` is what all others at its node leave over; take "
                       "in that of a spring or a dashpot beside it",
-                      scene_.elements[at(block.element)].name, scene_.sensed[at(record)].path,
+                      block_in_words(scene_.elements[at(block.element)]), scene_.sensed[at(record)].path,
                       scene_.elements[at(element)].name));
     block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, element, -1, record}), sign});
   }

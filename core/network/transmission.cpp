@@ -312,8 +312,8 @@ class Converter {
     const Record& record = whole_.sensed[at(input.index)];
     if (const auto nodes = across(record)) {
       const SceneElement& element = result_.elements[at(block.element)];
-      throw SimulationError(element.spot, fmt::format("block `{}` cannot take in `{}`: a transmission is between its ends; take in the motions of nodes `{}` and `{}`",
-                                                      element.name, record.path, node(nodes->first).name, node(nodes->second).name));
+      throw SimulationError(element.spot, fmt::format("{} cannot take in `{}`: a transmission is between its ends; take in the motions of nodes `{}` and `{}`",
+                                                      block_in_words(element), record.path, node(nodes->first).name, node(nodes->second).name));
     }
     input.sign *= factor_of(record);
   }

@@ -197,6 +197,7 @@ std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t wh
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
   if (const SceneFeed* feed = feed_of(scene, index, element.signal_parameters[which])) {
     const SceneBlock& block = scene.blocks[static_cast<std::size_t>(feed->block)];
+    if (block.function && scene.elements[static_cast<std::size_t>(block.element)].part != SceneElement::Part::none) return {shortened(block.function->text())};
     return {(feed->sign < 0 ? "from −" : "from ") + scene.elements[static_cast<std::size_t>(block.element)].name};
   }
   const Parameter& parameter =
