@@ -263,8 +263,12 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
     if (parameter.kind == Parameter::Kind::characteristic) {
-      plan.characteristic.emplace(entry->value, reader.find("smooth"), parameter, context_);
+      plan.characteristic.emplace(entry->value, reader.find("smooth"), nullptr, parameter, parameter.quantity, context_);
       continue;
+    }
+    if (parameter.may_be_curve && CharacteristicTemplate::may_be_friction(entry->value)) {
+      plan.characteristic.emplace(entry->value, reader.find("smooth"), reader.find("columns"), parameter, plan.quantity_of(parameter), context_);
+      if (!entry->value.is_string() || entry->value.text.ends_with(".csv")) continue;  // else `w` may be a parameter
     }
     if (parameter.kind == Parameter::Kind::expression) {
       if (expect_string(entry->value, "`" + name + "`", diagnostics, function_example)) plan.function = &entry->value;

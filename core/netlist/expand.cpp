@@ -188,11 +188,13 @@ bool Expander::fits_domain(const ElementTemplate& plan) {
 bool Expander::element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
-  if (parameter.kind == Parameter::Kind::characteristic) {
-    if (!plan.characteristic) return true;
-    values_[i] = 1;
+  const bool curve = parameter.kind == Parameter::Kind::characteristic || (parameter.may_be_curve && !(formula.given() && environment.find("w")));
+  if (curve && plan.characteristic) {
+    element.characteristic = plan.characteristic->evaluate(environment, context_);
     element.given.set(i);
-    return true;
+    double slope;
+    if (element.characteristic) values_[i] = parameter.may_be_curve ? element.characteristic->force(0, slope) : 1;
+    return element.characteristic != nullptr;
   }
   if (!formula.given()) {
     if (parameter.fallback && parameter.kind == Parameter::Kind::value && !plan.varies(i)) values_[i] = *parameter.fallback;
@@ -239,6 +241,8 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (!parameters[i].same_as.empty() && !plan.values[i].given() && !plan.varies(i))
       values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
+  for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i)
+    if (parameters[i].may_be_curve) values_[i] = not_given;  // as of a signal
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(values_)) {
       const Formula& formula = plan.values[index_of(misfit->parameter)];
@@ -248,7 +252,6 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     }
   }
   element.values = shared_values(plan.declaration);
-  if (plan.characteristic) element.characteristic = plan.characteristic->evaluate(environment, context_);
   for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i) {
     const double force = values_[i];
     if (parameters[i].kind != Parameter::Kind::initial || parameters[i].quantity != Quantity::force || std::isnan(force)) continue;
@@ -258,7 +261,7 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
                                "give the displacement at the start, `d0`");
     good = false;
   }
-  return element_signals(plan, environment, element) && good && (!plan.characteristic || element.characteristic);
+  return element_signals(plan, environment, element) && good;
 }
 
 /// The values of the element being made; shared with the last element of its type if they are equal.

@@ -97,6 +97,7 @@ Json parameter_schema(const Parameter& parameter) {
   const bool characteristic = parameter.kind == Parameter::Kind::characteristic;
   Json schema = described(reference(characteristic ? "characteristic" : parameter.takes_signal() ? "signal" : "value"), description);
   if (characteristic) return schema;
+  if (parameter.may_be_curve) schema = described({{"anyOf", {reference("signal"), table_schema("points [speed, value], or an expression over w")}}}, description);
   if (parameter.fallback && std::isfinite(*parameter.fallback)) schema["default"] = *parameter.fallback;
   // The bounds apply to numbers only; the value of a text is known only when the netlist is read.
   if (parameter.kind == Parameter::Kind::signal) return schema;
@@ -147,6 +148,7 @@ Json element_schema(const Declaration& declaration) {
     for (const std::string& name : names) properties[name] = parameter_schema(parameter);
     if (parameter.kind == Parameter::Kind::characteristic)
       properties["smooth"] = {{"type", "boolean"}, {"description", fmt::format("a monotone cubic spline through the points of `{}`", parameter.name)}};
+    if (parameter.may_be_curve) add_table_keys(properties, "speeds and of the values");
     if (parameter.kind == Parameter::Kind::table) add_table_keys(properties, "inputs and of the outputs");
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();

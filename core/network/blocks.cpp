@@ -125,7 +125,7 @@ class Finder {
   void add_parameter(const Network::Slider& slider, Network::VaryingParameter& varying) {
     const int e = slider.branch.element;
     const SceneElement& element = scene_.elements[at(e)];
-    if (const auto over = slider.component->over_velocity ? slider.component->over_velocity(slider.values) : std::nullopt;
+    if (const auto over = over_velocity(*slider.component, slider.law_values());
         over && over->parameter == varying.parameter) {
       varying.block = add_function(slider.branch, *over);
       return;
@@ -149,17 +149,18 @@ class Finder {
 
   /// Adds a block for a quantity of an element that depends on its displacement and velocity. Returns its index.
   int add_function(const Branch& branch, const MotionExpression& of) {
-    Environment names;
-    for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
-    const RunTimeExpression::Variable variables[] = {{"d", {}}, {"w", {}}, {"t", {}}};
-    auto expression = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
-    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
-    block.function = expression;
+    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = of.function};
+    if (!block.function) {
+      Environment names;
+      for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
+      const RunTimeExpression::Variable variables[] = {{"d", {}}, {"w", {}}, {"t", {}}};
+      block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
+    }
     for (const auto& [node, sign] : {std::pair{branch.a, 1.0}, std::pair{branch.b, -1.0}}) {
       if (node <= ground) continue;
       const int motion = motion_of(node), giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
       const int given = giver < 0 ? motion : -1;
-      if (expression->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
+      if (block.function->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
       if (giver >= 0) {
         block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign, 1});
       } else {

@@ -10,10 +10,10 @@ namespace rheonet {
 
 Reduced law_of(const Scene& scene, const SceneElement& element) {
   Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene, element));
-  if (law.component && element.characteristic && !law.component->with_characteristic.empty()) {
+  if (law.component) law.characteristic = element.characteristic;
+  if (law.characteristic && !law.component->with_characteristic.empty()) {
     law.component = find_component(law.component->with_characteristic);
     law.values.resize(law.component->declaration.parameters.size(), not_given);
-    law.characteristic = element.characteristic;
   }
   return law;
 }

@@ -191,7 +191,8 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
         network.sliders.back().values = law.values;
         network.sliders.back().varying.push_back({parameter, -1, 1});
       }
-      if (const auto over = law.component->over_velocity ? law.component->over_velocity(law.values) : std::nullopt) {
+      network.sliders.back().characteristic = law.characteristic.get();
+      if (const auto over = over_velocity(*law.component, {law.values, law.characteristic.get()})) {
         network.sliders.back().values = law.values;
         network.sliders.back().varying.push_back({over->parameter, -1, 1});
       }
@@ -280,7 +281,7 @@ void refuse_falling_friction(const Network& network) {
     }
   }
   for (const Network::Slider& slider : network.sliders) {
-    if (slider.component->over_velocity && slider.component->over_velocity(slider.values)) refuse_massless(slider.branch, "falls with");
+    if (over_velocity(*slider.component, slider.law_values())) refuse_massless(slider.branch, slider.characteristic ? "depends, by its curve, on" : "falls with");
   }
   for (const Network::Force& force : network.forces) {
     if (force.beside) refuse_massless({force.element, force.a, force.b}, "depends, by its damping, on");

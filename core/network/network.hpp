@@ -54,6 +54,9 @@ struct Network {
     const Component* component = nullptr;          ///< of its law
     std::vector<double> values = {};               ///< of its parameters; empty if all are constant
     std::vector<VaryingParameter> varying = {};
+    const Characteristic* characteristic = nullptr;  ///< of its friction over the speed
+
+    LawValues law_values() const { return {values, characteristic}; }
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
   /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).

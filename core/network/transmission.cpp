@@ -204,10 +204,11 @@ class Converter {
     }
     element.values = std::move(values);
     if (!element.characteristic) return;
-    for (const Parameter& parameter : declaration.parameters) {
-      if (parameter.kind != Parameter::Kind::characteristic) continue;
+    for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
+      const Parameter& parameter = declaration.parameters[k];
+      if (parameter.kind != Parameter::Kind::characteristic && !parameter.may_be_curve) continue;
       element.characteristic = std::make_shared<const Characteristic>(
-          element.characteristic->scaled(1 / own_unit(parameter.over, element.scale), 1 / own_unit(parameter.quantity, element.scale)));
+          element.characteristic->scaled(1 / own_unit(parameter.over, element.scale), 1 / factor(k)));
     }
   }
 

@@ -66,7 +66,8 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
   }
-  if (element.characteristic) values.push_back("force by its curve");
+  for (const Parameter& parameter : declaration.parameters)
+    if (element.characteristic && (parameter.kind == Parameter::Kind::characteristic || parameter.may_be_curve)) values.push_back(parameter.name + " by its curve");
   const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const SceneBlock& one) { return one.element == index; });
   if (block != scene.blocks.end()) {
     if (block->function) values.push_back("out = " + block->function->text());
