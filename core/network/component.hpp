@@ -251,6 +251,14 @@ struct MotionExpression {
   std::shared_ptr<const SwitchedFunction> function = {};  ///< in place of the expression
 };
 
+/// A law where signals give some of its parameters, in SI: expressions over d and w, as in MotionExpression, and over the names of its
+/// parameters.
+struct VaryingLaw {
+  std::string becomes;      ///< the component that it has then, of the role `force`
+  std::string force;        ///< force that it resists with
+  std::string stored = {};  ///< energy that it stores, without dissipation: what changes a parameter supplies the rest of its power; "": none
+};
+
 /// Everything that the simulator knows about an element type. Each file in components/ defines and registers one.
 struct Component {
   Declaration declaration = {};
@@ -260,6 +268,7 @@ struct Component {
   std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
+  std::optional<VaryingLaw> varying = {};  ///< if signals may give parameters of a deflection or rate law
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
   std::function<Box(std::span<const Dual>)> box = {};
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second. See transmission.hpp.

@@ -10,6 +10,8 @@ namespace rheonet {
 
 Reduced law_of(const Scene& scene, const SceneElement& element) {
   Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene, element));
+  const Component* declared = components()[at(element.declaration)];
+  if (declared->varying && law.component == declared && !element.signals.empty()) law.component = find_component(declared->varying->becomes);
   if (law.component) law.characteristic = element.characteristic;
   if (law.characteristic && !law.component->with_characteristic.empty()) {
     law.component = find_component(law.component->with_characteristic);
