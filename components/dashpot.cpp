@@ -45,6 +45,14 @@ struct Dashpot {
   }
 };
 
+/// The unit of a damping that varies is that of a linear dashpot.
+std::optional<Misfit> varying_as_expression(std::span<const double> v) {
+  if (!std::isnan(v[0]) || !std::isnan(v[3])) return {};
+  if (v[1] != 1) return Misfit{"flow_index", "must be 1 where `damping` varies"};
+  if (!std::isnan(v[2])) return Misfit{"d0", "needs a constant `damping`: start from the positions of the nodes"};
+  return {};
+}
+
 bool no_damping(std::span<const double> v) { return v[0] == 0; }
 
 const RegisterComponent register_dashpot({
@@ -55,7 +63,7 @@ const RegisterComponent register_dashpot({
             .parameters =
                 {
                     {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true,
-                     .flow_index = "flow_index", .symbol = "B",
+                     .flow_index = "flow_index", .may_vary = true, .from_block = true, .symbol = "B",
                      .description = "force at unit velocity (the consistency); 0 means no dashpot, inf a rigid link"},
                     {.name = "flow_index", .quantity = Quantity::number, .fallback = 1.0, .lower = 0.05, .lower_open = false,
                      .upper = 20, .symbol = "n",
@@ -67,12 +75,13 @@ const RegisterComponent register_dashpot({
                      .symbol = "f(w)", .description = "in place of `damping`: force over the velocity, 0 at rest; where it falls, both nodes need a mass or a motion"},
                 },
             .one_of = {"damping", "force"},
+            .check = varying_as_expression,
             .effects = {{Effect::viscosity, "damping", 0}},
             .summary = "dashpot, linear, with a power law or any characteristic",
             .law = "f = B abs(w)^n sgn(w), or f(w) through points",
             .equation = R"(f = B\,|w|^{n}\operatorname{sgn} w)",
             .source = "I. Newton 1687, W. Ostwald 1925, A. de Waele 1923; P. L. Dahl 1982, Eqs. 2, 3",
-            .notes = "Dissipates f w, stores nothing. The unit of B depends on n: N*(s/m)^n.",
+            .notes = "Dissipates f w, stores nothing. The unit of B depends on n: N*(s/m)^n.\nWith a `damping` that varies both nodes need a mass or a prescribed motion, and n is 1.",
         },
     .role = Role::rate,
     .limits = {{.when = "damping = 0", .becomes = "", .applies = no_damping, .values = {}},
@@ -81,6 +90,7 @@ const RegisterComponent register_dashpot({
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .with_characteristic = "nonlinear dashpot",
     .rate = rate_batch<Dashpot>,
+    .varying = VaryingLaw{.becomes = "law", .force = "damping*w"},
     .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.68 H.27 M.7 .5 H1", .solid = "M.47 .37 H.53 V.63 H.47 Z"},
 });
 

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "core/netlist/scene.hpp"
+#include "core/netlist/speed_curve.hpp"
 #include "core/network/component.hpp"
 #include "core/network/surrogate_laws.hpp"
 
@@ -20,10 +21,12 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
   return Misfit{"breakaway", "must be at least `coulomb`: under a force between the two the slider could neither stick nor slip"};
 }
 
-/// Stribeck's curve. Without the least number under the power, it would have no slope at rest for a shape below 2. Events at some speeds
+/// A curve of the netlist, or Stribeck's. Without the least number under the power, it would have no slope at rest for a shape below 2. Events at some speeds
 /// on the curve see to it that no step passes over it: from far outside, a step to the other side of rest would not notice it.
-std::optional<MotionExpression> stribeck(std::span<const double> v) {
-  if (v.size() < 6 || std::isnan(v[4])) return {};
+std::optional<MotionExpression> friction_over_speed(const LawValues& v) {
+  if (v.size() < 6) return {};  // a rigid link
+  if (v.characteristic && !std::isinf(v[1])) return MotionExpression{.expression = {}, .names = {}, .parameter = 0, .function = std::make_shared<const SpeedCurve>(*v.characteristic)};
+  if (std::isnan(v[4])) return {};
   const double breakaway = (std::isnan(v[1]) ? v[0] : v[1]) * (std::isnan(v[3]) ? 1 : v[3]);
   if (std::isinf(breakaway)) return {};  // a rigid link
   const std::string power = "((w/vs)^2 + 1e-30)^(n/2)", curve = "Fc + (Fs - Fc)*exp(-" + power + ")";
@@ -41,7 +44,7 @@ const RegisterComponent register_slider({
         {
             .type = "slider",
             .ports = Declaration::Ports::between,
-            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true,
+            .parameters = {{.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .over = Quantity::velocity, .may_vary = true, .may_be_curve = true,
                             .coefficient_with = "normal", .from_block = true, .symbol = "Fc",
                             .description = "force of sliding; 0 means no force, inf a rigid link; with `normal`, the coefficient of friction"},
                            {.name = "breakaway", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true,
@@ -66,6 +69,8 @@ const RegisterComponent register_slider({
                      "they share it with the least sum of squares within their bounds.\n"
                      "With `stribeck` it slides with f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w): from breakaway at rest down to Fc. Both nodes then "
                      "need a mass or a prescribed motion.\n"
+                     "`coulomb` may be a curve over the speed: an expression in w, or points (speed, force). Its value at rest is the breakaway force, "
+                     "unless `breakaway` or `peak` says otherwise. Beyond its points the last value holds. The nodes need a mass or a prescribed motion too.\n"
                      "A brake or a clutch is a slider with a `normal` that varies. Where it is below 0 the surfaces are apart: no force.",
         },
     .role = Role::slip,
@@ -75,7 +80,7 @@ const RegisterComponent register_slider({
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]) && !std::isinf(v[0]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[1], v[1]}; }}},
     .box = coulomb,
-    .over_velocity = stribeck,
+    .over_velocity = friction_over_speed,
     .drawing = {.outline = "M.24 .34 H.68 V.6 H.24 Z",
                 .lines = "M0 .5 H.24 M.12 .62 H.88 V.5 H1",
                 .thin = "M.2 .62 L.14 .7 M.3 .62 L.24 .7 M.4 .62 L.34 .7 M.5 .62 L.44 .7 M.6 .62 L.54 .7 M.7 .62 L.64 .7 "

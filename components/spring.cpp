@@ -26,6 +26,13 @@ struct Spring : MemorylessLaw {
 
 LinearSpring linear(std::span<const double> v) { return {.stiffness = v[0], .rest = v[1], .force = v[2], .displacement = v[3]}; }
 
+/// With a stiffness that varies it starts where the positions of its nodes say.
+std::optional<Misfit> varying_from_its_place(std::span<const double> v) {
+  const bool varies = std::isnan(v[0]) && std::isnan(v[4]);
+  if (varies && (!std::isnan(v[2]) || !std::isnan(v[3]))) return Misfit{std::isnan(v[2]) ? "d0" : "f0", "needs a constant `stiffness`: start from the positions of the nodes"};
+  return {};
+}
+
 bool no_stiffness(std::span<const double> v) { return v[0] == 0; }
 
 const RegisterComponent register_spring({
@@ -35,7 +42,7 @@ const RegisterComponent register_spring({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "k",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k",
                      .description = "force per displacement; 0 means no spring, inf a rigid link"},
                     {.name = "rest", .quantity = Quantity::position, .fallback = 0.0,
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "d0",
@@ -50,12 +57,13 @@ const RegisterComponent register_spring({
                      .symbol = "f(d)", .description = "in place of `stiffness`: force over the displacement beyond `rest`"},
                 },
             .one_of = {"stiffness", "force"},
+            .check = varying_from_its_place,
             .effects = {{Effect::elasticity, "stiffness", std::numeric_limits<double>::infinity()}},
             .summary = "spring, linear or with any characteristic",
             .law = "f = k (d - d0), or f(d - d0) through points",
             .equation = R"(f = k\,(d - d_0))",
             .source = "R. Hooke, De potentia restitutiva, 1678; P. L. Dahl 1982, Eq. 21",
-            .notes = "Stores k (d - d0)^2/2, or the work of its force from d0 on; dissipates nothing.\nBeyond its points a characteristic goes on straight.",
+            .notes = "Stores k (d - d0)^2/2, or the work of its force from d0 on; dissipates nothing.\nA `stiffness` that varies supplies k' (d - d0)^2/2 from outside; both nodes then need a mass or a prescribed motion.\nBeyond its points a characteristic goes on straight.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0", .becomes = "", .applies = no_stiffness, .values = {}},
@@ -64,6 +72,7 @@ const RegisterComponent register_spring({
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .with_characteristic = "nonlinear spring",
     .deflection = deflection_batch<Spring>,
+    .varying = VaryingLaw{.becomes = "law", .force = "stiffness*(d - rest)", .stored = "stiffness*(d - rest)^2/2"},
     .spring = linear,
     .drawing = {.lines = "M0 .5 H.14 L.19 .34 L.29 .66 L.39 .34 L.49 .66 L.59 .34 L.69 .66 L.79 .34 L.84 .5 H1"},
 });

@@ -144,17 +144,17 @@ void BlockSignals::refuse_undefined(double since) const {
     arguments.push_back(fmt::format("u{} = {:.6g}", k + 1, u));
   }
   throw SimulationError(network_->spot_of(block.element),
-                        fmt::format("{}, the output `{}` of block `{}` has no finite value, or no finite slope ({}, in SI)",
+                        fmt::format("{}, the output `{}` of {} has no finite value, or no finite slope ({}, in SI)",
                                     at_time(*network_->scene, undefined_at_), block.function->text(),
-                                    network_->scene->elements[at(block.element)].name, fmt::join(arguments, ", ")));
+                                    block_in_words(network_->scene->elements[at(block.element)]), fmt::join(arguments, ", ")));
 }
 
 void BlockSignals::refuse_steady(int index, const char* why) const {
   const int element = blocks_->blocks[at(index)].element;
   throw SimulationError(network_->spot_of(element),
-                        fmt::format("a start from rest or in steady motion is not known here: block `{}` {}; start from "
+                        fmt::format("a start from rest or in steady motion is not known here: {} {}; start from "
                                     "given values, and give it time to settle",
-                                    network_->scene->elements[at(element)].name, why));
+                                    block_in_words(network_->scene->elements[at(element)]), why));
 }
 
 }  // namespace rheonet

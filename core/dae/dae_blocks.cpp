@@ -136,11 +136,11 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
 
 double Dae::output_rate(int block) const {
   const BlockSignals& blocks = inputs_->blocks();
-  double sum = 0;
+  double sum = blocks.out(block).derivative;  // due to signals and prescribed motions, at held states and sensors
   for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(block, k) * blocks.rate(k);
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];
-    if (sensor.what == What::force) continue;
+    if (sensor.what == What::force || sensor.motion >= 0) continue;
     sum += blocks.slope(block, blocks.states() + k) *
            (sensor.what == What::position ? view_.velocity : view_.acceleration)[at(sensor.index)];
   }

@@ -191,7 +191,9 @@ double Dae::supplied_power() const {
   for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
-    if (f.resists) continue;
+    // What changes the stiffness of a spring supplies the energy that it gains beyond the work on it.
+    if (f.lossless()) power += output_rate(f.energy);
+    if (f.resists && !f.lossless()) continue;
     power += inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
   }
   return power;
@@ -217,7 +219,7 @@ double Dae::dissipated_power() const {
   // All power that such a force takes from the motion counts as heat here; `heat_of_laws` subtracts the part that it stores.
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
-    if (f.resists) power -= inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
+    if (f.resists && !f.lossless()) power -= inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));
   }
   return power;
 }
@@ -230,7 +232,7 @@ double Dae::heat_of_laws() const {
     }
   }
   for (const Network::Force& f : network_->forces) {
-    if (f.energy >= 0) heat -= output(f.energy);
+    if (f.energy >= 0 && !f.lossless()) heat -= output(f.energy);
   }
   return heat;
 }

@@ -49,31 +49,31 @@ std::vector<double> Characteristic::samples() {
   return result;
 }
 
-Characteristic::Characteristic(Function function) : function_(std::move(function)) {
+Characteristic::Characteristic(std::shared_ptr<const SwitchedFunction> expression, double by_x, double by_force)
+    : expression_(std::move(expression)), by_x_(by_x), by_force_(by_force) {
   double before = -infinite, slope;
   for (const double x : samples()) {
-    const double now = function_(x, slope);
+    const double now = force(x, slope);
     if (!falls_at_ && now < before) falls_at_ = x;
     before = now;
   }
 }
 
 Characteristic Characteristic::scaled(double by_x, double by_force) const {
-  if (function_) {
-    return Characteristic([function = function_, by_x, by_force](double x, double& slope) {
-      const double force = function(x / by_x, slope);
-      slope *= by_force / by_x;
-      return by_force * force;
-    });
-  }
+  if (expression_) return Characteristic(expression_, by_x_ * by_x, by_force_ * by_force);
   std::vector<double> x = x_, force = force_;
   for (double& one : x) one *= by_x;
   for (double& one : force) one *= by_force;
   return Characteristic(std::move(x), std::move(force), smooth_);
 }
 
-double Characteristic::force(double x, double& slope) const {
-  if (function_) return function_(x, slope);
+double Characteristic::force(double x, double& slope, std::span<const double> sides) const {
+  if (expression_) {
+    x /= by_x_;
+    const std::optional<double> force = expression_->value({&x, 1}, sides, {&slope, 1});
+    slope = force ? slope * (by_force_ / by_x_) : std::numeric_limits<double>::quiet_NaN();
+    return force ? by_force_ * *force : std::numeric_limits<double>::quiet_NaN();
+  }
   if (lines_) {
     const Polyline::Line& line = lines_->lines()[lines_->line_at(x)];
     slope = line.slope;
@@ -101,10 +101,10 @@ double Characteristic::integral(double x) const {
 }
 
 double Characteristic::work(double x) const {
-  if (!function_) return integral(x) - integral(0);
+  if (!expression_) return integral(x) - integral(0);
   const auto force_at = [this](double at) {
     double slope;
-    return function_(at, slope);
+    return force(at, slope);
   };
   double coarse = 0;
   for (int panels = 1; panels <= numerics::work_panels; panels *= 2) {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/base/numerics.hpp"
 #include "core/netlist/run_time_expression.hpp"
@@ -13,12 +15,13 @@ namespace rheonet {
 
 namespace {
 
-const char* const example = "[[0, 0], [0.01, 5], [0.02, 20]]";
+const char* example_of(const Parameter& parameter) { return parameter.may_be_curve ? "[[0, 0.5], [0.1, 0.4], [5, 0.35]]" : "[[0, 0], [0.01, 5], [0.02, 20]]"; }
 
 }  // namespace
 
-CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const Parameter& parameter, Context& context)
-    : source_(&source), parameter_(&parameter) {
+CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const TomlEntry* columns, const Parameter& parameter,
+                                               Quantity quantity, Context& context)
+    : source_(&source), parameter_(&parameter), quantity_(quantity) {
   const std::size_t before = context.diagnostics.errors();
   if (source.is_table()) {
     read_table(source, context);
@@ -32,6 +35,7 @@ CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const To
   } else {
     read_points(source, context);
   }
+  if (columns) read_columns(*columns, context);
   const auto take = [&](const TomlEntry& entry) {
     smooth_ = expect_boolean(entry.value, "`smooth`", context.diagnostics, "smooth = true") && entry.value.boolean;
   };
@@ -45,7 +49,7 @@ CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const To
 
 void CharacteristicTemplate::read_table(const TomlValue& source, Context& context) {
   TableReader reader(source, "`" + parameter_->name + "`");
-  const TomlEntry* table = reader.require("table", source.spot, fmt::format("{} = {{ table = {} }}", parameter_->name, example));
+  const TomlEntry* table = reader.require("table", source.spot, fmt::format("{} = {{ table = {} }}", parameter_->name, example_of(*parameter_)));
   const TomlEntry* columns = reader.find("columns");
   reader.find("smooth");
   reader.finish(context.diagnostics);
@@ -55,17 +59,27 @@ void CharacteristicTemplate::read_table(const TomlValue& source, Context& contex
   } else {
     read_points(table->value, context);
   }
-  if (columns) columns_ = read_column_names(*columns, file_name_.has_value(), argument(), "\"d\", \"force\"", context.diagnostics);
+  if (columns) read_columns(*columns, context);
+}
+
+void CharacteristicTemplate::read_columns(const TomlEntry& columns, Context& context) {
+  columns_ = read_column_names(columns, file_name_.has_value(), argument(), parameter_->may_be_curve ? "\"w\", \"mu\"" : "\"d\", \"force\"", context.diagnostics);
+}
+
+bool CharacteristicTemplate::may_be_friction(const TomlValue& value) {
+  if (!value.is_string()) return value.is_array();
+  const std::vector<std::string> names = identifiers_of(value.text);
+  return value.text.ends_with(".csv") || std::find(names.begin(), names.end(), "w") != names.end();
 }
 
 void CharacteristicTemplate::read_points(const TomlValue& source, Context& context) {
   const std::string& name = parameter_->name;
   if (!source.is_array()) {
     context.diagnostics.error(source.spot, fmt::format("`{}` must be an array of points or the name of a CSV file, but is {}", name, describe(source)),
-                              fmt::format("{} = {}", name, example));
+                              fmt::format("{} = {}", name, example_of(*parameter_)));
     return;
   }
-  points_ = read_table_points(source, argument(), name_of(parameter_->quantity, context.domain), context.diagnostics);
+  points_ = read_table_points(source, argument(), name_of(quantity_, context.domain), context.diagnostics);
 }
 
 std::shared_ptr<const Characteristic> CharacteristicTemplate::evaluate(const Environment& environment, Context& context) const {
@@ -82,7 +96,7 @@ std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers(c
   Numbers result;
   for (const TablePoints::Point& point : points_.points) {
     const auto x = point.x.evaluate_finite(environment, parameter_->over, context.domain, context.diagnostics);
-    const auto force = point.y.evaluate_finite(environment, parameter_->quantity, context.domain, context.diagnostics);
+    const auto force = point.y.evaluate_finite(environment, quantity_, context.domain, context.diagnostics);
     if (!x || !force) return {};
     result.x.push_back(*x);
     result.force.push_back(*force);
@@ -91,9 +105,9 @@ std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers(c
 }
 
 std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers_of_file(Context& context) const {
-  const auto file = read_table_file(*file_name_, columns_, {parameter_->over, argument(), "a force"}, context);
+  const auto file = read_table_file(*file_name_, columns_, {parameter_->over, argument(), quantity_ == Quantity::number ? "a coefficient" : "a force"}, context);
   if (!file) return {};
-  const auto factor = as_quantity(file->unit, parameter_->quantity, context.domain);
+  const auto factor = as_quantity(file->unit, quantity_, context.domain);
   if (const auto* wrong = std::get_if<TextError>(&factor)) {
     context.diagnostics.error(file_name_->spot, fmt::format("`{}`: {}", parameter_->name, wrong->message), "the unit is that of the header of the file");
     return {};
@@ -116,21 +130,19 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
   auto compiled = RunTimeExpression::compile(source_->text, {&argument, 1}, environment);
   if (const auto* wrong = std::get_if<TextError>(&compiled)) return refuse(wrong->offset, wrong->message, wrong->hint);
   auto expression = std::get<RunTimeExpression>(std::move(compiled));
-  const auto factor = as_quantity(expression.unit(), parameter_->quantity, context.domain);
+  const auto factor = as_quantity(expression.unit(), quantity_, context.domain);
   if (const auto* wrong = std::get_if<TextError>(&factor)) return refuse(0, wrong->message, wrong->hint);
   if (!expression.uses(0))
     return refuse(0, fmt::format("does not depend on `{}`, the {}", variable, over), "write an expression over `" + variable + "`, or points");
-  auto function = [expression = std::move(expression)](double x, double& slope) {
-    const std::optional<double> force = expression.value({&x, 1}, {}, {&slope, 1});
-    if (!force) slope = not_given;
-    return force.value_or(not_given);
-  };
-  const std::string unit = unit_of(parameter_->over, context.domain), force_unit = unit_of(parameter_->quantity, context.domain);
-  const auto is = [&](double force, double x) { return fmt::format("is {:.4g} {} at a {} of {:.4g} {}", force, force_unit, over, x, unit); };
+  auto result = std::make_shared<const Characteristic>(std::make_shared<const RunTimeExpression>(std::move(expression)));
+  const auto function = [&](double x, double& slope) { return result->force(x, slope); };
+  const std::string unit = unit_of(parameter_->over, context.domain), force_unit = unit_of(quantity_, context.domain);
+  const auto is = [&](double force, double x) { return fmt::format("is {:.4g}{} at a {} of {:.4g} {}", force, force_unit == "1" ? "" : " " + force_unit, over, x, unit); };
   double slope;
   if (!std::isfinite(function(0, slope)) || !std::isfinite(slope)) return refuse(0, fmt::format("has no finite value or slope at {} = 0", variable), "");
   for (const double x : Characteristic::samples()) {
     const double force = function(x, slope);
+    if (parameter_->may_be_curve && x > 0 && force < 0) return refuse(0, is(force, x) + ": friction is at least 0", "");
     if (!parameter_->resists || std::isnan(force)) continue;  // not defined everywhere
     if (x == 0 && force != 0) return refuse(0, is(force, 0) + ", where it must be 0", "");
     if (force * x < 0) return refuse(0, is(force, x) + ": it must resist the motion", "");
@@ -140,7 +152,20 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
     if (parameter_->resists && slow != 0 && slower / slow > numerics::rest_jump)
       return refuse(0, "jumps where the motion reverses: that is dry friction", "a `slider` sticks there; put one beside the dashpot");
   }
-  return std::make_shared<const Characteristic>(std::move(function));
+  if (parameter_->may_be_curve) {
+    double there = 0, back = 0, at = 0;
+    for (const double x : Characteristic::samples()) {
+      const double one = function(x, slope), other = function(-x, slope), apart = std::abs(one - other);
+      if (!(x > 0) || !std::isfinite(one) || apart <= numerics::equal_values * std::abs(one)) continue;
+      std::tie(there, back, at) = std::tuple(one, other, x);
+      if (!(apart <= (1 - numerics::rest_jump) * std::abs(one))) break;  // plain to see
+    }
+    if (at > 0) return refuse(0, fmt::format("{}, but {:.4g} in the other direction", is(there, at), back), "friction is the same in both directions: write `abs(w)` for `w`");
+    const double at_rest = function(0, slope), slow = function(1 / numerics::far_out, slope);
+    if (std::abs(slow - at_rest) > (1 - numerics::rest_jump) * std::max(std::abs(slow), std::abs(at_rest)))
+      return refuse(0, "jumps where the motion begins", "give the value at rest as `breakaway`");
+  }
+  return result;
 }
 
 Spot CharacteristicTemplate::spot_of(std::size_t point) const {
@@ -154,12 +179,17 @@ bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) con
     context.diagnostics.error(spot_of(point), fmt::format("`{}` {}", name, what), hint);
     return false;
   };
-  if (numbers.x.size() < 2) return refuse(0, "needs at least two points", fmt::format("{} = {}", name, example));
+  if (numbers.x.size() < 2) return refuse(0, "needs at least two points", fmt::format("{} = {}", name, example_of(*parameter_)));
   const auto resists = [&](std::size_t i) {
     return !parameter_->resists || numbers.x[i] * numbers.force[i] >= 0 ||
            refuse(i, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(numbers.force[i]), over, number_text(numbers.x[i])));
   };
   if (!resists(0)) return false;
+  if (parameter_->may_be_curve) {
+    if (numbers.x.front() != 0) return refuse(0, fmt::format("begins at a speed of {}, and its value at rest is not known", number_text(numbers.x.front())), "let the first point be at 0");
+    for (std::size_t i = 0; i < numbers.force.size(); ++i)
+      if (numbers.force[i] < 0) return refuse(i, fmt::format("is {} at a speed of {}: friction is at least 0", number_text(numbers.force[i]), number_text(numbers.x[i])));
+  }
   for (std::size_t i = 1; i < numbers.x.size(); ++i) {
     const double slope = (numbers.force[i] - numbers.force[i - 1]) / (numbers.x[i] - numbers.x[i - 1]);
     if (!(numbers.x[i] > numbers.x[i - 1]))

@@ -16,8 +16,13 @@ namespace rheonet {
 /// numbers are evaluated in an environment.
 class CharacteristicTemplate {
  public:
-  /// `smooth` is the entry of that name beside it in the element, nullptr if there is none.
-  CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const Parameter& parameter, Context& context);
+  /// `smooth` and `columns` are the entries of these names beside it in the element, nullptr if there are none. `quantity` is that of
+  /// its values.
+  CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const TomlEntry* columns, const Parameter& parameter, Quantity quantity,
+                         Context& context);
+
+  /// Whether a value may be friction over the speed: points, the name of a CSV file, or an expression over `w`.
+  static bool may_be_friction(const TomlValue& value);
 
   /// nullptr, with a mistake, if anything in it is wrong.
   std::shared_ptr<const Characteristic> evaluate(const Environment& environment, Context& context) const;
@@ -25,7 +30,8 @@ class CharacteristicTemplate {
  private:
   struct Numbers { std::vector<double> x, force; };
 
-  std::string argument() const { return parameter_->over == Quantity::velocity ? "velocity" : "displacement"; }
+  std::string argument() const { return parameter_->may_be_curve ? "speed" : parameter_->over == Quantity::velocity ? "velocity" : "displacement"; }
+  void read_columns(const TomlEntry& columns, Context& context);
   void read_table(const TomlValue& source, Context& context);
   void read_points(const TomlValue& source, Context& context);
   std::optional<Numbers> numbers(const Environment& environment, Context& context) const;
@@ -36,6 +42,7 @@ class CharacteristicTemplate {
 
   const TomlValue* source_;
   const Parameter* parameter_;
+  Quantity quantity_;
   bool sound_ = true, smooth_ = false;
   TablePoints points_;
   bool expression_ = false;

@@ -50,6 +50,7 @@ struct Parameter {
   Quantity over = Quantity::position;  ///< of a characteristic: what it is a function of
   bool resists = false;               ///< of a characteristic: it has the sign of its argument, and is 0 at 0
   bool may_vary = false;              ///< a signal may be given in place of a value; below `lower` it counts as `lower`
+  bool may_be_curve = false;          ///< a function of `over` may be given in place of a value: friction over the speed
   bool optional = false;              ///< may be absent, without a default
   std::string coefficient_with = {};  ///< where that parameter is given, this one is a number that multiplies it
   std::string not_with = {};          ///< a parameter that may not be given together with this one

@@ -20,6 +20,7 @@ const Parameter* find_parameter(const Declaration& declaration, const std::strin
   return nullptr;
 }
 
+const char* const law_input_example = " = { block = \"current\" }, a quantity of the network (\"motor.force\"), or a signal";
 const char* const function_example = "an expression over the inputs and the time: \"u1*u2\"";
 
 /// Describes a valid value of a missing parameter.
@@ -267,8 +268,12 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
     if (parameter.kind == Parameter::Kind::characteristic) {
-      plan.characteristic.emplace(entry->value, reader.find("smooth"), parameter, context_);
+      plan.characteristic.emplace(entry->value, reader.find("smooth"), nullptr, parameter, parameter.quantity, context_);
       continue;
+    }
+    if (parameter.may_be_curve && CharacteristicTemplate::may_be_friction(entry->value)) {
+      plan.characteristic.emplace(entry->value, reader.find("smooth"), reader.find("columns"), parameter, plan.quantity_of(parameter), context_);
+      if (!entry->value.is_string() || entry->value.text.ends_with(".csv")) continue;  // else `w` may be a parameter
     }
     if (parameter.kind == Parameter::Kind::expression) {
       if (expect_string(entry->value, "`" + name + "`", diagnostics, function_example)) plan.function = &entry->value;
@@ -325,9 +330,38 @@ void TemplateReader::read_instance(ElementTemplate& plan, Model& model, Scope* s
   for (const NamedFormula& parameter : model.parameters) {
     const TomlEntry* entry = parameter.formula.given()
                                  ? reader.find(parameter.name)
-                                 : reader.require(parameter.name, plan.spot, "the model gives it no default");
+                                 : reader.require(parameter.name, plan.spot, model.law ? "the law gives it no default" : "the model gives it no default");
     plan.values.push_back(entry ? Formula(entry->value, "`" + parameter.name + "`", context_.diagnostics) : Formula());
   }
+  for (const std::string& input : model.inputs)
+    if (const TomlEntry* entry = reader.require(input, plan.spot, input + law_input_example)) read_law_input(plan, *entry);
+}
+
+/// What an instance gives for an input of its law: a wire, or a signal, for which it gets a generator.
+void TemplateReader::read_law_input(ElementTemplate& plan, const TomlEntry& entry) {
+  const bool path = is_path_of_quantity(entry.value);
+  if (path || find_feed(entry.value)) {
+    auto wire = path ? read_wire(entry.value, "`" + entry.key + "`", context_.diagnostics) : read_block(entry.value, context_);
+    if (!wire) return;
+    wire->name = entry.key;
+    plan.inputs.push_back(std::move(*wire));
+    return;
+  }
+  const auto generates = [](const Declaration* d) { return d->ports == Declaration::Ports::block && d->inputs.most == 0 && d->parameters.front().kind == Parameter::Kind::signal; };
+  const auto found = std::find_if(context_.declarations.begin(), context_.declarations.end(), generates);
+  const std::size_t before = context_.diagnostics.errors();
+  ElementTemplate generator;
+  generator.name = entry.key;
+  generator.spot = entry.spot;
+  generator.source = &entry.value;
+  generator.in_model = plan.in_model;
+  generator.at = true;
+  generator.declaration = static_cast<int>(found - context_.declarations.begin());
+  generator.values.resize((*found)->parameters.size());
+  generator.signals.emplace_back(entry.value, entry.key, std::nullopt, context_);
+  generator.signal_parameters.push_back(0);
+  generator.sound = context_.diagnostics.errors() == before;
+  plan.members.push_back(std::move(generator));
 }
 
 void TemplateReader::read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader) {

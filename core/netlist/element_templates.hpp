@@ -57,13 +57,13 @@ struct ElementTemplate {
   std::vector<int> signal_parameters;
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
   std::optional<CharacteristicTemplate> characteristic;  ///< of an element
-  std::vector<SignalConnection> inputs;  ///< of a block
+  std::vector<SignalConnection> inputs;  ///< of a block; of an instance of a law those that are connected, with their names
   const TomlValue* function = nullptr;   ///< of a block: the expression of its output
   std::optional<LookupTemplate> lookup;  ///< of a block: the table of its output
   std::vector<CoefficientsTemplate> coefficients;  ///< of a block
   std::vector<SignalConnection> feeds;   ///< signals fed by the output of a block
 
-  std::vector<ElementTemplate> members;  ///< of a group
+  std::vector<ElementTemplate> members;  ///< of a group; of an instance of a law generators for the inputs that are signals
 
   /// Whether a signal or a block gives this parameter of an element.
   bool varies(std::size_t parameter) const;
@@ -94,13 +94,15 @@ struct Scope {
   const ElementTemplate* find(const std::string& name) const;
 };
 
-/// A model of `[models]`.
+/// A model of `[models]`, or one that stands for a law of `[laws]`.
 struct Model {
   std::string name;
   Spot spot;
   const TomlValue* source = nullptr;
   std::vector<std::string> ports;
   std::vector<NamedFormula> parameters;
+  bool law = false;
+  std::vector<std::string> inputs;  ///< of a law
   std::vector<std::size_t> order;  ///< order in which the parameters can be evaluated
   Scope scope;
   std::vector<Number> defaults;              ///< of the parameters; NaN if absent or invalid
@@ -124,6 +126,7 @@ class TemplateReader {
  private:
   void read_element(ElementTemplate& plan, const TomlEntry& type, const Declaration& declaration, Scope* scope, TableReader& reader);
   void read_instance(ElementTemplate& plan, Model& model, Scope* scope, TableReader& reader);
+  void read_law_input(ElementTemplate& plan, const TomlEntry& entry);
   void read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader);
   void read_place(ElementTemplate& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, TableReader& reader);
   void read_support(ElementTemplate& plan, Scope* scope, TableReader& reader);

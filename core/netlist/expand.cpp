@@ -9,6 +9,7 @@
 
 #include "core/netlist/characteristic.hpp"
 #include "core/netlist/group_names.hpp"
+#include "core/netlist/laws.hpp"
 
 namespace rheonet {
 
@@ -106,8 +107,9 @@ bool Expander::entries(Locals& locals, const std::string& prefix, const Environm
     if (expanded) {
       ends.clear();
       for (const int index : final_plan.nodes) ends.push_back(node(locals, index));
-      expanded =
-          entry(final_plan, ends, joined(prefix, plan.name), {&locals.scope, environment, deeper, depth, nullptr});
+      // The element of a law has the path of the instance.
+      const std::string path = inside_.law && plan.name == law_element ? prefix : joined(prefix, plan.name);
+      expanded = entry(final_plan, ends, path, {&locals.scope, environment, deeper, depth, nullptr});
     }
     if (!expanded && depth == 0) failed_.insert(plan.name);
     good = good && expanded;
@@ -153,10 +155,13 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   element.b = plan.at ? ground : ends[1];
   if (ends.size() == 3) element.support = ends[2];
   element.at = plan.at;
+  const Declaration& declared = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  if (inside_.law && declared.ports == Declaration::Ports::block)
+    element.part = declared.inputs.integrates ? SceneElement::Part::state : SceneElement::Part::inner;
   element.spot = plan.spot;
   // A source (motion or force) has the force that it applies; any other element has the force applied to it.
   if (around.force)
-    around.force->push_back({static_cast<int>(scene_.elements.size()), context_.declarations[static_cast<std::size_t>(plan.declaration)]->is_source() ? -1.0 : 1.0});
+    around.force->push_back({static_cast<int>(scene_.elements.size()), declared.is_source() ? -1.0 : 1.0});
   scene_.elements.push_back(std::move(element));
   if (!without_values_) connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;
@@ -184,11 +189,13 @@ bool Expander::fits_domain(const ElementTemplate& plan) {
 bool Expander::element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element) {
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
-  if (parameter.kind == Parameter::Kind::characteristic) {
-    if (!plan.characteristic) return true;
-    values_[i] = 1;
+  const bool curve = parameter.kind == Parameter::Kind::characteristic || (parameter.may_be_curve && !(formula.given() && environment.find("w")));
+  if (curve && plan.characteristic) {
+    element.characteristic = plan.characteristic->evaluate(environment, context_);
     element.given.set(i);
-    return true;
+    double slope;
+    if (element.characteristic) values_[i] = parameter.may_be_curve ? element.characteristic->force(0, slope) : 1;
+    return element.characteristic != nullptr;
   }
   if (!formula.given()) {
     if (parameter.fallback && parameter.kind == Parameter::Kind::value && !plan.varies(i)) values_[i] = *parameter.fallback;
@@ -235,6 +242,8 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (!parameters[i].same_as.empty() && !plan.values[i].given() && !plan.varies(i))
       values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
+  for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i)
+    if (parameters[i].may_be_curve) values_[i] = not_given;  // as of a signal
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(values_)) {
       const Formula& formula = plan.values[index_of(misfit->parameter)];
@@ -244,7 +253,6 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     }
   }
   element.values = shared_values(plan.declaration);
-  if (plan.characteristic) element.characteristic = plan.characteristic->evaluate(environment, context_);
   for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i) {
     const double force = values_[i];
     if (parameters[i].kind != Parameter::Kind::initial || parameters[i].quantity != Quantity::force || std::isnan(force)) continue;
@@ -254,7 +262,7 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
                                "give the displacement at the start, `d0`");
     good = false;
   }
-  return element_signals(plan, environment, element) && good && (!plan.characteristic || element.characteristic);
+  return element_signals(plan, environment, element) && good;
 }
 
 /// The values of the element being made; shared with the last element of its type if they are equal.

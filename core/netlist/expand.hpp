@@ -56,6 +56,14 @@ class Expander {
     std::vector<NodeId> ids;
   };
 
+  /// The instance being expanded, to resolve its wires.
+  struct Inside {
+    std::string path;                                  ///< path of the instance; "" at the top level
+    std::unordered_map<std::string, std::string> ports;  ///< ports of the model, with their names in the scene
+    const Model* law = nullptr;                          ///< the law, if it is an instance of one
+    std::unordered_map<std::string, LooseEnd> inputs;    ///< of a law, where wires give them
+  };
+
   // Each returns false if the entry that it expands has a mistake.
   bool entries(Locals& locals, const std::string& prefix, const Environment& environment,
                const ActiveOverrides& overrides, int depth);
@@ -76,6 +84,8 @@ class Expander {
   void connection(const ElementTemplate& plan, const Environment& environment, int element);
   void polynomials(const ElementTemplate& plan, const Environment& environment);
   std::string path_of(const SignalConnection& connection) const;
+  LooseEnd end_of(const SignalConnection& input, int block, int element) const;
+  bool law_inputs(const ElementTemplate& plan, const std::string& path, const Surroundings& around, Inside& inside);
   bool instance_parameters(const ElementTemplate& plan, const Environment& around, Environment& inside);
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);
   std::size_t begin_assembly(const ElementTemplate& plan, Ends ends, const std::string& path);
@@ -103,11 +113,6 @@ class Expander {
   const DomainOfElement* domains_ = nullptr;  ///< if elements may be in different domains
   std::optional<Domain> domain_;              ///< given by the entry being expanded, or by what it is in
   LooseEnds loose_;
-  /// The instance being expanded, to resolve its wires.
-  struct Inside {
-    std::string path;                                  ///< path of the instance; "" at the top level
-    std::unordered_map<std::string, std::string> ports;  ///< ports of the model, with their names in the scene
-  };
   Inside inside_;
   std::unordered_map<NodeId, std::string> port_names_;  ///< of the node ids that stand for first ports
   NodeId next_port_ = -1;  ///< next id to stand for the first port of an instance during its expansion

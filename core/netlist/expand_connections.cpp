@@ -15,6 +15,29 @@ std::string Expander::path_of(const SignalConnection& connection) const {
   return port->second + (dot == connection.path.npos ? "" : connection.path.substr(dot));
 }
 
+/// The end of a wire into a block. An input of a law comes from outside the law.
+LooseEnd Expander::end_of(const SignalConnection& input, int block, int element) const {
+  const auto given = inside_.inputs.find(input.path);
+  LooseEnd end = given == inside_.inputs.end() ? LooseEnd{&input, path_of(input), inside_.path} : given->second;
+  end.block = block;
+  end.element = element;
+  return end;
+}
+
+/// Resolves the wires to the inputs of a law where the instance stands, and makes generators for the inputs that are signals.
+bool Expander::law_inputs(const ElementTemplate& plan, const std::string& path, const Surroundings& around, Inside& inside) {
+  for (const SignalConnection& input : plan.inputs) inside.inputs.emplace(input.name, LooseEnd{&input, path_of(input), inside_.path});
+  bool good = true;
+  for (const ElementTemplate& generator : plan.members) {
+    if (element(generator, {}, path + '.' + generator.name, around)) {
+      scene_.elements.back().part = SceneElement::Part::inner;
+    } else {
+      good = false;
+    }
+  }
+  return good;
+}
+
 void Expander::connection(const ElementTemplate& plan, const Environment& environment, int element) {
   for (const SignalConnection& feed : plan.feeds) loose_.ends.push_back({&feed, path_of(feed), inside_.path, -1, element});
   const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
@@ -25,14 +48,14 @@ void Expander::connection(const ElementTemplate& plan, const Environment& enviro
     const auto parameters = std::make_shared<Environment>();
     for (const Environment* level = &environment; level; level = level->outer)
       parameters->names.insert(level->names.begin(), level->names.end());  // inner names hide outer ones
-    loose_.functions.push_back({block, plan.function, parameters, {}, inside_.path, {}});
+    loose_.functions.push_back({block, plan.function, parameters, {}, inside_.path, {}, inside_.law});
     for (const SignalConnection& input : plan.inputs) loose_.functions.back().names.push_back(input.name);
   }
   if (plan.lookup) {
     if (auto made = plan.lookup->evaluate(environment, context_)) loose_.functions.push_back({block, &plan.lookup->source(), {}, std::move(*made), inside_.path, {}});
   }
   polynomials(plan, environment);
-  for (const SignalConnection& input : plan.inputs) loose_.ends.push_back({&input, path_of(input), inside_.path, block, element});
+  for (const SignalConnection& input : plan.inputs) loose_.ends.push_back(end_of(input, block, element));
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Formula& formula = plan.values[i];
     if (declaration.parameters[i].unit == Parameter::Unit::quantity || !formula.given()) continue;

@@ -5,6 +5,7 @@
 #include "core/netlist/counting.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/group_names.hpp"
+#include "core/netlist/laws.hpp"
 
 namespace rheonet {
 
@@ -125,13 +126,15 @@ bool Expander::instance(const ElementTemplate& plan, Ends ends, const std::strin
   Environment environment{.names = {}, .outer = model.environment};
   if (!instance_parameters(plan, around.environment, environment)) return false;
 
-  const bool assembled = model.ports.size() == 2;
+  const bool assembled = model.ports.size() == 2 && !model.law;
   const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;
   Locals locals{model.scope, path, {ends.begin(), ends.end()}};
-  Inside inside{path, {}};
+  Inside inside{.path = path, .ports = {}, .law = model.law ? &model : nullptr, .inputs = {}};
+  if (model.law && !law_inputs(plan, path, around, inside)) return false;
   for (std::size_t i = 0; i < ends.size(); ++i)
     inside.ports[model.ports[i]] =
         ends[i] < 0 ? port_names_.at(ends[i]) : scene_.nodes[static_cast<std::size_t>(ends[i])].name;
+  if (model.law) inside.ports[law_element] = path;
   const NodeId port = next_port_;
   if (assembled) port_names_[port] = inside.ports.at(model.ports[0]);
   std::swap(inside_, inside);
@@ -146,6 +149,7 @@ bool Expander::instance(const ElementTemplate& plan, Ends ends, const std::strin
   const DiagnosticList::Within within(context_.diagnostics, path);
   const bool good = entries(locals, path, environment, around.overrides, around.depth + 1);
   std::swap(inside_, inside);
+  if (model.law && good && around.force) around.force->push_back({static_cast<int>(scene_.elements.size()) - 1, 1});
   if (assembled) {
     ++next_port_;
     end_assembly(assembly, take_port_forces(port, ends[0], first_element, first_assembly), around);

@@ -29,6 +29,7 @@ Number number_in(double value, const Unit& unit);
 struct Environment {
   std::map<std::string, Number, std::less<>> names;
   const Environment* outer = nullptr;
+  std::string known = {};  ///< lists them, in the hint of an unknown name
 
   const Number* find(std::string_view name) const;
 };

@@ -83,12 +83,12 @@ Number ExpressionRules::look_up(const ExpressionCode::Variable& variable, const 
     unknown(fmt::format("`{0}` is a function: write `{0}({1})`", name, function->arguments));
   if (std::holds_alternative<Unit>(parse_unit(name)))
     fail(at, fmt::format("there is no parameter `{}`, and a unit cannot stand in an expression", name),
-         fmt::format("a quantity is one number, a space and a unit: \"0.5 {}\"", name));
+         environment.known.empty() ? fmt::format("a quantity is one number, a space and a unit: \"0.5 {}\"", name) : environment.known);
   std::vector<std::string> names{"pi"};
   add_names(environment, names);
   const std::string meant = nearest(name, names);
-  fail(at, fmt::format("unknown name `{}`", name),
-       meant.empty() ? "it must be a parameter" : fmt::format("did you mean `{}`?", meant));
+  const std::string known = environment.known.empty() && meant.empty() ? "it must be a parameter" : environment.known;
+  fail(at, fmt::format("unknown name `{}`", name), (meant.empty() ? "" : fmt::format("did you mean `{}`?", meant) + (known.empty() ? "" : " ")) + known);
 }
 
 std::size_t ExpressionRules::operands(const ExpressionCode::Instruction& instruction) {

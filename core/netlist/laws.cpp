@@ -4,11 +4,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/netlist/characters.hpp"
+#include "core/netlist/dependency_order.hpp"
 #include "core/netlist/expression_code.hpp"
+#include "core/netlist/expression_rules.hpp"
 #include "core/netlist/table_reader.hpp"
 #include "core/netlist/values.hpp"
 
@@ -16,6 +20,7 @@ namespace rheonet {
 
 namespace {
 
+const char* const inputs_example = "inputs = [\"u\"]";
 const char* const state_example = "states = { z = { start = \"0 m\", rate = \"w - ...\" } }";
 
 TomlValue text_at(Spot spot, std::string text) {
@@ -36,7 +41,12 @@ TomlValue table_at(Spot spot, std::vector<TomlEntry> entries) {
 
 class LawReader {
  public:
-  LawReader(const TomlEntry& law, DiagnosticList& diagnostics) : law_(law), diagnostics_(diagnostics) {}
+  /// `parameters` are those of the file; nullptr if it has none.
+  LawReader(const TomlEntry& law, const TomlEntry* parameters, DiagnosticList& diagnostics) : law_(law), diagnostics_(diagnostics) {
+    if (!parameters) return;
+    for (const TomlEntry& entry : parameters->value.entries) of_file_.names.emplace(entry.key, Number{});
+    of_file_parameters_ = !of_file_.names.empty();
+  }
 
   /// The model; absent, with a mistake, if the law has one.
   std::optional<TomlEntry> model() {
@@ -48,19 +58,23 @@ class LawReader {
     const TomlEntry* states = reader.find("states");
     const TomlEntry* force = reader.require("force", law_.spot, "force = \"k*d + c*w\", an expression over the displacement d and the velocity w");
     const TomlEntry* stores = reader.find("stores");
-    if (const TomlEntry* inputs = reader.find_quietly("inputs"))
-      diagnostics_.error(inputs->spot, "a law has no `inputs`", "what it depends on besides d, w, t and its states is a parameter");
-    reader.find("inputs");
+    const TomlEntry* inputs = reader.find("inputs");
     for (const char* about : {"summary", "source"})
       if (const TomlEntry* entry = reader.find(about)) expect_string(entry->value, fmt::format("`{}`", about), diagnostics_);
     reader.finish(diagnostics_);
     if (where && expect_table(where->value, "`where`", diagnostics_, "where = { g = \"Fc + (Fs - Fc)*exp(-(w/vs)^2)\" }"))
-      for (const TomlEntry& entry : where->value.entries) name(entry, "a name in `where`");
+      for (const TomlEntry& entry : where->value.entries) name(entry.key, entry.spot, "a name in `where`");
     if (states && expect_table(states->value, "`states`", diagnostics_, state_example))
-      for (const TomlEntry& entry : states->value.entries) name(entry, "a state");
-    if (parameters && parameters->value.is_table())
-      for (const TomlEntry& entry : parameters->value.entries) check_parameter(entry);
+      for (const TomlEntry& entry : states->value.entries) name(entry.key, entry.spot, "a state");
+    if (inputs && expect_array(inputs->value, "`inputs`", diagnostics_, inputs_example))
+      for (const TomlValue& item : inputs->value.items)
+        if (expect_string(item, "the name of an input", diagnostics_, inputs_example)) name(item.text, item.spot, "an input");
+    if (parameters) {
+      for (const TomlEntry& entry : parameters->value.entries) check_parameter(entry.key, entry.spot);
+      for (const TomlValue& item : parameters->value.items) check_parameter(item.text, item.spot);
+    }
     if (diagnostics_.errors() > before) return {};
+    list_known();
 
     if (where)
       for (const TomlEntry& entry : where->value.entries) add_function(entry.key, entry.value);
@@ -74,9 +88,14 @@ class LawReader {
       add_function("E", stores->value);
       element.push_back({"stores", stores->spot, from("E", stores->spot)});
     }
-    elements_.push_back({"law", law_.spot, table_at(law_.spot, std::move(element))});
+    elements_.push_back({law_element, law_.spot, table_at(law_.spot, std::move(element))});
+    refuse_circles();
+    if (inputs)
+      for (const TomlValue& item : inputs->value.items)
+        if (!used_.contains(item.text)) diagnostics_.warning(item.spot, fmt::format("law `{}` does not use its input `{}`", law_.key, item.text), "use it, or leave it out");
     std::vector<TomlEntry> model{{"ports", law_.spot, ports()}};
     if (parameters) model.push_back(*parameters);
+    if (inputs) model.push_back(*inputs);
     model.push_back({"elements", law_.spot, table_at(law_.spot, std::move(elements_))});
     if (diagnostics_.errors() > before) return {};
     return TomlEntry{law_.key, law_.spot, table_at(law_.value.spot, std::move(model))};
@@ -93,25 +112,61 @@ class LawReader {
 
   static TomlValue from(const std::string& block, Spot spot) { return table_at(spot, {{"block", spot, text_at(spot, block)}}); }
 
-  void check_parameter(const TomlEntry& entry) {
+  void check_parameter(const std::string& called, Spot spot) {
     for (const char* taken : {"d", "w", "t"}) {
-      if (entry.key == taken) diagnostics_.error(entry.spot, fmt::format("a parameter of a law cannot be called `{}`", taken), "d, w and t are its displacement, its velocity and the time");
+      if (called == taken) diagnostics_.error(spot, fmt::format("a parameter of a law cannot be called `{}`", taken), "d, w and t are its displacement, its velocity and the time");
     }
-    if (std::find(names_.begin(), names_.end(), entry.key) != names_.end())
-      diagnostics_.error(entry.spot, fmt::format("`{}` is a parameter of law `{}`, and a state or a name in `where` too", entry.key, law_.key), "rename one of them");
+    if (std::find(names_.begin(), names_.end(), called) != names_.end())
+      diagnostics_.error(spot, fmt::format("`{}` is a parameter of law `{}`, and a state, an input or a name in `where` too", called, law_.key), "rename one of them");
+    parameters_.push_back(called);
   }
 
-  /// Takes the name of a state or of an entry of `where`.
-  void name(const TomlEntry& entry, const std::string& what) {
-    if (!expect_identifier(entry.key, entry.spot, what, diagnostics_)) return;
-    for (const char* taken : {"d", "w", "t", "f", "E", "law"}) {
-      if (entry.key != taken) continue;
-      diagnostics_.error(entry.spot, fmt::format("{} cannot be called `{}`", what, taken), "d, w, t, f, E and law have a meaning in every law");
+  /// Takes the name of a state, an input or an entry of `where`.
+  void name(const std::string& called, Spot spot, const std::string& what) {
+    if (!expect_identifier(called, spot, what, diagnostics_)) return;
+    for (const char* taken : {"d", "w", "t", "f", "E", law_element}) {
+      if (called != taken) continue;
+      diagnostics_.error(spot, fmt::format("{} cannot be called `{}`", what, taken), "d, w, t, f, E and law have a meaning in every law");
     }
-    if (std::find(names_.begin(), names_.end(), entry.key) != names_.end())
-      diagnostics_.error(entry.spot, fmt::format("`{}` is named twice in law `{}`", entry.key, law_.key));
-    names_.push_back(entry.key);
-    if (what == "a state") states_.push_back(entry.key);
+    if (std::find(names_.begin(), names_.end(), called) != names_.end())
+      diagnostics_.error(spot, fmt::format("`{}` is named twice in law `{}`", called, law_.key));
+    if (is_rate(called))
+      diagnostics_.error(spot, fmt::format("{} cannot be called `{}`: that is kept for the rate of the state `{}`", what, called, called.substr(0, called.size() - 5)), "rename it");
+    names_.push_back(called);
+    if (what == "a state") states_.push_back(called);
+  }
+
+  /// Whether the name is that of the function for the rate of a state.
+  bool is_rate(const std::string& called) const {
+    return called.ends_with("_rate") && std::find(states_.begin(), states_.end(), called.substr(0, called.size() - 5)) != states_.end();
+  }
+
+  /// The names that the expressions may use.
+  void list_known() {
+    std::vector<std::string> shown{"d", "w", "t"};
+    shown.insert(shown.end(), parameters_.begin(), parameters_.end());
+    for (const std::string& one : names_) shown.push_back(one);
+    for (const std::string& state : states_) shown.push_back("rate(" + state + ")");
+    for (const std::string& one : shown) known_.names.emplace(one, Number{});
+    for (const std::string& state : states_) known_.names.emplace(state + "_rate", Number{});
+    known_.outer = &of_file_;
+    known_.known = "known here are " + list_names(shown, "and") + (of_file_parameters_ ? ", and the [parameters] of the file" : "");
+  }
+
+  /// Reports functions that need each other at one instant.
+  void refuse_circles() {
+    std::vector<std::vector<std::size_t>> uses;
+    for (const Function& function : functions_) {
+      std::vector<std::size_t>& used = uses.emplace_back();
+      for (std::size_t k = 0; k < functions_.size(); ++k)
+        if (std::find(function.uses.begin(), function.uses.end(), functions_[k].name) != function.uses.end()) used.push_back(k);
+    }
+    for (const auto& cycle : dependency_order(uses).cycles) {
+      std::string path;
+      for (const std::size_t k : cycle) path += law_part(functions_[k].name) + " -> ";
+      diagnostics_.error(functions_[cycle.front()].spot, fmt::format("expressions of law `{}` depend on each other in a circle: {}{}", law_.key, path, law_part(functions_[cycle.front()].name)),
+                         "one of them must do without the others; a state breaks a circle");
+    }
   }
 
   /// The blocks and quantities of the network that an expression names, as inputs of a function.
@@ -119,16 +174,15 @@ class LawReader {
     std::vector<TomlEntry> inputs;
     for (const std::string& one : identifiers_of(text)) {
       const auto take = [&](const std::string& source) { inputs.push_back({one, spot, text_at(spot, source)}); };
-      const bool rate = one.ends_with("_rate") && std::find(states_.begin(), states_.end(), one.substr(0, one.size() - 5)) != states_.end();
-      if (one == "d") take("law.displacement");
-      if (one == "w") take("law.velocity");
-      if (rate || std::find(names_.begin(), names_.end(), one) != names_.end()) take(one);
+      if (one == "d") take(std::string(law_element) + ".displacement");
+      if (one == "w") take(std::string(law_element) + ".velocity");
+      if (is_rate(one) || std::find(names_.begin(), names_.end(), one) != names_.end()) take(one);
     }
     return inputs;
   }
 
   void add_function(const std::string& called, const TomlValue& source) {
-    if (!expect_string(source, "`" + called + "` of law `" + law_.key + "`", diagnostics_, "an expression: \"k*d\"")) return;
+    if (!expect_string(source, law_part(called) + " of law `" + law_.key + "`", diagnostics_, "an expression: \"k*d\"")) return;
     TomlValue text = source;
     // rate(z) is the output of the function that feeds the integrator of z; blanks keep the places of what follows.
     for (const std::string& state : states_) {
@@ -136,15 +190,21 @@ class LawReader {
       for (std::size_t at = text.text.find(call); at != text.text.npos; at = text.text.find(call, at)) text.text.replace(at, call.size(), block);
     }
     try {
-      if (const auto code = compile_expression(text.text); code.error) {
-        diagnostics_.error(diagnostics_.inside(source, code.error->offset), fmt::format("`{}` of law `{}`: {}", called, law_.key, code.error->message), code.error->hint);
-        return;
-      }
+      const auto code = compile_expression(text.text);
+      for (const ExpressionCode::Variable& variable : code.variables)
+        if (variable.name == "rate" && variable.before_parenthesis)
+          throw TextError{count_characters(std::string_view(text.text).substr(0, variable.at)), "`rate` takes the name of a state",
+                          states_.empty() ? "the law has no states" : "its states are " + list_names(states_, "and")};
+      const ExpressionRules names(text.text, code, known_);
+      if (code.error) throw *code.error;
     } catch (const TextError& error) {
-      diagnostics_.error(diagnostics_.inside(source, error.offset), fmt::format("`{}` of law `{}`: {}", called, law_.key, error.message), error.hint);
+      diagnostics_.error(diagnostics_.inside(source, error.offset), fmt::format("{} of law `{}`: {}", law_part(called), law_.key, error.message), error.hint);
       return;
     }
     std::vector<TomlEntry> inputs = inputs_of(text.text, source.spot);
+    functions_.push_back({called, source.spot, {}});
+    for (const TomlEntry& input : inputs) functions_.back().uses.push_back(input.key);
+    used_.insert(functions_.back().uses.begin(), functions_.back().uses.end());
     std::vector<TomlEntry> function{{"type", source.spot, text_at(source.spot, "function")}, {"out", source.spot, text}};
     function.push_back({"in", source.spot, table_at(source.spot, std::move(inputs))});
     elements_.push_back({called, source.spot, table_at(source.spot, std::move(function))});
@@ -164,25 +224,51 @@ class LawReader {
                                                {"initial", start->spot, start->value}})});
   }
 
+  struct Function {
+    std::string name;
+    Spot spot;
+    std::vector<std::string> uses;
+  };
+
   const TomlEntry& law_;
   DiagnosticList& diagnostics_;
-  std::vector<std::string> names_, states_;
+  Environment of_file_, known_;
+  bool of_file_parameters_ = false;
+  std::vector<std::string> names_, states_, parameters_;  ///< names_: of states, inputs and entries of `where`
+  std::vector<Function> functions_;
+  std::set<std::string> used_;
   std::vector<TomlEntry> elements_;
 };
 
 }  // namespace
 
 void laws_to_models(TomlValue& document, DiagnosticList& diagnostics) {
-  const TomlEntry* laws = document.find("laws");
+  TomlEntry* laws = document.find("laws");
   if (!laws || !expect_table(laws->value, "`laws`", diagnostics, "[laws.NAME] with a `force`")) return;
+  const TomlEntry* parameters = document.find("parameters");
   std::vector<TomlEntry> made;
   for (const TomlEntry& law : laws->value.entries) {
-    if (auto model = LawReader(law, diagnostics).model()) made.push_back(std::move(*model));
+    if (auto model = LawReader(law, parameters, diagnostics).model()) made.push_back(std::move(*model));
   }
-  const Spot spot = laws->spot;
-  if (!document.find("models")) document.entries.push_back({"models", spot, table_at(spot, {})});
-  TomlValue& models = document.find("models")->value;
-  if (models.is_table()) models.entries.insert(models.entries.end(), made.begin(), made.end());
+  laws->value.entries = std::move(made);
+}
+
+std::string law_part(const std::string& block) {
+  if (block == "f") return "`force`";
+  if (block == "E") return "`stores`";
+  return block.ends_with("_rate") ? "`rate` of `" + block.substr(0, block.size() - 5) + "`" : "`" + block + "`";
+}
+
+std::string in_words_of_law(std::string text, const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) {
+    if (!input.ends_with("_rate")) continue;
+    const std::string rate = "rate(" + input.substr(0, input.size() - 5) + ")";
+    for (std::size_t at = text.find(input); at != text.npos; at = text.find(input, at + rate.size())) {
+      const bool blank = text.substr(at + input.size(), 1) == " ";
+      text.replace(at, input.size() + (blank ? 1 : 0), rate);
+    }
+  }
+  return text;
 }
 
 }  // namespace rheonet

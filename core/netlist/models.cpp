@@ -33,6 +33,19 @@ void read_ports(const TomlEntry& entry, Model& model, DiagnosticList& diagnostic
   }
 }
 
+void refuse_instance_key(const std::string& name, Spot spot, const char* what, DiagnosticList& diagnostics) {
+  if (std::find(instance_keys.begin(), instance_keys.end(), name) == instance_keys.end()) return;
+  diagnostics.error(spot, std::string(what) + " cannot be called `" + name + "`", "an element has a key of that name already");
+}
+
+/// The inputs of a law, which have been checked as names.
+void read_law_inputs(const TomlEntry& entry, Model& model, DiagnosticList& diagnostics) {
+  for (const TomlValue& item : entry.value.items) {
+    refuse_instance_key(item.text, item.spot, "an input", diagnostics);
+    model.inputs.push_back(item.text);
+  }
+}
+
 void read_parameters(const TomlEntry& entry, Model& model, DiagnosticList& diagnostics) {
   if (entry.value.is_array()) {
     for (const TomlValue& item : entry.value.items) {
@@ -49,10 +62,7 @@ void read_parameters(const TomlEntry& entry, Model& model, DiagnosticList& diagn
                           "parameters with defaults, { k = \"100 N/m\" }, or names without, [\"k\"]")) {
     model.parameters = read_named_formulas(entry.value, diagnostics);
   }
-  for (const NamedFormula& parameter : model.parameters)
-    if (std::find(instance_keys.begin(), instance_keys.end(), parameter.name) != instance_keys.end())
-      diagnostics.error(parameter.spot, "a parameter cannot be called `" + parameter.name + "`",
-                     "an element has a key of that name already");
+  for (const NamedFormula& parameter : model.parameters) refuse_instance_key(parameter.name, parameter.spot, "a parameter", diagnostics);
   model.order = evaluation_order(model.parameters, diagnostics);
 }
 
@@ -109,25 +119,27 @@ void collect_models(const ElementTemplate& plan, const std::function<void(const 
 
 }  // namespace
 
-void declare_models(const TomlValue& table, const Environment& environment, Context& context, Models& models) {
+void declare_models(const TomlValue& table, const Environment& environment, Context& context, Models& models, bool laws) {
   DiagnosticList& diagnostics = context.diagnostics;
-  if (!expect_table(table, "`models`", diagnostics)) return;
+  const std::string what = laws ? "law" : "model";
+  if (!expect_table(table, "`" + what + "s`", diagnostics)) return;
   for (const TomlEntry& entry : table.entries) {
-    if (!expect_name(entry.key, entry.spot, "a model", diagnostics)) continue;
-    if (!expect_table(entry.value, "model `" + entry.key + "`", diagnostics)) continue;
+    if (!expect_name(entry.key, entry.spot, "a " + what, diagnostics)) continue;
+    if (!expect_table(entry.value, what + " `" + entry.key + "`", diagnostics)) continue;
     if (is_taken(entry.key, context)) {
-      diagnostics.error(entry.spot, "`" + entry.key + "` is an element type already", "a model needs a name of its own");
+      diagnostics.error(entry.spot, "`" + entry.key + "` is an element type already", "a " + what + " needs a name of its own");
       continue;
     }
     if (const auto known = models.find(entry.key); known != models.end()) {
       diagnostics.error(entry.spot,
-                     "model `" + entry.key + "` is defined already, at " + place(known->second->spot, context),
+                     (known->second->law ? "law `" : "model `") + entry.key + "` is defined already, at " + place(known->second->spot, context),
                      "rename one of them");
       continue;
     }
     auto model = std::make_unique<Model>();
     const std::size_t before = diagnostics.errors();
     model->name = entry.key;
+    model->law = laws;
     model->spot = entry.spot;
     model->source = &entry.value;
     model->environment = &environment;
@@ -135,6 +147,7 @@ void declare_models(const TomlValue& table, const Environment& environment, Cont
     if (const TomlEntry* ports = reader.require("ports", entry.spot, "ports = [\"a\", \"b\"]"))
       read_ports(*ports, *model, diagnostics);
     if (const TomlEntry* parameters = reader.find("parameters")) read_parameters(*parameters, *model, diagnostics);
+    if (const TomlEntry* inputs = laws ? reader.find("inputs") : nullptr) read_law_inputs(*inputs, *model, diagnostics);
     const TomlEntry* elements =
         reader.require("elements", entry.spot, "[models." + entry.key + ".elements] with a line for each");
     if (elements && elements->value.is_table() && elements->value.entries.empty())

@@ -84,9 +84,6 @@ class Reader {
 
   void read_document(int file, const fs::path& canonical) {
     override_tables();
-    const std::size_t before_laws = diagnostics_.errors();
-    laws_to_models(document_, diagnostics_);
-    laws_missing_ = diagnostics_.errors() > before_laws;
     TableReader reader(document_, "the scene");
     for (const std::string& key : top_level) reader.find(key);
     const Spot begin{file, 1, 1};
@@ -174,9 +171,10 @@ class Reader {
   void read_models(const Environment& environment, const fs::path& canonical, Models& models) {
     const std::size_t before = diagnostics_.errors();
     included_ = read_includes(document_, canonical, context_);
-    context_.models_missing = laws_missing_ || diagnostics_.errors() > before;
-    for (IncludedFile& other : included_) laws_to_models(other.document, diagnostics_);
     override_models(included_);
+    laws_to_models(document_, diagnostics_);
+    for (IncludedFile& other : included_) laws_to_models(other.document, diagnostics_);
+    context_.models_missing = diagnostics_.errors() > before;
     for (const IncludedFile& other : included_) {
       const TomlEntry* table = other.document.find("models");
       context_.several_domains = context_.several_domains || (table && names_other_domain(table->value, context_));
@@ -184,11 +182,14 @@ class Reader {
     if (const TomlEntry* table = document_.find("models")) {
       context_.several_domains = context_.several_domains || names_other_domain(table->value, context_);
     }
-    for (IncludedFile& other : included_)
-      if (const TomlEntry* table = other.document.find("models"))
-        declare_models(table->value, parameters_of(other.document), context_, models);
-    if (const TomlEntry* table = document_.find("models")) declare_models(table->value, environment, context_, models);
+    for (IncludedFile& other : included_) declare(other.document, parameters_of(other.document), models);
+    declare(document_, environment, models);
     plan_models(context_, models);
+  }
+
+  void declare(const TomlValue& document, const Environment& environment, Models& models) {
+    if (const TomlEntry* table = document.find("models")) declare_models(table->value, environment, context_, models);
+    if (const TomlEntry* table = document.find("laws"); table && table->value.is_table()) declare_models(table->value, environment, context_, models, true);
   }
 
   void read_start_and_effects(const Environment& environment, const std::set<std::string>& doubtful) {
@@ -244,7 +245,7 @@ class Reader {
   void override_tables() {
     for (Override& override : overrides_) {
       const std::string table = override.path.front().name;
-      if (!is_top_level(table) || table == "elements" || table == "models") continue;
+      if (!is_top_level(table) || table == "elements" || table == "models" || table == "laws") continue;
       if (table == "nodes") join_node_path(override);
       const bool is_new_parameter = table == "parameters" && !has_parameter(override);
       apply({&override, 0}, document_, diagnostics_);
@@ -279,13 +280,14 @@ class Reader {
 
   void override_models(std::deque<IncludedFile>& included) {
     for (const Override& override : overrides_) {
-      if (override.path.front().name != "models") continue;
+      const std::string table = override.path.front().name;
+      if (table != "models" && table != "laws") continue;
       std::vector<TomlValue*> documents{&document_};
       for (IncludedFile& other : included) documents.push_back(&other.document);
       std::vector<std::string> names;
       bool found = false;
       for (TomlValue* document : documents) {
-        TomlEntry* models = document->find("models");
+        TomlEntry* models = document->find(table);
         if (!models || !models->value.is_table()) continue;
         for (const TomlEntry& model : models->value.entries) names.push_back(model.key);
         if (found || override.path.size() < 2 || !models->value.find(override.path[1].name)) continue;
@@ -295,8 +297,8 @@ class Reader {
       if (!found) {
         const Override::Part& part = override.path[override.path.size() < 2 ? 0 : 1];
         diagnostics_.error(
-            part.spot, "there is no model `" + part.name + "`",
-            did_you_mean(part.name, names, names.empty() ? "" : "the models are " + list_names(names, "and")));
+            part.spot, "there is no " + table.substr(0, table.size() - 1) + " `" + part.name + "`",
+            did_you_mean(part.name, names, names.empty() ? "" : "the " + table + " are " + list_names(names, "and")));
       }
     }
   }
@@ -333,7 +335,6 @@ class Reader {
   std::deque<Override> overrides_;
   std::deque<IncludedFile> included_;
   StopCondition stop_condition_;
-  bool laws_missing_ = false;  ///< a law has a mistake, which may be why a type is unknown
   std::deque<Environment> environments_;
   std::deque<std::vector<NamedFormula>> formulas_;
 };

@@ -132,7 +132,7 @@ std::vector<Record> every_record(const Scene& scene) {
   std::size_t block = 0;
   for (std::size_t i = 0; i < scene.elements.size(); ++i) {
     if (block < scene.blocks.size() && scene.blocks[block].element == static_cast<int>(i)) {
-      if (!scene.blocks[block].of_stop_when) add(scene.elements[i].name, Subject::block, block, {Channel::out});
+      if (!scene.blocks[block].of_stop_when && scene.elements[i].part != SceneElement::Part::inner) add(scene.elements[i].name, Subject::block, block, {Channel::out});
       ++block;
       continue;
     }

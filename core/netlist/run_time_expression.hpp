@@ -37,6 +37,8 @@ class RunTimeExpression final : public SwitchedFunction {
   /// 1 in the unit of the result; plain if no variable or parameter has a unit.
   const Number& unit() const { return unit_; }
   std::string text() const override { return text_; }
+  /// From now on `text` is shown in its place.
+  void show_as(std::string text) { text_ = std::move(text); }
   std::size_t variables() const override { return variable_count_; }
   std::size_t switches() const override { return switch_count_; }
   /// Whether the text names the variable.

@@ -10,6 +10,10 @@ bool same_values(std::span<const double> one, std::span<const double> other) {
   return std::equal(one.begin(), one.end(), other.begin(), other.end(), same);
 }
 
+std::string block_in_words(const SceneElement& block) {
+  return block.part != SceneElement::Part::none ? "`" + block.name.substr(0, block.name.rfind('.')) + "`" : "block `" + block.name + "`";
+}
+
 Domain domain_of(const Scene& scene, const SceneNode& node) { return node.domain.value_or(scene.domain); }
 
 Domain domain_of(const Scene& scene, const SceneElement& element) { return element.domain.value_or(scene.domain); }

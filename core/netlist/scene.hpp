@@ -46,12 +46,16 @@ struct SceneNode {
 };
 
 struct SceneElement {
+  /// Of an element by a law of the netlist, which is made with it: a state, or a part that no one records or draws.
+  enum class Part : char { none, state, inner };
+
   std::string name;    ///< its path: `k1`, `pivot.k1`, `chain.17`
   int declaration = 0; ///< index into the declarations that the scene was read with
   NodeId a = ground;
   NodeId b = ground;   ///< ground for an element `at` one node
   NodeId support = ground;  ///< of a transmission: the node against which it turns
   bool at = false;     ///< written with `at`
+  Part part = Part::none;
   Shared<double> values;        ///< SI, one for each declared parameter; not_given for signals and absent optional values
   std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
   Shared<Signal> signals;       ///< signals of the parameters in signal_parameters, in order of declaration
@@ -214,6 +218,9 @@ void for_each_operand(const Scene& scene, const Record& record, Visit visit) {
   }
   for (const Record& operand : scene.expressions[static_cast<std::size_t>(record.index)].operands) visit(operand);
 }
+
+/// A block in messages: "block `lag`"; for a part of an element by a law that element, "`rubbing`".
+std::string block_in_words(const SceneElement& block);
 
 /// The domain of a node, of an element (that of its first node), and of what a record belongs to.
 Domain domain_of(const Scene& scene, const SceneNode& node);

@@ -34,7 +34,8 @@ std::vector<std::string> known_paths(const Scene& scene, bool all) {
   };
   add(scene.nodes);
   if (all) {
-    add(scene.elements);
+    for (const SceneElement& element : scene.elements)
+      if (paths.size() < most_paths && element.part != SceneElement::Part::inner) paths.push_back(element.name);
     add(scene.assemblies);
   }
   return paths;

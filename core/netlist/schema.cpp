@@ -99,6 +99,7 @@ Json parameter_schema(const Parameter& parameter) {
   const bool characteristic = parameter.kind == Parameter::Kind::characteristic;
   Json schema = described(reference(characteristic ? "characteristic" : parameter.takes_signal() ? "signal" : "value"), description);
   if (characteristic) return schema;
+  if (parameter.may_be_curve) schema = described({{"anyOf", {reference("signal"), table_schema("points [speed, value], or an expression over w")}}}, description);
   if (parameter.fallback && std::isfinite(*parameter.fallback)) schema["default"] = *parameter.fallback;
   // The bounds apply to numbers only; the value of a text is known only when the netlist is read.
   if (parameter.kind == Parameter::Kind::signal) return schema;
@@ -154,6 +155,7 @@ Json element_schema(const Declaration& declaration) {
     for (const std::string& name : names) properties[name] = parameter_schema(parameter);
     if (parameter.kind == Parameter::Kind::characteristic)
       properties["smooth"] = {{"type", "boolean"}, {"description", fmt::format("a monotone cubic spline through the points of `{}`", parameter.name)}};
+    if (parameter.may_be_curve) add_table_keys(properties, "speeds and of the values");
     if (parameter.kind == Parameter::Kind::table) add_table_keys(properties, "inputs and of the outputs");
     const bool alternative =
         std::find(declaration.one_of.begin(), declaration.one_of.end(), parameter.name) != declaration.one_of.end();
@@ -195,7 +197,7 @@ Json body_schema(Declarations declarations) {
     Json is_it{{"properties", {{"type", {{"enum", types_of(*declaration)}}}}}, {"required", {"type"}}};
     cases.push_back(if_then(std::move(is_it), declaration->type));
   }
-  types.push_back(text("the name of a model"));
+  types.push_back(text("the name of a model or a law"));
   for (const char* kind : {"series", "parallel"}) cases.push_back(if_then({{"required", {kind}}}, "group"));
   Json properties{{"type", {{"anyOf", std::move(types)}}}, {"at", reference("at")}, {"between", reference("between")},
                   {"domain", domain_schema("of its nodes")}};
@@ -280,8 +282,9 @@ Json model_schema() {
 Json law_schema() {
   Json state = object({{"start", described(reference("value"), "its value at the start, with its unit")}, {"rate", text("an expression")}});
   state["required"] = {"start", "rate"};
-  Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states and names in `where`")},
+  Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states, inputs and names in `where`")},
                         {"parameters", described(named(reference("value")), "parameters with their defaults")},
+                        {"inputs", list_of(text("the name of a signal, which each instance gives"), 1)},
                         {"where", described(named(text("an expression")), "names for parts of the expressions")},
                         {"states", described(named(std::move(state)), "rate(z) is the rate of the state z in other expressions")},
                         {"stores", text("the energy stored in it, an expression")},

@@ -1,6 +1,7 @@
 #include "core/netlist/signal_connections.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <utility>
@@ -8,6 +9,7 @@
 
 #include "core/netlist/counting.hpp"
 #include "core/netlist/expression.hpp"
+#include "core/netlist/laws.hpp"
 #include "core/netlist/records.hpp"
 #include "core/netlist/run_time_expression.hpp"
 #include "core/netlist/scene_index.hpp"
@@ -19,18 +21,6 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 const char* const source_example = "a block (`controller`) or a quantity of the network (`drum.velocity`)";
-
-std::optional<SignalConnection> read_wire(const TomlValue& source, const std::string& what, DiagnosticList& diagnostics) {
-  if (!expect_string(source, what, diagnostics, source_example)) return {};
-  SignalConnection connection{.source = &source, .path = source.text};
-  if (connection.path.starts_with('-')) {
-    connection.sign = -1;
-    connection.path.erase(0, 1);
-  }
-  if (!connection.path.empty()) return connection;
-  diagnostics.error(source.spot, what + " is empty", source_example);
-  return {};
-}
 
 /// Adds the instance that the wire is in, if any, to messages.
 class Within {
@@ -208,19 +198,25 @@ class Connection {
     block.function = function.lookup.table;
   }
 
+  std::string called(const BlockFunction& function) const {
+    const std::string& block = name(function.block);
+    if (scene_.blocks[at(function.block)].of_stop_when) return "`" + block.substr(block.find('.') + 1) + "`";
+    return function.law ? law_part(block.substr(block.rfind('.') + 1)) + " of law `" + function.law->name + "`" : "the output of `" + block + "`";
+  }
+
   void compile(const BlockFunction& function) {
     std::optional<DiagnosticList::Within> within;
     if (!function.within.empty()) within.emplace(diagnostics_, function.within);
     if (function.lookup.table) return look_up(function);
-    if (refuse_input(function)) return;
+    if (!function.law && refuse_input(function)) return;
     auto expression = expression_of(function);
     if (const auto* wrong = std::get_if<TextError>(&expression)) {
-      const std::string& block = name(function.block);
-      const std::string what = scene_.blocks[at(function.block)].of_stop_when ? "`" + block.substr(block.find('.') + 1) + "`" : "the output of `" + block + "`";
-      diagnostics_.error(diagnostics_.inside(*function.source, wrong->offset), what + ": " + wrong->message, wrong->hint);
+      const auto words = [&](const std::string& text) { return function.law ? in_words_of_law(text, function.names) : text; };
+      diagnostics_.error(diagnostics_.inside(*function.source, wrong->offset), called(function) + ": " + words(wrong->message), words(wrong->hint));
       return;
     }
     auto& sound = std::get<RunTimeExpression>(expression);
+    if (function.law) sound.show_as(in_words_of_law(sound.text(), function.names));
     SceneBlock& block = scene_.blocks[at(function.block)];
     for (std::size_t k = 0; k < block.inputs.size(); ++k) {
       if (sound.uses(k)) continue;
@@ -309,6 +305,8 @@ class Connection {
     const auto* wrong = std::get_if<TextError>(&checked);
     if (!wrong) return;
     const Within within(diagnostics_, end);
+    if (const auto function = functions_.find(feed.block); function != functions_.end() && function->second->law && function->second->within == end.within)
+      return diagnostics_.error(function->second->source->spot, called(*function->second) + ": " + wrong->message);
     diagnostics_.error(end.connection->source->spot,
                     "`" + wanted.name_in(domain) + "`" + (quantity != wanted.quantity ? " (which multiplies `" + wanted.coefficient_with + "`)" : "") +
                         " from block `" + end.path + "`: " + wrong->message);
@@ -368,6 +366,34 @@ std::vector<SignalConnection> read_inputs(const Declaration& declaration, const 
   return connections;
 }
 
+std::optional<SignalConnection> read_wire(const TomlValue& source, const std::string& what, DiagnosticList& diagnostics) {
+  if (!expect_string(source, what, diagnostics, source_example)) return {};
+  SignalConnection connection{.source = &source, .path = source.text};
+  if (connection.path.starts_with('-')) {
+    connection.sign = -1;
+    connection.path.erase(0, 1);
+  }
+  if (!connection.path.empty()) return connection;
+  diagnostics.error(source.spot, what + " is empty", source_example);
+  return {};
+}
+
+bool is_path_of_quantity(const TomlValue& value) {
+  if (!value.is_string()) return false;
+  const std::string_view text = std::string_view(value.text).substr(value.text.starts_with('-') ? 1 : 0);
+  const std::size_t dot = text.rfind('.');
+  const auto letter = [&](std::size_t i) { return i < text.size() && (std::isalpha(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_'); };
+  const bool names = std::all_of(text.begin(), text.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.'; });
+  return names && dot != text.npos && letter(0) && letter(dot + 1);
+}
+
+std::optional<SignalConnection> read_block(const TomlValue& signal, Context& context) {
+  TableReader reader(signal, "a signal from a block");
+  const TomlEntry* block = reader.find("block");
+  reader.finish(context.diagnostics);
+  return read_wire(block->value, "`block`", context.diagnostics);
+}
+
 const TomlEntry* find_feed(const TomlValue& signal) { return signal.is_table() ? signal.find("block") : nullptr; }
 
 std::optional<SignalConnection> read_feed(const TomlEntry& feed, const TomlValue& signal, const Declaration& declaration,
@@ -379,10 +405,7 @@ std::optional<SignalConnection> read_feed(const TomlEntry& feed, const TomlValue
                            "take in that block in its place");
     return {};
   }
-  TableReader reader(signal, "a signal from a block");
-  reader.find("block");
-  reader.finish(context.diagnostics);
-  auto connection = read_wire(feed.value, "`block`", context.diagnostics);
+  auto connection = read_block(signal, context);
   if (connection) connection->parameter = static_cast<int>(parameter);
   return connection;
 }

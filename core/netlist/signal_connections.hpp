@@ -17,6 +17,13 @@ namespace rheonet {
 std::vector<SignalConnection> read_inputs(const Declaration& declaration, const std::string& called, Spot spot, TableReader& reader,
                               DiagnosticList& diagnostics);
 
+/// Reads the source of a wire, with its sign; absent if it has a mistake. `what` names it in messages.
+std::optional<SignalConnection> read_wire(const TomlValue& source, const std::string& what, DiagnosticList& diagnostics);
+/// Whether a value is the path of a quantity of the network, with or without a sign: "motor.force". No expression looks like one.
+bool is_path_of_quantity(const TomlValue& value);
+/// Reads `{ block = "controller" }`; absent if it has a mistake.
+std::optional<SignalConnection> read_block(const TomlValue& signal, Context& context);
+
 /// The `block` entry of `{ block = "controller" }` given in place of a signal; nullptr if the signal is none.
 const TomlEntry* find_feed(const TomlValue& signal);
 /// Reads the feed of the signal `parameter` of `declaration`; absent if it has a mistake.
@@ -46,6 +53,7 @@ struct BlockFunction {
   Lookup lookup;
   std::string within;  ///< as of LooseEnd
   std::vector<std::string> names;  ///< of the inputs
+  const Model* law = nullptr;      ///< that it is a part of
 };
 struct LooseEnds {
   std::vector<LooseEnd> ends;

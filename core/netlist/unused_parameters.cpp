@@ -65,16 +65,18 @@ void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> 
     used.merge(identifiers_below(document));
     warn_of_unused(parameters->value, used, "", diagnostics);
   }
-  const TomlEntry* models = document.find("models");
-  if (!models) return;
-  for (const TomlEntry& model : models->value.entries) {
-    const TomlEntry* parameters = model.value.find("parameters");
-    if (!parameters) continue;
-    std::set<std::string> inside;
-    for (const TomlEntry& entry : model.value.entries) {
-      if (entry.key == "elements" || parameters->value.is_table()) inside.merge(identifiers_below(entry.value));
+  for (const std::string kind : {"model", "law"}) {
+    const TomlEntry* models = document.find(kind + "s");
+    if (!models) continue;
+    for (const TomlEntry& model : models->value.entries) {
+      const TomlEntry* parameters = model.value.find("parameters");
+      if (!parameters) continue;
+      std::set<std::string> inside;
+      for (const TomlEntry& entry : model.value.entries) {
+        if (entry.key == "elements" || parameters->value.is_table()) inside.merge(identifiers_below(entry.value));
+      }
+      warn_of_unused(parameters->value, inside, " of " + kind + " `" + model.key + "`", diagnostics);
     }
-    warn_of_unused(parameters->value, inside, " of model `" + model.key + "`", diagnostics);
   }
 }
 

@@ -24,9 +24,9 @@ class Finder {
     if (scene_.without.empty()) return;
     open_ = acting_blocks(scene_);
     for (std::size_t b = 0; b < open_.size(); ++b) {
-      const std::string& block = scene_.elements[at(scene_.blocks[b].element)].name;
-      open_[b] = open_[b] && std::any_of(scene_.without.begin(), scene_.without.end(), [&](const EffectLeftOut& e) {
-        return e.effect == Effect::feedback && e.concerns(block);
+      const SceneElement& block = scene_.elements[at(scene_.blocks[b].element)];
+      open_[b] = open_[b] && block.part == SceneElement::Part::none && std::any_of(scene_.without.begin(), scene_.without.end(), [&](const EffectLeftOut& e) {
+        return e.effect == Effect::feedback && e.concerns(block.name);
       });
     }
   }
@@ -44,6 +44,12 @@ class Finder {
     }
     for (Network::Force& force : network_.forces) {
       if (force.beside) force.block = add_function({force.element, force.a, force.b}, *force.beside);
+      if (force.varying) add_varying(force);
+    }
+    for (Blocks::Block& block : result_.blocks) {
+      for (Blocks::Input& input : block.inputs) {
+        if (input.from_block && input.index < 0) input.index = network_.forces[at(force_of(input.index))].block;
+      }
     }
     // Without a state to smooth discontinuities, a loop of delays alone would repeat each of them for ever.
     const auto refuse_delays = [&](const std::vector<int>& loop) {
@@ -126,42 +132,72 @@ class Finder {
   /// value: a limiter sees to it.
   void add_parameter(const Network::Slider& slider, Network::VaryingParameter& varying) {
     const int e = slider.branch.element;
-    const SceneElement& element = scene_.elements[at(e)];
-    if (const auto over = slider.component->over_velocity ? slider.component->over_velocity(slider.values) : std::nullopt;
+    if (const auto over = over_velocity(*slider.component, slider.law_values());
         over && over->parameter == varying.parameter) {
       varying.block = add_function(slider.branch, *over);
       return;
     }
+    varying.block = parameter_block(e, varying.parameter);
+  }
+
+  /// The block that gives a varying parameter of an element.
+  int parameter_block(int e, int parameter) {
+    const SceneElement& element = scene_.elements[at(e)];
     const auto fed = std::find_if(scene_.feeds.begin(), scene_.feeds.end(), [&](const SceneFeed& feed) {
-      return feed.element == e && feed.parameter == varying.parameter;
+      return feed.element == e && feed.parameter == parameter;
     });
     Blocks::Input input{true, -1, 1};
     if (fed != scene_.feeds.end()) {
       input = {true, fed->block, fed->sign};
     } else {
-      const auto which = std::find(element.signal_parameters.begin(), element.signal_parameters.end(), varying.parameter);
+      const auto which = std::find(element.signal_parameters.begin(), element.signal_parameters.end(), parameter);
       const Signal& signal = element.signals[static_cast<std::size_t>(which - element.signal_parameters.begin())];
       input.index = static_cast<int>(result_.blocks.size());
       result_.blocks.push_back(generator(e, signal.seen_from(scene_.start)));
     }
-    varying.block = static_cast<int>(result_.blocks.size());
-    const double least = slider.component->declaration.parameters[at(varying.parameter)].lower;
+    const double least = components()[at(element.declaration)]->declaration.parameters[at(parameter)].lower;
     result_.blocks.push_back({.element = e, .law = {.lower = least}, .generates = false, .signal = {}, .inputs = {input}});
+    return static_cast<int>(result_.blocks.size()) - 1;
   }
 
-  /// Adds a block for a quantity of an element that depends on its displacement and velocity. Returns its index.
-  int add_function(const Branch& branch, const MotionExpression& of) {
-    Environment names;
-    for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
-    const RunTimeExpression::Variable variables[] = {{"d", {}}, {"w", {}}, {"t", {}}};
-    auto expression = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
-    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
-    block.function = expression;
+  /// Adds the blocks of the force, and of the stored energy, of an element with parameters that vary.
+  void add_varying(Network::Force& force) {
+    const SceneElement& element = scene_.elements[at(force.element)];
+    const std::vector<Parameter>& parameters = components()[at(element.declaration)]->declaration.parameters;
+    MotionExpression of{force.varying->force, {}};
+    std::vector<std::pair<std::string, int>> varying;
+    for (std::size_t k = 0; k < parameters.size(); ++k) {
+      const auto& signals = element.signal_parameters;
+      if (std::find(signals.begin(), signals.end(), static_cast<int>(k)) != signals.end()) {
+        varying.emplace_back(parameters[k].name, parameter_block(force.element, static_cast<int>(k)));
+      } else if (!std::isnan(element.values[k])) {
+        of.names[parameters[k].name] = element.values[k];
+      }
+    }
+    force.block = add_function({force.element, force.a, force.b}, of, varying);
+    if (!force.lossless()) return;
+    of.expression = force.varying->stored;
+    force.energy = add_function({force.element, force.a, force.b}, of, varying);
+  }
+
+  /// Adds a block for a quantity of an element that depends on its displacement and velocity, and on the outputs of blocks by these
+  /// names. Returns its index.
+  int add_function(const Branch& branch, const MotionExpression& of, const std::vector<std::pair<std::string, int>>& parameters = {}) {
+    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = of.function};
+    if (!block.function) {
+      Environment names;
+      for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
+      std::vector<RunTimeExpression::Variable> variables{{"d", {}}, {"w", {}}};
+      for (const auto& [name, from] : parameters) variables.push_back({name, {}});
+      variables.push_back({"t", {}});
+      block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
+    }
+    for (std::size_t k = 0; k < parameters.size(); ++k) block.inputs.push_back({true, parameters[k].second, 1, 2 + k});
     for (const auto& [node, sign] : {std::pair{branch.a, 1.0}, std::pair{branch.b, -1.0}}) {
       if (node <= ground) continue;
       const int motion = motion_of(node), giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
       const int given = giver < 0 ? motion : -1;
-      if (expression->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
+      if (block.function->uses(0)) block.inputs.push_back({false, sensor({Blocks::Sensor::What::position, node, given, -1}), sign, 0});
       if (giver >= 0) {
         block.inputs.push_back({true, giver, sign * network_.motions[at(motion)].sign, 1});
       } else {
@@ -267,8 +303,16 @@ class Finder {
     }
   }
 
+  /// The index of the block of a force until that is made, and back.
+  static int force_of(int index) { return -1 - index; }
+
   void force(Blocks::Block& block, int element, double sign, int record) {
     const Network::Place& place = network_.places[at(element)];
+    if (const auto beside = network_.beside.find(element); beside != network_.beside.end()) block.inputs.push_back({true, force_of(beside->second), sign});
+    if (place.role == Role::force && network_.forces[at(place.index)].varying) {
+      block.inputs.push_back({true, force_of(place.index), sign});
+      return;
+    }
     for (const SceneFeed& feed : scene_.feeds) {
       if (feed.element != element || (place.role != Role::motion && place.role != Role::force)) continue;
       block.inputs.push_back({true, feed.block, sign * feed.sign});
@@ -280,7 +324,7 @@ class Finder {
       throw SimulationError(
           scene_.elements[at(block.element)].spot,
           fmt::format("{} `{}`: the force of `{}` is what all others at its node leave over; take in that of a spring or a dashpot beside it",
-                      condition ? "`stop_when` cannot depend on" : fmt::format("block `{}` cannot take in", scene_.elements[at(block.element)].name),
+                      condition ? "`stop_when` cannot depend on" : block_in_words(scene_.elements[at(block.element)]) + " cannot take in",
                       scene_.sensed[at(record)].path, scene_.elements[at(element)].name));
     }
     block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, element, -1, record}), sign});

@@ -34,6 +34,10 @@ RegisterComponent::RegisterComponent(Component component) {
   for (const Component* c : r.sorted) r.declarations.push_back(&c->declaration);
 }
 
+std::optional<MotionExpression> over_velocity(const Component& component, const LawValues& values) {
+  return component.over_velocity ? component.over_velocity(values) : std::nullopt;
+}
+
 Box constant_box(const Component& component, std::span<const double> values) {
   std::vector<Dual> constant(values.begin(), values.end());
   constant.resize(component.declaration.parameters.size(), not_given);

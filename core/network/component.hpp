@@ -19,6 +19,7 @@
 namespace rheonet {
 
 class Characteristic;
+class SwitchedFunction;
 
 /// The role of an element in a network. Structural analysis depends on nothing else of a law.
 enum class Role {
@@ -245,11 +246,21 @@ struct LawValues : std::span<const double> {
 };
 using Values = std::vector<LawValues>;  ///< of each element of a batch
 
-/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, and over `names`; in SI.
+/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, and over `names`; in SI. Or a function of d, w
+/// and the time.
 struct MotionExpression {
   std::string expression;
   std::map<std::string, double> names;
   int parameter = -1;  ///< whose value it is; -1: it is a force
+  std::shared_ptr<const SwitchedFunction> function = {};  ///< in place of the expression
+};
+
+/// A law where signals give some of its parameters, in SI: expressions over d and w, as in MotionExpression, and over the names of its
+/// parameters.
+struct VaryingLaw {
+  std::string becomes;      ///< the component that it has then, of the role `force`
+  std::string force;        ///< force that it resists with
+  std::string stored = {};  ///< energy that it stores, without dissipation: what changes a parameter supplies the rest of its power; "": none
 };
 
 /// Everything that the simulator knows about an element type. Each file in components/ defines and registers one.
@@ -262,13 +273,14 @@ struct Component {
   std::string with_row = {};             ///< the component that a transmission has instead if it is an equation of its own
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
+  std::optional<VaryingLaw> varying = {};  ///< if signals may give parameters of a deflection or rate law
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
   std::function<Box(std::span<const Dual>)> box = {};
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
   /// For Role::slip: a parameter that depends on the velocity; absent if none does.
-  std::function<std::optional<MotionExpression>(std::span<const double>)> over_velocity = {};
+  std::function<std::optional<MotionExpression>(const LawValues&)> over_velocity = {};
   /// For Role::deflection: a force beside that of the law, which dissipates; absent if there is none.
   std::function<std::optional<MotionExpression>(std::span<const double>)> beside = {};
   std::function<BlockLaw(std::span<const double>)> block = {};       ///< for Role::block
@@ -281,6 +293,9 @@ struct Component {
     return domain == Domain::rotation && !rotational_drawing.empty() ? rotational_drawing : drawing;
   }
 };
+
+/// Component::over_velocity for these values; absent if the component has none.
+std::optional<MotionExpression> over_velocity(const Component& component, const LawValues& values);
 
 /// The box of a component whose parameters are constant; those that are left out at the end are not given.
 Box constant_box(const Component& component, std::span<const double> values);

@@ -106,7 +106,8 @@ std::vector<int> feedback_of(const Network& network) {
     const bool senses = std::any_of(inputs.begin(), inputs.end(), [&](const Blocks::Input& input) {
       return !input.from_block && network.blocks.sensors[at(input.index)].motion < 0;
     });
-    if (acts[b] && senses) result.push_back(scene.blocks[b].element);
+    // The motion of its own ends that a law takes in is no feedback.
+    if (acts[b] && senses && scene.elements[at(scene.blocks[b].element)].part == SceneElement::Part::none) result.push_back(scene.blocks[b].element);
   }
   return result;
 }

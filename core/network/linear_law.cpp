@@ -11,10 +11,12 @@ namespace rheonet {
 Reduced law_of(const Scene& scene, const SceneElement& element) {
   Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene, element));
   if (element.has_row()) return {find_component(law.component->with_row), {}};
-  if (law.component && element.characteristic && !law.component->with_characteristic.empty()) {
+  const Component* declared = components()[at(element.declaration)];
+  if (declared->varying && law.component == declared && !element.signals.empty()) law.component = find_component(declared->varying->becomes);
+  if (law.component) law.characteristic = element.characteristic;
+  if (law.characteristic && !law.component->with_characteristic.empty()) {
     law.component = find_component(law.component->with_characteristic);
     law.values.resize(law.component->declaration.parameters.size(), not_given);
-    law.characteristic = element.characteristic;
   }
   return law;
 }

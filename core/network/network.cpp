@@ -191,7 +191,8 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
         network.sliders.back().values = law.values;
         network.sliders.back().varying.push_back({parameter, -1, 1});
       }
-      if (const auto over = law.component->over_velocity ? law.component->over_velocity(law.values) : std::nullopt) {
+      network.sliders.back().characteristic = law.characteristic.get();
+      if (const auto over = over_velocity(*law.component, {law.values, law.characteristic.get()})) {
         network.sliders.back().values = law.values;
         network.sliders.back().varying.push_back({over->parameter, -1, 1});
       }
@@ -217,6 +218,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
       break;
     case Role::force:
       place_in(network.forces);
+      if (const auto& varying = components()[static_cast<std::size_t>(element.declaration)]->varying) {
+        network.forces.push_back({.element = index, .a = ends.a, .b = ends.b, .signal = Signal(), .sign = -1, .resists = true, .varying = &*varying});
+        break;
+      }
       network.forces.push_back({index, ends.a, element.at ? -1 : ends.b, element.signals.at(0).seen_from(scene.start)});
       if (law.component->declaration.resists) {
         network.forces.back().resists = true;
@@ -240,6 +245,7 @@ void feed_sources(Network& network) {
       continue;
     }
     if (role != Role::motion && role != Role::force) continue;
+    if (role == Role::force && network.forces[static_cast<std::size_t>(index)].varying) continue;
     const auto take = [&](auto& source) {
       source.block = feed.block;
       source.sign = declaration.resists ? -feed.sign : feed.sign;
@@ -294,9 +300,10 @@ void refuse_falling_friction(const Network& network) {
     }
   }
   for (const Network::Slider& slider : network.sliders) {
-    if (slider.component->over_velocity && slider.component->over_velocity(slider.values)) refuse_massless(slider.branch, "falls with");
+    if (over_velocity(*slider.component, slider.law_values())) refuse_massless(slider.branch, slider.characteristic ? "depends, by its curve, on" : "falls with");
   }
   for (const Network::Force& force : network.forces) {
+    if (force.varying) refuse_massless({force.element, force.a, force.b}, "depends, by a parameter that varies in time, on");
     if (force.beside) refuse_massless({force.element, force.a, force.b}, "depends, by its damping, on");
   }
 }

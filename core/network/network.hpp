@@ -62,6 +62,9 @@ struct Network {
     const Component* component = nullptr;          ///< of its law
     std::vector<double> values = {};               ///< of its parameters; empty if all are constant
     std::vector<VaryingParameter> varying = {};
+    const Characteristic* characteristic = nullptr;  ///< of its friction over the speed
+
+    LawValues law_values() const { return {values, characteristic}; }
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
   /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).
@@ -73,6 +76,8 @@ struct Network {
     double sign = 1;
     bool resists = false;
     int energy = -1;
+    bool lossless() const { return varying && !varying->stored.empty(); }
+    const VaryingLaw* varying = nullptr;  ///< of an element with parameters that vary: its blocks are made for it
     std::optional<MotionExpression> beside = {};  ///< of a force beside another law of its element: its block is made for it
   };
   /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, trains, motions or forces.

@@ -25,7 +25,7 @@ bool is_plain_slider(const Reduced& law) {
   if (!law.component || law.component->role != Role::slip) return false;
   const Box box = constant_box(*law.component, law.values);
   const double sliding = box.forward.sliding.value;
-  if (law.component->over_velocity && law.component->over_velocity(law.values)) return false;
+  if (over_velocity(*law.component, {law.values, law.characteristic.get()})) return false;
   return std::isfinite(sliding) && sliding == box.backward.sliding.value && !box.breaks_away();
 }
 

@@ -217,10 +217,11 @@ class Converter {
     }
     element.values = std::move(values);
     if (!element.characteristic) return;
-    for (const Parameter& parameter : declaration.parameters) {
-      if (parameter.kind != Parameter::Kind::characteristic) continue;
+    for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
+      const Parameter& parameter = declaration.parameters[k];
+      if (parameter.kind != Parameter::Kind::characteristic && !parameter.may_be_curve) continue;
       element.characteristic = std::make_shared<const Characteristic>(
-          element.characteristic->scaled(1 / own_unit(parameter.over, element.scale), 1 / own_unit(parameter.quantity, element.scale)));
+          element.characteristic->scaled(1 / own_unit(parameter.over, element.scale), 1 / factor(k)));
     }
   }
 
@@ -328,8 +329,8 @@ class Converter {
     const Record& record = whole_.sensed[at(input.index)];
     if (const auto nodes = across(record)) {
       const SceneElement& element = result_.elements[at(block.element)];
-      throw SimulationError(element.spot, fmt::format("block `{}` cannot take in `{}`: a transmission is between its ends; take in the motions of nodes `{}` and `{}`",
-                                                      element.name, record.path, node(nodes->first).name, node(nodes->second).name));
+      throw SimulationError(element.spot, fmt::format("{} cannot take in `{}`: a transmission is between its ends; take in the motions of nodes `{}` and `{}`",
+                                                      block_in_words(element), record.path, node(nodes->first).name, node(nodes->second).name));
     }
     input.sign *= factor_of(record);
   }

@@ -74,6 +74,7 @@ double OutputSampler::dissipated_power(int element, const Dae::View& view) const
     return batch.dissipated_power(i, view.p[j], view.dp[j], view.flow[j]) + force_beside(element) * view.flow[j];
   }
   if (place.role == Role::force && network_.forces[at(place.index)].resists) {
+    if (network_.forces[at(place.index)].lossless()) return 0;
     const int energy = network_.forces[at(place.index)].energy;
     return element_force(element, view) * element_velocity(element, view) - (energy < 0 ? 0 : dae_->output_rate(energy));
   }

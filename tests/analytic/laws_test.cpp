@@ -98,14 +98,146 @@ TEST_CASE("laws: mistakes are told where they stand") {
     CHECK_MESSAGE(text.find(words) != std::string::npos, text);
   };
   says("[laws.a]\nforc = \"d\"", "scene.toml:2:1: error: unknown key `forc` of a law");
-  says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d + w\"", "scene.toml:3:16: error: the output of `h.f`: `k*d` is a force (N), `w` is a velocity (m/s)");
+  says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d + w\"", "scene.toml:3:16: error: `force` of law `a`: `k*d` is a force (N), `w` is a velocity (m/s): they cannot be added (in `h`)");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*q*d\"", "`q`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { z = { start = \"0 m\" } }\nforce = \"k*z\"", "a state needs `rate`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { w = { start = \"0 m\", rate = \"w\" } }\nforce = \"k*d\"", "a state cannot be called `w`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\nstores = \"k*d\"", "energy");
   says("[laws.a]\nparameters = { k = \"1 N/m\", d = 1 }\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
-  says("[laws.a]\nparameters = { k = \"1 N/m\" }\nwhere = { k = \"2*d\" }\nforce = \"k*d\"", "`k` is a parameter of law `a`");
-  says("[laws.a]\nforce = \"0*d\"\n[laws.unused]\nforce = \"this is ( nonsense\"", "`f` of law `unused`");
+  says("[laws.a]\nparameters = { k = \"1 N/m\" }\nwhere = { k = \"2*d\" }\nforce = \"k*d\"", "`k` is a parameter of law `a`, and a state, an input or a name in `where` too");
+  says("[laws.a]\nforce = \"0*d\"\n[laws.unused]\nforce = \"this is ( nonsense\"", "`force` of law `unused`");
+  says("[laws.a]\nforce = \"d\"", "scene.toml:2:9: error: `force` of law `a`: expected a force (N), found a length (m) (in `h`)");
   says("[laws.spring]\nforce = \"d\"", "`spring` is an element type already");
-  says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\ninputs = [\"u\"]", "a law has no `inputs`");
+}
+
+// An unknown name and a wrong unit are told once, for the law, however many elements it has.
+TEST_CASE("laws: names and units in the expressions of a law") {
+  const auto told = [](const std::string& law, const std::string& message) {
+    CHECK_EQ(refusal("[parameters]\nmu = 0.3\n" + law + R"(
+[elements]
+m = { type = "motion", at = "x", velocity = "1 m/s" }
+h = { type = "a", between = ["x", "ground"], repeat = { count = 3 } }
+g = { type = "a", between = ["x", "ground"] }
+[simulate]
+stop = 1
+)"), message);
+  };
+  const std::string known = "known here are `d`, `w`, `t`, `stiff`, `z` and `rate(z)`, and the [parameters] of the file\n";
+  const std::string law = "[laws.a]\nparameters = { stiff = \"1 N/m\" }\nstates = { z = { start = \"0 m\", rate = \"w\" } }\n";
+  told(law + "force = \"stiff*z + mu*stif*d\"", "scene.toml:6:23: error: `force` of law `a`: unknown name `stif`\n    6 | force = \"stiff*z + mu*stif*d\"\n      |                       ^\n  did you mean `stiff`? " + known);
+  told(law + "force = \"stiff*z + sponge*d\"", "scene.toml:6:20: error: `force` of law `a`: unknown name `sponge`\n    6 | force = \"stiff*z + sponge*d\"\n      |                    ^\n  " + known);
+  told(law + "force = \"stiff*z\"\nstores = \"N*z\"", "scene.toml:7:11: error: `stores` of law `a`: there is no parameter `N`, and a unit cannot stand in an expression\n    7 | stores = \"N*z\"\n      |           ^\n  " + known);
+  told(law + "force = \"stiff*rate(d)\"", "scene.toml:6:16: error: `force` of law `a`: `rate` takes the name of a state\n    6 | force = \"stiff*rate(d)\"\n      |                ^\n  its states are `z`\n");
+  told(law + "force = \"stiff*d + stiff*rate(z)\"", "scene.toml:6:20: error: `force` of law `a`: `stiff*d` is a force (N), `stiff*rate(z)` is a quantity in kg*m*s^-3: they cannot be added (in `h.0`)\n    6 | force = \"stiff*d + stiff*rate(z)\"\n      |                    ^\n");
+  told("[laws.a]\nparameters = { stiff = \"1 N/m\" }\nstates = { z = { start = \"0 m\", rate = \"w + d\" } }\nforce = \"stiff*z\"",
+       "scene.toml:5:45: error: `rate` of `z` of law `a`: `w` is a velocity (m/s), `d` is a length (m): they cannot be added (in `h.0`)\n    5 | states = { z = { start = \"0 m\", rate = \"w + d\" } }\n      |                                             ^\n");
+  told("[laws.a]\nwhere = { p = \"q\", q = \"2*p\" }\nforce = \"p\"", "scene.toml:4:15: error: expressions of law `a` depend on each other in a circle: `p` -> `q` -> `p`\n    4 | where = { p = \"q\", q = \"2*p\" }\n      |               ^\n  one of them must do without the others; a state breaks a circle\n");
+}
+
+TEST_CASE("laws: an element by a law shows its motion, its force and its states, and no part of its inside") {
+  const Scene scene = scene_of(std::string(lugre) + R"(
+[elements]
+m = { type = "motion", at = "x", velocity = "1 m/s" }
+rub = { type = "lugre", between = ["x", "ground"] }
+[simulate]
+stop = 1
+)");
+  std::vector<std::string> paths;
+  for (const Record& record : scene.records) paths.push_back(record.path);
+  CHECK_EQ(paths, std::vector<std::string>{"x.position", "x.velocity", "m.force", "rub.z.out", "rub.force", "rub.displacement", "rub.velocity"});
+}
+
+// m v' = -c u v.
+TEST_CASE("laws: inputs that are blocks, quantities of the network, signals and numbers") {
+  const double m = 1.3, c = 0.7, v0 = 2.1, a = 3.1, t0 = 0.41;
+  const std::string law = "\n[laws.drag]\nparameters = { c = 1 }\ninputs = [\"u\"]\nforce = \"c*u*w\"\n";
+  const auto v = [=](double t) { return v0 * std::exp(-c * a * std::max(0.0, t - t0) * std::max(0.0, t - t0) / (2 * m)); };
+  const auto u = [=](double t) { return a * std::max(0.0, t - t0); };
+  const Expectations expected = {{"x.velocity", v}, {"e.force", [=](double t) { return c * u(t) * v(t); }}, {"e.dissipated", [=](double t) { return c * u(t) * v(t) * v(t); }}};
+  const auto scene = [&](const std::string& definitions, const std::string& elements) {
+    return netlist({{"m", m}, {"c", c}, {"v0", v0}, {"a", a}, {"t0", t0}}, definitions + R"(
+[nodes]
+x = { velocity = "v0" }
+[elements]
+mass = { type = "mass", at = "x", mass = "m" }
+)" + elements, 2.7) + record(expected);
+  };
+  const std::string ramp = "{ ramp = \"a\", time = \"t0\" }", block = "b = { type = \"generator\", signal = " + ramp + " }\n";
+  const std::string turned = "b = { type = \"generator\", signal = { ramp = \"-a\", time = \"t0\" } }\n";
+  const std::string other = "y = { type = \"mass\", at = \"y\", mass = 1 }\np = { type = \"force\", at = \"y\", force = " + ramp + " }\n";
+  const std::string drag = "e = { type = \"drag\", between = [\"x\", \"ground\"], c = \"c\", u = ";
+  const std::vector<std::string> scenes{block + drag + "{ block = \"b\" } }\n", turned + drag + "{ block = \"-b\" } }\n", drag + ramp + " }\n", other + "e = { type = \"drag\", between = [\"x\", \"ground\"], c = \"0.7 s/m\", u = \"p.force\" }\n",
+                                      block + "e = { type = \"drag\", between = [\"x\", \"ground\"], c = \"c/4\", u = { block = \"b\" }, repeat = { count = 4, arrange = \"parallel\" } }\n",
+                                      "e = { type = \"drag\", between = [\"x\", \"ground\"], c = \"c/10\", u = { ramp = \"a*(i + 1)\", time = \"t0\" }, repeat = { count = 4, arrange = \"parallel\" } }\n",
+                                      block + "e = { between = [\"x\", \"ground\"], parallel = [{ type = \"drag\", c = \"c/2\", u = { block = \"b\" } }, { type = \"drag\", c = \"c/2\", u = " + ramp + " }] }\n"};
+  for (const std::string& elements : scenes) {
+    CAPTURE(elements);
+    check_at_all_accuracies(scene(law, elements), expected);
+  }
+  // In a model the wire names what is in the model.
+  check_at_all_accuracies(scene(law + R"(
+[models.servo]
+ports      = ["p", "q"]
+parameters = { rise = 1, from = 0 }
+[models.servo.elements]
+b = { type = "generator", signal = { ramp = "rise", time = "from" } }
+h = { type = "drag", between = ["p", "q"], c = 0.7, u = { block = "b" } }
+)", "e = { type = \"servo\", between = [\"x\", \"ground\"], rise = \"a\", from = \"t0\" }\n"), expected);
+}
+
+// What it stores changes with a prescribed motion, and with an input.
+TEST_CASE("laws: what is dissipated where the stored energy depends on motions and inputs that are given") {
+  const double V = 0.37, k = 3.1, c = 0.7, a = 1.9;
+  const Expectations expected = {{"h.force", [=](double t) { return k * V * t + c * V; }}, {"h.dissipated", [=](double t) { return c * V * V + 0 * t; }},
+                                 {"g.energy", [=](double t) { return a * t * V * t; }}, {"g.dissipated", [=](double t) { return -a * V * t; }}};
+  check_at_all_accuracies(netlist({{"V", V}}, R"(
+[laws.kelvin]
+parameters = { k = "3.1 N/m", c = "0.7 N*s/m" }
+force  = "k*d + c*w"
+stores = "k*d^2/2"
+[laws.latch]
+inputs = ["u"]
+force  = "u"
+stores = "u*d"
+[elements]
+m = { type = "motion", at = "x", velocity = "V" }
+h = { type = "kelvin", between = ["x", "ground"] }
+g = { type = "latch", between = ["x", "ground"], u = { ramp = "1.9 N/s" } }
+)", 2.9) + record(expected), expected);
+}
+
+// The input jumps, and the force with it.
+TEST_CASE("laws: a force jumps with an input of its law") {
+  const double V = 0.37, c = 3.1;
+  const auto u = [](double t) { return std::fmod(t, 1.0) < 0.5 ? 1.7 : -1.7; };
+  const std::string toml = netlist({{"V", V}}, R"(
+[laws.a]
+parameters = { c = "3.1 N*s/m" }
+inputs = ["u", "g"]
+force  = "c*w + u*g"
+[elements]
+m = { type = "motion", at = "x", velocity = "V" }
+k = { type = "spring", between = ["x", "ground"], stiffness = 5 }
+h = { type = "a", between = ["x", "ground"], u = { square = 1.7, frequency = 1 }, g = "k.force" }
+)", 2.9);
+  const Expectations expected = {{"h.force", [=](double t) { return c * V + u(t) * 5 * V * t; }}};
+  check_between(toml + record(expected), expected, {0.5, 1, 1.5, 2, 2.5});
+}
+
+TEST_CASE("laws: mistakes with inputs") {
+  const auto told = [](const std::string& law, const std::string& element, const std::string& message) {
+    CHECK_EQ(refusal("[laws.a]\nparameters = { k = \"1 N/m\" }\n" + law + "\n[elements]\nm = { type = \"motion\", at = \"x\", velocity = \"1 m/s\" }\nh = { type = \"a\", between = [\"x\", \"ground\"]" + element + " }\n[simulate]\nstop = 1\n"), message);
+  };
+  const std::string law = "inputs = [\"u\"]\nforce = \"k*d + u\"";
+  const std::string line = "    7 | h = { type = \"a\", between = [\"x\", \"ground\"]";
+  told(law, "", "scene.toml:7:1: error: an `a` needs `u`\n" + line + " }\n      | ^\n  u = { block = \"current\" }, a quantity of the network (\"motor.force\"), or a signal\n");
+  told(law, ", u = \"m.forc\"", "scene.toml:7:53: error: `m` has no `forc`\n" + line + ", u = \"m.forc\" }\n      |                                                     ^\n  did you mean `m.force`?\n");
+  told(law, ", u = { block = \"n\" }", "scene.toml:7:60: error: no block is called `n`\n" + line + ", u = { block = \"n\" } }\n      |                                                            ^\n  an input is a block (`controller`) or a quantity of the network (`drum.velocity`)\n");
+  told(law, ", u = \"2 kg\"", "scene.toml:4:16: error: `force` of law `a`: `k*d` is a force (N), `u` is a mass (kg): they cannot be added (in `h`)\n    4 | force = \"k*d + u\"\n      |                ^\n");
+  told(law, ", u = \"2 N\"", "");
+  told(law, ", u = { step = \"2 N\", tim = 1 }", "scene.toml:7:66: error: unknown key `tim` of a `step` signal\n" + line + ", u = { step = \"2 N\", tim = 1 } }\n      |                                                                  ^\n  did you mean `time`?\n");
+  told("inputs = \"u\"\nforce = \"k*d\"", "", "scene.toml:3:10: error: `inputs` must be an array, but is the string \"u\"\n    3 | inputs = \"u\"\n      |          ^\n  inputs = [\"u\"]\n");
+  told("inputs = [\"w\"]\nforce = \"k*d\"", "", "scene.toml:3:11: error: an input cannot be called `w`\n    3 | inputs = [\"w\"]\n      |           ^\n  d, w, t, f, E and law have a meaning in every law\n");
+  told("inputs = [\"k\"]\nforce = \"k*d\"", "", "scene.toml:2:16: error: `k` is a parameter of law `a`, and a state, an input or a name in `where` too\n    2 | parameters = { k = \"1 N/m\" }\n      |                ^\n  rename one of them\n");
+  told("inputs = [\"type\"]\nforce = \"k*d*type\"", "", "scene.toml:3:11: error: an input cannot be called `type`\n    3 | inputs = [\"type\"]\n      |           ^\n  an element has a key of that name already\n");
 }

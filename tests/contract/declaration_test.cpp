@@ -67,7 +67,7 @@ TEST_CASE("contract: declarations are complete") {
       }
       if (p.optional || p.may_vary) CHECK(p.kind == Parameter::Kind::value);
       if (p.optional) CHECK((!p.fallback && p.same_as.empty()));
-      if (p.may_vary) CHECK(((component->role == Role::slip || d.resists) && p.unit == Parameter::Unit::quantity));
+      if (p.may_vary) CHECK(((component->role == Role::slip || d.resists || component->varying) && p.unit == Parameter::Unit::quantity));
       if (!p.coefficient_with.empty()) {
         REQUIRE(find(d, p.coefficient_with));
         CHECK(find(d, p.coefficient_with)->optional);

@@ -48,7 +48,7 @@ std::vector<double> draw_once(const Component& component, Domain domain, Choice 
     const Parameter& p = d.parameters[k];
     if (p.kind != Parameter::Kind::value) return;
     if (p.optional && (choice == Choice::fallbacks || random.below(2) == 0)) return;
-    if (p.may_vary && choice == Choice::random && random.below(2) == 0) return;
+    if (p.may_vary && !component.varying && choice == Choice::random && random.below(2) == 0) return;
     if (choice == Choice::fallbacks && p.fallback) {
       values[k] = p.fallback.value_or(not_given);
     } else if (p.quantity == Quantity::number) {

@@ -104,7 +104,7 @@ class Surroundings {
   }
   /// Its force depends on its velocity in a way that no balance of forces may determine.
   bool needs_mass(const std::vector<double>& values) const {
-    return (component_.over_velocity && component_.over_velocity(values)) || (component_.beside && component_.beside(values));
+    return over_velocity(component_, {values}) || (component_.beside && component_.beside(values));
   }
   bool motion() const { return component_.role == Role::motion; }
   double scale(Quantity quantity) const { return typical.of(quantity, place_.domain); }

@@ -63,6 +63,13 @@ TomlValue signal(Random& random) {
 }
 
 TomlValue parameter_value(const Parameter& parameter, const std::vector<std::string>& blocks, Random& random) {
+  if (parameter.may_be_curve && random.below(4) == 0) {
+    if (random.below(3) == 0) return string_value("1 + exp(-(w/0.1)^2) + 0.1*abs(w)");
+    std::vector<TomlValue> points;
+    double x = random.below(5) == 0 ? value(random) : 0;
+    for (int k = random.below(6); k >= 0; --k, x += std::abs(value(random))) points.push_back(array_value({number_value(x), number_value(value(random))}));
+    return array_value(std::move(points));
+  }
   if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && random.below(4) == 0)) {
     if (parameter.from_block && !blocks.empty() && random.below(4) == 0)
       return table_value({{"block", string_value(blocks[static_cast<std::size_t>(random.below(static_cast<int>(blocks.size())))])}});

@@ -198,6 +198,7 @@ std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t wh
   const SceneElement& element = scene.elements[static_cast<std::size_t>(index)];
   if (const SceneFeed* feed = feed_of(scene, index, element.signal_parameters[which])) {
     const SceneBlock& block = scene.blocks[static_cast<std::size_t>(feed->block)];
+    if (block.function && scene.elements[static_cast<std::size_t>(block.element)].part != SceneElement::Part::none) return {shortened(block.function->text())};
     return {(feed->sign < 0 ? "from −" : "from ") + scene.elements[static_cast<std::size_t>(block.element)].name};
   }
   const Parameter& parameter =
@@ -253,7 +254,7 @@ Caption caption_of(const Scene& scene, int index, bool with_values, const Typed&
     const auto& signals = element.signal_parameters;
     const auto signal = std::find(signals.begin(), signals.end(), static_cast<int>(i));
     const std::string symbol = in_print(declaration.parameters[i].symbol);
-    if (declaration.parameters[i].kind == Parameter::Kind::characteristic) {
+    if (declaration.parameters[i].kind == Parameter::Kind::characteristic || (declaration.parameters[i].may_be_curve && element.characteristic)) {
       if (element.characteristic) said.push_back({symbol, {"by its curve"}});
     } else if (signal != signals.end())
       said.emplace_back(symbol, signal_of(scene, index, static_cast<std::size_t>(signal - signals.begin()), typed));

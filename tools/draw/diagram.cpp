@@ -300,17 +300,27 @@ class Diagram {
 
 }  // namespace
 
+namespace {
+
+/// The parts of an element by a law are not.
+bool is_drawn(const Scene& scene, std::size_t block) {
+  return scene.elements[static_cast<std::size_t>(scene.blocks[block].element)].part == SceneElement::Part::none;
+}
+
+}  // namespace
+
 std::vector<Piece> draw_blocks(const Scene& scene, const Detail& detail) {
   std::vector<int> group(scene.blocks.size());
   std::iota(group.begin(), group.end(), 0);
   for (std::size_t b = 0; b < scene.blocks.size(); ++b)
     for (const SceneBlock::Input& input : scene.blocks[b].inputs) {
-      if (!input.from_block) continue;
+      if (!input.from_block || !is_drawn(scene, b)) continue;
       const int from = group[static_cast<std::size_t>(input.index)], to = group[b];
       std::replace(group.begin(), group.end(), std::max(from, to), std::min(from, to));
     }
   std::map<int, std::vector<int>> groups;
-  for (std::size_t b = 0; b < scene.blocks.size(); ++b) groups[group[b]].push_back(static_cast<int>(b));
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+    if (is_drawn(scene, b)) groups[group[b]].push_back(static_cast<int>(b));
   std::vector<Piece> pieces;
   for (const auto& [first, blocks] : groups) pieces.push_back(Diagram(scene, detail, blocks).draw());
   return pieces;

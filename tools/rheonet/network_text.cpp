@@ -54,6 +54,10 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     });
     if (fed != scene.feeds.end()) {
       const SceneBlock& block = scene.blocks[static_cast<std::size_t>(fed->block)];
+      if (block.function && scene.elements[static_cast<std::size_t>(block.element)].part != SceneElement::Part::none) {
+        values.push_back(fmt::format("{} = {}", name, block.function->text()));
+        continue;
+      }
       values.push_back(fmt::format("{} = {}block {}", name, fed->sign < 0 ? "-" : "", scene.elements[static_cast<std::size_t>(block.element)].name));
     } else if (found != with_signal.end()) {
       const auto which = static_cast<std::size_t>(found - with_signal.begin());
@@ -62,7 +66,8 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
   }
-  if (element.characteristic) values.push_back("force by its curve");
+  for (const Parameter& parameter : declaration.parameters)
+    if (element.characteristic && (parameter.kind == Parameter::Kind::characteristic || parameter.may_be_curve)) values.push_back(parameter.name + " by its curve");
   const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const SceneBlock& one) { return one.element == index; });
   if (block != scene.blocks.end()) {
     if (block->function) values.push_back("out = " + block->function->text());
@@ -109,6 +114,7 @@ std::string describe_network(const Scene& scene) {
   std::vector<std::array<std::string, 4>> rows;
   std::size_t type_width = 0, place_width = 0;
   for (const SceneElement& element : scene.elements) {
+    if (element.part != SceneElement::Part::none) continue;
     rows.push_back(row_of(element, scene));
     type_width = std::max(type_width, rows.back()[1].size());
     place_width = std::max(place_width, rows.back()[2].size());

@@ -73,6 +73,7 @@ std::string bounds(const Parameter& p) {
   }
   if (p.may_be_infinite) text += ", or inf";
   if (p.may_vary) text += ", or a signal";
+  if (p.may_be_curve) text += ", or a curve over w";
   return text;
 }
 
