@@ -99,6 +99,7 @@ struct Model {
   std::string name;
   Spot spot;
   const TomlValue* source = nullptr;
+  const TomlValue* check = nullptr;  ///< conditions on the parameters of each instance
   std::vector<std::string> ports;
   std::vector<NamedFormula> parameters;
   bool law = false;
@@ -108,6 +109,7 @@ struct Model {
   std::vector<Number> defaults;              ///< of the parameters; NaN if absent or invalid
   const Environment* environment = nullptr;  ///< the [parameters] of its file
   double least_elements = 0;                 ///< lower bound of the elements of an instance: each `repeat` counts once
+  bool both_domains = false;                 ///< its defaults, of translation, count in rotation as their counterparts
   bool sound = false;
 };
 

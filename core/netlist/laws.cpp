@@ -59,6 +59,8 @@ class LawReader {
     const TomlEntry* force = reader.require("force", law_.spot, "force = \"k*d + c*w\", an expression over the displacement d and the velocity w");
     const TomlEntry* stores = reader.find("stores");
     const TomlEntry* inputs = reader.find("inputs");
+    const TomlEntry* domain = reader.find("domain");
+    const TomlEntry* check = reader.find("check");
     for (const char* about : {"summary", "source"})
       if (const TomlEntry* entry = reader.find(about)) expect_string(entry->value, fmt::format("`{}`", about), diagnostics_);
     reader.finish(diagnostics_);
@@ -69,10 +71,7 @@ class LawReader {
     if (inputs && expect_array(inputs->value, "`inputs`", diagnostics_, inputs_example))
       for (const TomlValue& item : inputs->value.items)
         if (expect_string(item, "the name of an input", diagnostics_, inputs_example)) name(item.text, item.spot, "an input");
-    if (parameters) {
-      for (const TomlEntry& entry : parameters->value.entries) check_parameter(entry.key, entry.spot);
-      for (const TomlValue& item : parameters->value.items) check_parameter(item.text, item.spot);
-    }
+    if (parameters) check_parameters(parameters->value);
     if (diagnostics_.errors() > before) return {};
     list_known();
 
@@ -94,8 +93,8 @@ class LawReader {
       for (const TomlValue& item : inputs->value.items)
         if (!used_.contains(item.text)) diagnostics_.warning(item.spot, fmt::format("law `{}` does not use its input `{}`", law_.key, item.text), "use it, or leave it out");
     std::vector<TomlEntry> model{{"ports", law_.spot, ports()}};
-    if (parameters) model.push_back(*parameters);
-    if (inputs) model.push_back(*inputs);
+    for (const TomlEntry* entry : {parameters, domain, check, inputs})
+      if (entry) model.push_back(*entry);
     model.push_back({"elements", law_.spot, table_at(law_.spot, std::move(elements_))});
     if (diagnostics_.errors() > before) return {};
     return TomlEntry{law_.key, law_.spot, table_at(law_.value.spot, std::move(model))};
@@ -111,6 +110,13 @@ class LawReader {
   }
 
   static TomlValue from(const std::string& block, Spot spot) { return table_at(spot, {{"block", spot, text_at(spot, block)}}); }
+
+  /// A table of defaults, or an array of names and of such tables.
+  void check_parameters(const TomlValue& parameters) {
+    if (parameters.is_string()) check_parameter(parameters.text, parameters.spot);
+    for (const TomlValue& item : parameters.items) check_parameters(item);
+    for (const TomlEntry& entry : parameters.entries) check_parameter(entry.key, entry.spot);
+  }
 
   void check_parameter(const std::string& called, Spot spot) {
     for (const char* taken : {"d", "w", "t"}) {

@@ -92,6 +92,52 @@ push  = { type = "force", at = "y", force = { sine = 3, frequency = 1.7 } }
                                     "b = { type = \"spring\", between = [\"x\", \"ground\"], stiffness = 40 }\n"), wired), 1e-7);
 }
 
+// The last blocks of the chain begin to move by much less than round-off of the first: their bristles need not be resolved then.
+TEST_CASE("laws: a chain of blocks on LuGre, pulled at one end") {
+  const std::string toml = std::string(lugre) + R"(
+[models.link]
+ports = ["a", "b"]
+[models.link.elements]
+k     = { type = "spring", between = ["a", "b"], stiffness = "2000 N/m" }
+block = { type = "mass", at = "b", mass = "0.1 kg" }
+rub   = { type = "lugre", between = ["b", "ground"], Fc = "0.01 N", Fs = "0.015 N", sigma0 = "1e3 N/m", sigma1 = "3 N*s/m" }
+[elements]
+pull  = { type = "motion", at = "hand", velocity = "0.1 m/s" }
+chain = { type = "link", between = ["hand", "end"], repeat = { count = 30 } }
+[simulate]
+stop   = 0.5
+output = { points = 6 }
+record = ["chain.node1.position", "chain.node15.position", "end.position", "chain.29.rub.force", "chain.0.rub.force"]
+)";
+  const RunTable fine = simulate(toml, 1e-9);
+  CHECK(fine["end.position"].back() == doctest::Approx(0.0358763716).epsilon(1e-8));
+  for (const double accuracy : {1e-4, 1e-6}) CHECK_LE(largest_error(simulate(toml, accuracy), fine), 3 * accuracy);
+}
+
+// The energy that it stores grows with the given motion, with its state, and with the time.
+TEST_CASE("laws: the heat of one whose ends follow given motions") {
+  const double k = 3.1, c = 0.7, A = 0.4, b = 0.9;
+  const auto d = [=](double t) { return A * std::sin(b * t); };
+  const auto w = [=](double t) { return A * b * std::cos(b * t); };
+  const auto energy = [=](double t) { return k * d(t) * d(t) / 2 * (1 + t) + k * d(t) * d(t); };
+  const Expectations expected = {
+      {"e.energy", energy},
+      {"e.power", [=](double t) { return (3 * k * d(t) + c * w(t)) * w(t); }},
+      {"e.dissipated", [=](double t) { return c * w(t) * w(t) - k * d(t) * w(t) * t - k * d(t) * d(t) / 2; }}};
+  for (const char* motion : {"position = { sine = \"A\", frequency = \"b/(2*pi)\" }", "velocity = { cosine = \"A*b\", frequency = \"b/(2*pi)\" }"}) {
+    const std::string toml = netlist({{"k", k}, {"c", c}, {"A", A}, {"b", b}}, std::string(R"(
+[laws.growing]
+parameters = { k = "1 N/m", c = "1 N*s/m", T = "1 s" }
+states     = { z = { start = "0 m", rate = "w" } }
+force      = "k*d + 2*k*z + c*w"
+stores     = "k*d^2/2*(1 + t/T) + k*z^2"
+[elements]
+e = { type = "growing", between = ["x", "ground"], k = "k", c = "c" }
+m = { type = "motion", at = "x", )") + motion + " }\n", 2.9);
+    check_at_all_accuracies(toml + record(expected), expected);
+  }
+}
+
 TEST_CASE("laws: mistakes are told where they stand") {
   const auto says = [](const std::string& law, const std::string& words) {
     const std::string text = refusal(law + "\n[elements]\nm = { type = \"motion\", at = \"x\", velocity = \"1 m/s\" }\nh = { type = \"a\", between = [\"x\", \"ground\"] }\n[simulate]\nstop = 1\n");
@@ -103,6 +149,10 @@ TEST_CASE("laws: mistakes are told where they stand") {
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { z = { start = \"0 m\" } }\nforce = \"k*z\"", "a state needs `rate`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { w = { start = \"0 m\", rate = \"w\" } }\nforce = \"k*d\"", "a state cannot be called `w`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\nstores = \"k*d\"", "energy");
+  says("[laws.a]\nparameters = [\"k\", { d = 1 }]\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
+  says("[laws.a]\nparameters = [\"w\"]\nforce = \"w*d\"", "a parameter of a law cannot be called `w`");
+  says("[laws.a]\nparameters = [\"k\"]\nforce = \"k*d\"", "an `a` needs `k`");
+  says("[laws.a]\ndomain = \"rotation\"\nforce = \"d\"", "scene.toml:2:10: error: the `domain` of a model or a law can only be `both`, but is `rotation`");
   says("[laws.a]\nparameters = { k = \"1 N/m\", d = 1 }\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nwhere = { k = \"2*d\" }\nforce = \"k*d\"", "`k` is a parameter of law `a`, and a state, an input or a name in `where` too");
   says("[laws.a]\nforce = \"0*d\"\n[laws.unused]\nforce = \"this is ( nonsense\"", "`force` of law `unused`");
