@@ -79,6 +79,18 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, c
 /// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse.
 std::vector<double> EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const {
   ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
+  std::vector<char> reached(structure_.kind.size(), 0);  // by some impulse
+  const auto add = [&](const Branch& b, const ConvexNetwork::Law& law) {
+    reached[at(b.a)] = reached[at(b.b)] = 1;
+    return problem.add(slot(b.a), slot(b.b), law);
+  };
+  for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true});
+  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
+  std::vector<int> branch(network_.sliders.size(), -1);
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
+    if (law.low < law.high) branch[k] = add(network_.sliders[k].branch, law);
+  }
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
     if (structure_.kind[n] == Kind::known) {
@@ -88,17 +100,11 @@ std::vector<double> EventTransition::share_impulses(double t, const std::vector<
     }
     problem.start(slot(node), state.velocity[n]);
     problem.load(slot(node), momentum[n]);
-    if (structure_.kind[n] == Kind::massive) problem.set_inertia(slot(node), structure_.mass[n]);
-  }
-  for (const auto& [branch, inertance] : network_.inerters) {
-    problem.add(slot(branch.a), slot(branch.b), {.backward = inertance, .forward = inertance, .of_change = true});
-  }
-  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
-  std::vector<int> branch(network_.sliders.size(), -1);
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    const Branch& b = network_.sliders[k].branch;
-    const ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
-    if (law.low < law.high) branch[k] = problem.add(slot(b.a), slot(b.b), law);
+    if (structure_.kind[n] == Kind::massive) {
+      problem.set_inertia(slot(node), structure_.mass[n]);
+    } else if (!reached[n]) {
+      problem.fix(slot(node), 0);
+    }
   }
   if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {

@@ -230,9 +230,10 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
 
 /// Connects sliders that have a force only in contact to their gauges.
 void find_gauges(Network& network) {
-  for (std::size_t j = 0; j < network.deflections.size(); ++j) {
-    const Network::Place& place = network.places[static_cast<std::size_t>(network.deflections[j].element)];
-    if (place.role == Role::slip) network.sliders[static_cast<std::size_t>(place.index)].gauge = static_cast<int>(j);
+  for (int j = 0; j < static_cast<int>(network.deflections.size()); ++j) {
+    if (!network.is_gauge(j)) continue;
+    const int element = network.deflections[static_cast<std::size_t>(j)].element;
+    network.sliders[static_cast<std::size_t>(network.places[static_cast<std::size_t>(element)].index)].gauge = j;
   }
 }
 

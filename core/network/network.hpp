@@ -107,6 +107,11 @@ struct Network {
   /// The batch that holds deflection branch number `branch`, and its index there.
   DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   RateBatch& rate_of(int branch, std::size_t& i) const;
+  /// Whether a deflection branch only measures the displacement of a slider.
+  bool is_gauge(int branch) const {
+    const Place& place = places[static_cast<std::size_t>(deflections[static_cast<std::size_t>(branch)].element)];
+    return place.role == Role::slip && !place.paired;
+  }
   /// The side on which a slider with a gauge is in contact: -1, 1, or 0 while it is apart.
   int contact_of(const Slider& slider) const {
     std::size_t i = 0;
