@@ -98,7 +98,7 @@ struct StopGauge : MemorylessLaw {
   }
   void follow(double p, double step) {
     const auto reached = [&](double way, double bound) {
-      return std::isfinite(bound) && way <= numerics::equal_values * (std::abs(p) + std::abs(step) + std::abs(bound));
+      return std::isfinite(bound) && std::abs(way) <= numerics::equal_values * (std::abs(p) + std::abs(step) + std::abs(bound));
     };
     side = reached(above(p + step), upper) ? 1 : reached(below(p + step), lower) ? -1 : 0;
   }
@@ -161,11 +161,17 @@ const RegisterComponent register_stop({
                 },
             .check = without_room,
             .effects = {{Effect::contact, "stiffness", 0}, {Effect::viscosity, "damping", 0}},
-            .summary = "elastic end stops: free play between two displacements, a spring and a damper beyond them",
-            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0",
+            .summary = "end stops: free play between two displacements; elastic beyond them, or rigid",
+            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0; rigid: w after = -e w before",
             .equation = R"(f = \begin{cases} k\,x + \min(\max(c\,w, -k|x|), k|x|) & \text{beyond a bound by } x \\ 0 & \text{else} \end{cases})",
             .source = "definition; with damping, the contact of Modelica.Mechanics.Translational.Components.ElastoGap",
-            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\nAn event marks each contact and each release.",
+            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\n"
+                     "With `stiffness = \"inf\"` the displacement stays within the bounds. Between masses or prescribed motions an impact ends the approach: "
+                     "w after = -e w before, with the momentum kept. It dissipates what e^2 leaves. A node without mass just comes into contact.\n"
+                     "Contacts that are hit at one time share the impulses: each takes what ends the approach of all, and gives back its e times that. With one e "
+                     "this is w after = -e w before at each of them. A contact that only touches gives nothing back.\n"
+                     "Hops that grow ever shorter end in rest, once all that remain are within a quarter of `accuracy`: in velocity, and in time.\n"
+                     "An event marks each contact, each impact and each release.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[2] == 0; }, .values = {}},

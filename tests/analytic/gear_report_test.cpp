@@ -17,7 +17,7 @@ drive = { type = "motion", at = "a", position = { sine = "1 mm", frequency = "2 
 [elements.line]
 between = ["ground", "a"]
 series = [ { type = "dashpot", damping = "2 N*s/m" }, { name = "l", type = "lever", ratio = -3 }, { type = "spring", stiffness = "5 N/m" } ]
-)~" + "[simulate]\nstop = 1\naccuracy = 1e-7\noutput = { points = 41 }\n");
+)~" "[simulate]\nstop = 1\naccuracy = 1e-7\noutput = { points = 41 }\n");
   const Certificate certificate = certify(scene, {});
   CHECK(certificate.holds);
   CHECK_FALSE(certificate.imbalance);
@@ -32,7 +32,7 @@ domain = "rotation"
 d1 = { type = "motion", at = "a", velocity = "1 rad/s" }
 g = { type = "rack", between = ["a", "b"], radius = "2 m" }
 d2 = { type = "motion", at = "b", velocity = "7 m/s" }
-)~" + "[simulate]\nstop = 1\n");
+)~" "[simulate]\nstop = 1\n");
   CHECK(torn.find("transmission `g` joins node `b`, which motion `d2` moves at 7 m/s, to node `a`, which motion `d1` moves at 1 rad/s,") != torn.npos);
   const Scene scene = scene_of(R"~(
 domain = "rotation"
@@ -44,7 +44,7 @@ k2 = { type = "spring", between = ["c", "ground"], stiffness = "5 N/m" }
 [nodes]
 a = { position = 0, velocity = 2 }
 b = { position = "12 mm" }
-)~" + "[simulate]\nstop = 1\n");
+)~" "[simulate]\nstop = 1\n");
   bool found = false;
   for (const std::string& line : check(scene).chosen) found = found || line.find("node `c` starts at position 0.007 m") != line.npos;
   CHECK(found);
