@@ -116,7 +116,10 @@ struct StopGauge : MemorylessLaw {
 Contact rigid_contact(std::span<const double> v) {
   const Bounds any{unbounded, unbounded}, none{0, 0};
   const bool both = v[0] == v[1];
-  return {.lowest = lower_of(v), .highest = upper_of(v), .lower = std::isnan(v[0]) ? Box{} : Box{both ? any : none, any}, .upper = std::isnan(v[1]) ? Box{} : Box{any, both ? any : none},
+  return {.lowest = lower_of(v),
+          .highest = upper_of(v),
+          .lower = std::isnan(v[0]) ? Box{} : Box{both ? any : none, any},
+          .upper = std::isnan(v[1]) ? Box{} : Box{any, both ? any : none},
           .restitution = v[2]};
 }
 

@@ -52,11 +52,12 @@ int EventTransition::contacts() const {
   return static_cast<int>(std::count_if(network_.sliders.begin(), network_.sliders.end(), [](const Network::Slider& s) { return s.contact.has_value(); }));
 }
 
-/// How far a slider that is apart can go in the direction of `step` before it is in contact [m].
+/// How far a slider can go in the direction of `step` before it is in contact [m].
 double EventTransition::way_to_contact(std::size_t slider, double step, const State& state) const {
   const Network::Slider& s = network_.sliders[slider];
+  if (network_.contact_of(s) * step > 0) return 0;
   const double d = displacement(s, state);
-  return step > 0 ? s.contact->highest - d : d - s.contact->lowest;
+  return std::max(0.0, step > 0 ? s.contact->highest - d : d - s.contact->lowest);
 }
 
 /// The share of a jump of massless nodes that leads to the first contact.
@@ -65,7 +66,8 @@ double EventTransition::share_to_contact(const Jump& jump, const State& state) c
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double step = moved(jump, b.a) - moved(jump, b.b);
-    if (step != 0 && apart(k)) share = std::min(share, std::max(0.0, way_to_contact(k, step, state)) / std::abs(step));
+    const bool goes = network_.sliders[k].contact && step != 0 && network_.contact_of(network_.sliders[k]) * step <= 0 && !inputs_.box(k).rigid();
+    if (goes) share = std::min(share, way_to_contact(k, step, state) / std::abs(step));
   }
   return share;
 }
@@ -76,8 +78,7 @@ void EventTransition::refuse_steps_through_contacts(double t, const std::vector<
     const Branch& b = network_.sliders[k].branch;
     if (!network_.sliders[k].contact || !carried(b.a, b.b) || step_together(dx[at(b.a)], dx[at(b.b)])) continue;
     const double step = dx[at(b.a)] - dx[at(b.b)];
-    const bool blocked = !apart(k) && std::isinf(inputs_.box(k).at(step < 0 ? -1 : 1).sliding.value);
-    const double beyond = std::abs(step) - (blocked ? 0 : way_to_contact(k, step, state));
+    const double beyond = std::abs(step) - way_to_contact(k, step, state);
     if (beyond <= numerics::equal_given_values * std::abs(step)) continue;
     throw SimulationError(network_.spot_of(b.element),
                           fmt::format("{} a step in position moves the ends of `{}` by {} beyond its bound in no time, which takes a force "

@@ -237,7 +237,7 @@ bool EventTransition::jump(double t, bool stepped, std::vector<double>& dx, Stat
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double step = moved(b.a) - moved(b.b);
-    if (step != 0) heat += inputs_.box(k).at(step > 0 ? 1 : -1).sliding.value * std::abs(step);
+    if (step != 0 && !network_.sliders[k].contact) heat += inputs_.box(k).at(step > 0 ? 1 : -1).sliding.value * std::abs(step);
     if (slider_branch[k] < 0) continue;
     if (step != 0) broken_[k] = 1;
     force[k] += share * problem.force(slider_branch[k]);

@@ -250,6 +250,27 @@ stop = { type = "stop", between = ["x", "ground"], upper = "bound", stiffness = 
   }
 }
 
+// The hand jumps to and fro. On the way back the node y leaves one bound and meets the other, and x leaves its own.
+TEST_CASE("rigid stop: steps through springs open and close two stops at once") {
+  const double k = 100, x_high = 0.3, y_high = 0.1, y_low = -0.2;
+  const auto high = [](double t) { return std::fmod(t, 1) < 0.5; };
+  const Expectations expected = {{"x.position", [=](double t) { return high(t) ? x_high : (y_low - 1) / 2; }},
+                                 {"y.position", [=](double t) { return high(t) ? y_high : y_low; }},
+                                 {"s1.force", [=](double t) { return high(t) ? k * (1 - 2 * x_high + y_high) : 0; }},
+                                 {"s2.force", [=](double t) { return high(t) ? k * (x_high - 2 * y_high) : k * ((y_low - 1) / 2 - 2 * y_low); }}};
+  const std::string toml = netlist({{"k", k}, {"x_high", x_high}, {"y_high", y_high}, {"y_low", y_low}}, R"(
+[elements]
+hand = { type = "motion", at = "a", position = { square = 1, frequency = 1 } }
+k1 = { type = "spring", between = ["a", "x"], stiffness = "k" }
+k2 = { type = "spring", between = ["x", "y"], stiffness = "k" }
+k3 = { type = "spring", between = ["y", "ground"], stiffness = "k" }
+s1 = { type = "stop", between = ["x", "ground"], upper = "x_high", stiffness = "inf" }
+s2 = { type = "stop", between = ["y", "ground"], lower = "y_low", upper = "y_high", stiffness = "inf" }
+)", 2.3, 203);
+  check_at_all_accuracies(toml + record(expected), expected);
+  for (const double accuracy : accuracies) CHECK_LE(std::abs(outcome(toml, accuracy).summary.dissipated), 1e-12);
+}
+
 // Both hold the block: they share the load with the least sum of squares within the bounds of the friction.
 TEST_CASE("rigid stop: pressed, with friction in parallel") {
   const double m = 1.1, F = 9.7, bound = 0.3;
