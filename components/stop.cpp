@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/numerics.hpp"
 #include "core/netlist/scene.hpp"
 #include "core/network/law_batch.hpp"
 
@@ -9,14 +10,16 @@ namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+double lower_of(std::span<const double> v) { return std::isnan(v[0]) ? -unbounded : v[0]; }
+double upper_of(std::span<const double> v) { return std::isnan(v[1]) ? unbounded : v[1]; }
+
 // Free between two displacements, a spring beyond them. The deflection is the displacement itself.
 struct Stop : MemorylessLaw {
   double lower, upper;  // m
   double k;             // N/m
   int side = 0;         // memory: the bound that is pressed: -1 lower, 1 upper, 0 none
 
-  explicit Stop(std::span<const double> v)
-      : lower(std::isnan(v[0]) ? -unbounded : v[0]), upper(std::isnan(v[1]) ? unbounded : v[1]), k(v[2]) {}
+  explicit Stop(std::span<const double> v) : lower(lower_of(v)), upper(upper_of(v)), k(v[2]) {}
 
   template <class T>
   T force(const T& d) const {
@@ -57,6 +60,69 @@ struct Stop : MemorylessLaw {
   static constexpr bool lossless = true;
 };
 
+// Measures the displacement of a rigid stop, and has no force. It counts from the bound that was last in contact, so that a small hop
+// has all digits.
+struct StopGauge : MemorylessLaw {
+  double lower, upper;  // m
+  int from = -1;        // memory: the bound from which p counts
+  int side = 0;         // memory: the bound in contact: -1 lower, 1 upper, 0 none
+
+  explicit StopGauge(std::span<const double> v) : lower(lower_of(v)), upper(upper_of(v)) {}
+
+  template <class T>
+  T force(const T&) const {
+    return T(0.0);
+  }
+  double above(double p) const { return from > 0 ? -p : upper - lower - p; }  // way to the upper bound
+  double below(double p) const { return from < 0 ? p : upper - lower + p; }
+
+  double start(double d) {
+    from = std::isinf(lower) ? 1 : -1;
+    const double p = d - (from < 0 ? lower : upper);
+    follow(p, 0);
+    return p;
+  }
+  int event_count() const { return 2; }
+  // Meets a bound. The force of the contact decides when it leaves the bound.
+  void event_functions(double p, double, double, double, double* g) const {
+    constexpr double never = std::numeric_limits<double>::max();
+    g[0] = side != 0 || std::isinf(upper) ? never : above(p);
+    g[1] = side != 0 || std::isinf(lower) ? never : below(p);
+  }
+  void switch_memory(int which, double, double) { side = side != 0 ? 0 : which == 0 ? 1 : -1; }
+  int contact() const { return side; }
+  double recentre(double p) {
+    if (side == 0) return 0;
+    from = side;
+    return p;
+  }
+  void follow(double p, double step) {
+    const auto reached = [&](double way, double bound) {
+      return std::isfinite(bound) && std::abs(way) <= numerics::equal_values * (std::abs(p) + std::abs(step) + std::abs(bound));
+    };
+    side = reached(above(p + step), upper) ? 1 : reached(below(p + step), lower) ? -1 : 0;
+  }
+  double jump(double p, double step) {
+    follow(p, step);
+    return 0;
+  }
+  double stored_energy(double) const { return 0; }
+  static constexpr bool lossless = true;
+  bool constant() const { return true; }
+  DeflectionBatch::Steady steady() const { return {0, 0, 0}; }
+};
+
+// In contact it takes any force that presses it; with equal bounds it is a rigid link.
+Contact rigid_contact(std::span<const double> v) {
+  const Bounds any{unbounded, unbounded}, none{0, 0};
+  const bool both = v[0] == v[1];
+  return {.lowest = lower_of(v),
+          .highest = upper_of(v),
+          .lower = std::isnan(v[0]) ? Box{} : Box{both ? any : none, any},
+          .upper = std::isnan(v[1]) ? Box{} : Box{any, both ? any : none},
+          .restitution = v[2]};
+}
+
 // The damping in contact, within +-k x: 0 at first touch, and never more than the spring gives back.
 std::optional<MotionExpression> contact_damping(std::span<const double> v) {
   if (!(v[3] > 0)) return {};
@@ -71,6 +137,8 @@ std::optional<MotionExpression> contact_damping(std::span<const double> v) {
 std::optional<Misfit> without_room(std::span<const double> v) {
   if (std::isnan(v[0]) && std::isnan(v[1])) return Misfit{"lower", "and `upper` are both missing: give one of them, or both"};
   if (v[1] < v[0]) return Misfit{"upper", "is less than `lower`"};
+  if (std::isinf(v[2]) && v[3] > 0) return Misfit{"damping", "is that of an elastic stop: a rigid one, with `stiffness = \"inf\"`, has a `restitution`"};
+  if (!std::isinf(v[2]) && v[4] > 0) return Misfit{"restitution", "is that of a rigid stop, with `stiffness = \"inf\"`: an elastic one has a `damping`"};
   return {};
 }
 
@@ -85,26 +153,51 @@ const RegisterComponent register_stop({
                      .description = "smallest displacement without contact; absent: no stop on this side"},
                     {.name = "upper", .quantity = Quantity::position, .lower = -unbounded, .optional = true, .turned = "lower", .symbol = "d2",
                      .description = "largest displacement without contact; absent: no stop on this side"},
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .symbol = "k",
-                     .description = "force per displacement beyond a bound; 0 means no stop"},
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "k",
+                     .description = "force per displacement beyond a bound; 0 means no stop, inf a rigid one"},
                     {.name = "damping", .quantity = Quantity::damping, .fallback = 0.0, .lower_open = false, .symbol = "c",
                      .description = "damping of the contact; its force is at most that of the spring, so that the contact never pulls"},
+                    {.name = "restitution", .fallback = 0.0, .lower_open = false, .upper = 1, .symbol = "e",
+                     .description = "of a rigid stop: velocity after an impact over that before it; 0: plastic, 1: elastic"},
                     {.name = "d0", .quantity = Quantity::position, .kind = Parameter::Kind::initial, .lower = -unbounded, .symbol = "d",
                      .description = "displacement at the start, where it does not follow from positions of nodes"},
                 },
             .check = without_room,
             .effects = {{Effect::contact, "stiffness", 0}, {Effect::viscosity, "damping", 0}},
-            .summary = "elastic end stops: free play between two displacements, a spring and a damper beyond them",
-            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0",
+            .summary = "end stops: free play between two displacements; elastic beyond them, or rigid",
+            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0; rigid: w after = -e w before",
             .equation = R"(f = \begin{cases} k\,x + \min(\max(c\,w, -k|x|), k|x|) & \text{beyond a bound by } x \\ 0 & \text{else} \end{cases})",
             .source = "definition; with damping, the contact of Modelica.Mechanics.Translational.Components.ElastoGap",
-            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\nAn event marks each contact and each release.",
+            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\n"
+                     "With `stiffness = \"inf\"` the displacement stays within the bounds. Between masses or prescribed motions an impact ends the approach: "
+                     "w after = -e w before, with the momentum kept. It dissipates what e^2 leaves. A node without mass just comes into contact.\n"
+                     "Contacts that are hit at one time share the impulses: each takes what ends the approach of all, and gives back its e times that. With one e "
+                     "this is w after = -e w before at each of them. A contact that only touches gives nothing back.\n"
+                     "Hops that grow ever shorter end in rest, once all that remain are within a quarter of `accuracy`: in velocity, and in time.\n"
+                     "An event marks each contact, each impact and each release.",
         },
     .role = Role::deflection,
-    .limits = {{.when = "stiffness = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[2] == 0; }, .values = {}}},
+    .limits = {{.when = "stiffness = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[2] == 0; }, .values = {}},
+               {.when = "stiffness = inf", .becomes = "rigid stop", .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
+                .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], v[4]}; }}},
     .deflection = deflection_batch<Stop>,
     .beside = contact_damping,
     .drawing = {.lines = "M0 .5 H.3 M.7 .5 H1 M.3 .32 V.68 M.44 .3 V.7 M.56 .3 V.7 M.7 .32 V.68", .thin = "M.3 .5 H.7"},
+});
+
+const RegisterComponent register_rigid_stop({
+    .declaration =
+        {
+            .type = "rigid stop",
+            .parameters = {{.name = "lower", .quantity = Quantity::position, .lower = -unbounded, .optional = true},
+                           {.name = "upper", .quantity = Quantity::position, .lower = -unbounded, .optional = true},
+                           {.name = "restitution", .fallback = 0.0, .lower_open = false, .upper = 1}},
+        },
+    .role = Role::slip,
+    .hidden = true,
+    .deflection = deflection_batch<StopGauge>,
+    .box = [](std::span<const Dual>) { return Box{}; },
+    .contact = rigid_contact,
 });
 
 }  // namespace

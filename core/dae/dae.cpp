@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "core/dae/contacts.hpp"
+
 namespace rheonet {
 
 Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, const std::vector<char>& needed)
@@ -291,7 +293,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     const Branch& b = network_->sliders[k].branch;
     slip_side_[k] = structure_->stuck[k] ? static_cast<signed char>(Modes::stuck) : modes.slider[k];
     slip_force_[k] = slip_side_[k] == 0 ? 0 : slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
-    slider_shift_[k] = state.position[at(b.a)] - state.position[at(b.b)];
+    slider_shift_[k] = network_->sliders[k].contact ? rheonet::displacement(network_->sliders[k], state) : state.position[at(b.a)] - state.position[at(b.b)];
   }
   y.assign(at(size_), 0);
   for (std::size_t j = 0; j < ip_.size(); ++j) {

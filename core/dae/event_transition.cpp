@@ -48,21 +48,21 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);
   std::vector<double> momentum(dx);
-  if (stepped) position_steps(t, dx, momentum, change.notes);
+  if (stepped) position_steps(t, dx, momentum, state, change.notes);
   const bool driven = std::any_of(dx.begin(), dx.end(), [](double d) { return d != 0; });
   // A step that arrives through a delay is no step of the inputs: these do no work then.
   const bool delayed = take_delayed_steps(t, state, change);
   if (delayed && !driven) stepped = false;
   // At the start, nodes that rigid links join need not have one velocity.
   if (!started_) change.heat += halt(t, {}, modes, state, change.notes);
-  change.heat += collide(t, momentum, state, change.notes);
+  change.heat += collide(t, momentum, fired.settles, state, change);
   change.heat += halt(t, fired.sliders, modes, state, change.notes);
   for (std::size_t k = 0; k < broken_.size(); ++k) {
     const bool event = contains(fired.sliders, static_cast<int>(k));
     broken_[k] = 0;
     came_to_rest_[k] = Modes::stuck;
     if (event && !stepped_) came_to_rest_[k] = modes.slider[k];
-    slipping_[k] = event ? 0 : modes.slider[k];
+    slipping_[k] = event || network_.sliders[k].contact ? 0 : modes.slider[k];
   }
   // Between steps of the inputs, any imbalance before something breaks away is an error of the integrator's steps.
   bool smooth = !stepped_ && !delayed;
@@ -73,10 +73,7 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
     // A large displacement leaves its own round-off: a second jump removes it.
     inputs_.sense(t, state);
     for (int k = 0; smooth && k < numerics::jumps_in_a_row && settle_errors(t, state, force); ++k) inputs_.sense(t, state);
-    for (int k = 0; k < numerics::jumps_in_a_row && jump(t, stepped, dx, state, force, change); ++k) {
-      std::fill(dx.begin(), dx.end(), 0.0);
-      inputs_.sense(t, state);
-    }
+    for (int k = 0; k < numerics::jumps_in_a_row + contacts() && jump(t, stepped, dx, state, force, change); ++k) inputs_.sense(t, state);
     if (smooth) keep_slipping(force);
     smooth = false;
     change.sliding_modes.clear();  // these were held before the last break-away
@@ -87,6 +84,7 @@ EventTransition::Change EventTransition::cross(double t, double horizon, bool st
     stepped = false;
   }
   count_from_turns(state);
+  open_contacts(modes, state, change);
   return change;
 }
 

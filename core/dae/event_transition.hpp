@@ -23,12 +23,15 @@ class EventTransition {
     double heat = 0;                 ///< turned into heat at the event [J]
     std::vector<std::string> notes;  ///< messages on impulses
     std::vector<SlidingMode> sliding_modes;  ///< deflection branches in a Filippov sliding mode at rest
+    struct Impact { int element, side; };
+    std::vector<Impact> impacts;  ///< elements whose ends are thrown back from a contact, and its side
   };
   /// Elements whose guards have fired.
   struct Fired {
     std::vector<int> sliders;
     std::vector<int> starts;  ///< deflection branches held at rest that begin to move in their law's direction
     std::vector<int> turns;   ///< deflection branches that have stopped: they rest, or go on in their law's direction
+    std::vector<int> settles; ///< sliders that have come into contact, and whose further hops are too small to matter: they stay
     std::vector<int> rests;   ///< deflection branches held at rest in parallel with a slider at its bound, which sticks now
   };
   /// Takes the state across the event at t, just after Inputs::enter if `stepped`, and selects the modes that hold afterwards.
@@ -47,24 +50,25 @@ class EventTransition {
   double time_ahead(double t, double horizon, const State& state) const;
   /// `dx`: steps of known and viscous nodes due to steps of positions. `position_steps` also finds the momentum that dashpots give to masses [N s].
   Structure take_along(double t, std::vector<double>& dx) const;
-  void position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, std::vector<std::string>& notes);
+  void position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, const State& state, std::vector<std::string>& notes);
   /// The displacements at the event until the forces balance under the inputs last evaluated.
   struct Jump {
     ConvexNetwork problem;
     ConvexNetwork::Outcome outcome;
     std::vector<int> slider_branch;  ///< of each slider; -1 for one that cannot move
+    double share = 1;                ///< of the displacements that is made: up to the first contact
   };
   /// Empty if everything balances. With `along` each law keeps the slope of its present direction on both sides.
   std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force, bool along = false) const;
-  /// Applies the jump to the state; true if anything moved.
-  bool jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
+  /// Applies the jump to the state, up to the first contact; true if anything moved. `dx` becomes what is left of it.
+  bool jump(double t, bool stepped, std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
   /// As `jump`, if the imbalance is no more than an error of the integrator's steps: friction that gives way to it does not
   /// reverse. Returns false if the forces do not balance that way.
   bool settle_errors(double t, State& state, std::vector<double>& force) const;
   double farthest(const Jump& jump) const;
   /// Displacement of a node in a jump [m].
-  double moved(const Jump& jump, NodeId node) const { return jump.problem.value(slot(speaker(node))); }
+  double moved(const Jump& jump, NodeId node) const { return jump.share * jump.problem.value(slot(speaker(node))); }
   /// Updates the positions.
   void displace(double t, const Jump& jump, State& state) const;
   /// Applies the steps that arrive through delays; returns whether there are any.
@@ -75,9 +79,20 @@ class EventTransition {
   double halt(double t, const std::vector<int>& events, const Modes& modes, State& state, std::vector<std::string>& notes) const;
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double kinetic_energy(const State& state) const;
-  void share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const;
-  double collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes);
+  /// Returns the impulse of each slider [N s].
+  std::vector<double> share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const;
+  double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, Change& change);
   std::vector<int> moving_backwards(const State& state) const;
+  std::vector<std::string> names_of(const std::vector<int>& sliders) const;
+  // contacts.cpp
+  bool apart(std::size_t slider) const { return network_.sliders[slider].contact && network_.contact_of(network_.sliders[slider]) == 0; }
+  int contacts() const;
+  double way_to_contact(std::size_t slider, double step, const State& state) const;
+  double share_to_contact(const Jump& jump, const State& state) const;
+  void refuse_steps_through_contacts(double t, const std::vector<double>& dx, const State& state) const;
+  double rebound(double t, const std::vector<int>& hit, const std::vector<int>& settles, State& state) const;
+  std::vector<double> slider_velocities(const State& state) const;
+  void open_contacts(const Modes& modes, State& state, Change& change) const;
   double given_velocity(NodeId node) const;
   /// Throws SimulationError if rigid links join nodes that move at different velocities.
   void refuse_torn_links(double t) const;
@@ -95,6 +110,7 @@ class EventTransition {
   ModeSelection look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
                    const Nodal& now);
   bool breaks_loose(const ModeSelection& selection) const;
+  bool holds(const ModeSelection& selection, std::size_t slider) const;
   void count_from_turns(State& state) const;
   void stop_at_turns(const Fired& fired, const Modes& modes, State& state);
   void add_nodes(ModeSelection& selection, const State& state) const;
@@ -167,6 +183,7 @@ class EventTransition {
   std::vector<char> impulse_told_;     ///< of each element: a message has reported its impulse at a step of position
   std::vector<signed char> slipping_;  ///< of each slider: the direction in which it slips already
   std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this event
+  std::vector<int> hit_;               ///< sliders in contact whose ends moved towards each other at this event
   std::vector<double> slack_;          ///< of each node: imbalance that is accepted [N]
   std::vector<NodeId> led_by_;         ///< of each node: itself if its motion is known, a known node to which rigid links join it, or -1
   std::vector<char> firm_;             ///< of each node: it, or a node to which rigid links join it, is known or has a mass

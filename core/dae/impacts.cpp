@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -26,16 +27,22 @@ double EventTransition::kinetic_energy(const State& state) const {
   return sum;
 }
 
+std::vector<std::string> EventTransition::names_of(const std::vector<int>& sliders) const {
+  std::vector<std::string> names;
+  for (const int k : sliders) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
+  return names;
+}
+
 /// Gives masses the momentum of dashpots at steps in position [N s], and passes on the jumps of prescribed velocities through
-/// inerters. Ends motions that a law forbids (a freewheel turned backwards by a step, or at the start): a plastic impact.
+/// inerters. Ends motions that a law forbids (a freewheel turned backwards by a step, or at the start; a rigid stop that is hit): an impact.
 /// Returns the energy that this turns into heat [J].
-double EventTransition::collide(double t, const std::vector<double>& momentum, State& state, std::vector<std::string>& notes) {
+double EventTransition::collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, Change& change) {
   std::vector<double> jump(structure_.kind.size(), 0);  // of the velocity of each prescribed node
   // At the start the state does not have these velocities yet: nothing jumps.
   for (std::size_t n = 0; started_ && n < jump.size(); ++n) {
     if (led_by_[n] >= 0) jump[n] = given_velocity(led_by_[n]) - state.velocity[n];
   }
-  const double turned = started_ ? 0 : turn_trains(t, state, notes);
+  const double turned = started_ ? 0 : turn_trains(t, state, change.notes);
   started_ = true;
   const bool pushed = std::any_of(momentum.begin(), momentum.end(), [](double p) { return p != 0; });
   const auto jolted = [&](const Network::Inerter& i) { return jump[at(i.branch.a)] != 0 || jump[at(i.branch.b)] != 0; };
@@ -51,18 +58,23 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, S
       if (momentum[n] != 0) state.velocity[n] += momentum[n] / structure_.mass[n];
     }
   }
-  const std::vector<int> backwards = moving_backwards(state);
+  std::vector<int> backwards = moving_backwards(state);
+  hit_.clear();
   if (backwards.empty()) return turned;
   const double before = kinetic_energy(state);
-  const std::vector<double> none(structure_.kind.size(), 0);
-  share_impulses(t, none, none, state);
-  const double lost = std::max(0.0, before - kinetic_energy(state));
+  const double lost = std::max(0.0, rebound(t, backwards, settles, state));
+  const auto in_contact = [&](int k) { return network_.sliders[at(k)].contact.has_value(); };
+  std::copy_if(backwards.begin(), backwards.end(), std::back_inserter(hit_), in_contact);
+  std::erase_if(backwards, in_contact);
   // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
   const bool impact = lost > numerics::equal_energies * before;
-  if (!impact && t > 0) return turned + lost;
-  std::vector<std::string> names;
-  for (const int k : backwards) names.push_back(network_.name_of(network_.sliders[at(k)].branch));
-  notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
+  if (t == 0 && impact && !hit_.empty()) {
+    change.notes.push_back(fmt::format("{} {} start with an impact, which turns {:.6g} J into heat, before the energy account begins",
+                                       at_time(*network_.scene, t), "the ends of " + format_list(names_of(hit_)), lost));
+  }
+  if (backwards.empty() || (!impact && t > 0)) return turned + lost;
+  const std::vector<std::string> names = names_of(backwards);
+  change.notes.push_back(fmt::format("{} {} would move backwards: {} ends go on together from there{}", at_time(*network_.scene, t), format_list(names),
                               names.size() > 1 ? "their" : "its",
                               impact ? fmt::format(", which turns {:.6g} J into heat{}", lost, t > 0 ? "" : ", before the energy account begins") : ""));
   return turned + lost;
@@ -103,8 +115,20 @@ double EventTransition::turn_trains(double t, State& state, std::vector<std::str
 /// Changes the velocities of masses by impulses,
 ///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
 /// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse.
-void EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const {
+std::vector<double> EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const {
   ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
+  std::vector<char> reached(structure_.kind.size(), 0);  // by some impulse
+  const auto add = [&](const Branch& b, const ConvexNetwork::Law& law) {
+    reached[at(b.a)] = reached[at(b.b)] = 1;
+    return problem.add(slot(b.a), slot(b.b), law);
+  };
+  for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true});
+  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
+  std::vector<int> branch(network_.sliders.size(), -1);
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
+    if (law.low < law.high) branch[k] = add(network_.sliders[k].branch, law);
+  }
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     const auto node = static_cast<NodeId>(n);
     if (structure_.kind[n] == Kind::known) {
@@ -113,9 +137,12 @@ void EventTransition::share_impulses(double t, const std::vector<double>& jump, 
       continue;
     }
     problem.start(slot(node), state.velocity[n]);
-    if (structure_.kind[n] != Kind::massive) continue;
-    problem.set_inertia(slot(node), structure_.mass[n]);
     problem.load(slot(node), momentum[n]);
+    if (structure_.kind[n] == Kind::massive) {
+      problem.set_inertia(slot(node), structure_.mass[n]);
+    } else if (!reached[n]) {
+      problem.fix(slot(node), 0);
+    }
   }
   std::vector<double> before = state.velocity;
   for (std::size_t n = 0; n < before.size(); ++n) {
@@ -124,19 +151,15 @@ void EventTransition::share_impulses(double t, const std::vector<double>& jump, 
   std::vector<double> slips = slips_of_trains(before);
   for (double& slip : slips) slip = -slip;
   add_trains(problem, slips);
-  for (const auto& [branch, inertance] : network_.inerters) {
-    problem.add(slot(branch.a), slot(branch.b), {.backward = inertance, .forward = inertance, .of_change = true});
-  }
-  const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    const Branch& b = network_.sliders[k].branch;
-    const ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
-    if (law.low < law.high) problem.add(slot(b.a), slot(b.b), law);
-  }
   if (problem.solve() != ConvexNetwork::Outcome::solved) report_undecided(network_, at_time(*network_.scene, t));
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
     if (structure_.kind[n] == Kind::massive) state.velocity[n] = problem.value(slot(static_cast<NodeId>(n)));
   }
+  std::vector<double> impulses(branch.size(), 0);
+  for (std::size_t k = 0; k < branch.size(); ++k) {
+    if (branch[k] >= 0) impulses[k] = problem.force(branch[k]);
+  }
+  return impulses;
 }
 
 /// Sliders between masses or prescribed nodes that move in a direction in which they have no bound.
@@ -146,7 +169,9 @@ std::vector<int> EventTransition::moving_backwards(const State& state) const {
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const auto& [element, a, b] = network_.sliders[k].branch;
     const bool given = led_by_[at(a)] >= 0 && led_by_[at(b)] >= 0;
-    if (given || !firm_[at(a)] || !firm_[at(b)] || is_rigid_link(network_.sliders[k])) continue;
+    // An impact goes on through nodes without mass that are in contact with others.
+    const bool firm = (firm_[at(a)] && firm_[at(b)]) || network_.sliders[k].contact;
+    if (given || !firm || is_rigid_link(network_.sliders[k])) continue;
     const double va = velocity(a), vb = velocity(b);
     const bool never = std::isinf(inputs_.box(k).at(va < vb ? -1 : 1).sliding.value);
     if (never && std::abs(va - vb) > numerics::equal_energies * (std::abs(va) + std::abs(vb))) result.push_back(static_cast<int>(k));

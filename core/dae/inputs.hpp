@@ -85,9 +85,13 @@ class Inputs {
   /// call before that time, with the same `limit`, costs nothing.
   double next_reversal(int a, int b, double t, double limit);
 
-  /// The box of a slider at the time last evaluated. Derivatives are rates in time, partial (at constant unknowns) where a block
+  /// The box of a slider at the time last evaluated, in its present contact. Derivatives are rates in time, partial (at constant unknowns) where a block
   /// gives a parameter.
-  const Box& box(std::size_t slider) const { return box_[slider]; }
+  const Box& box(std::size_t slider) const {
+    const Network::Slider& s = network_->sliders[slider];
+    const int side = s.contact ? network_->contact_of(s) : 0;
+    return side == 0 ? box_[slider] : s.contact->at(side);
+  }
   /// Derivative of the sliding force of a slider to one side by its varying parameter number `which`.
   double sliding_slope(std::size_t slider, int side, std::size_t which) const;
 

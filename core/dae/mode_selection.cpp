@@ -62,13 +62,13 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   DisjointSets held(nodes);
   join_given(problem, held);
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
-    if (problem.direction(selection.slider[k]) == 0) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
+    if (holds(selection, k)) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
   }
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     // A slider at its bound, while others hold its ends, sticks: the forces of all of them are those of least norm.
     const bool sticks = held.find(b.a) == held.find(b.b) && problem.difference(slot(b.a), slot(b.b)) == 0 && !broken_[k];
-    const int direction = sticks ? 0 : problem.direction(selection.slider[k]);
+    const int direction = apart(k) ? Modes::forward : sticks ? 0 : problem.direction(selection.slider[k]);
     modes.slider[k] = static_cast<signed char>(direction);
     if (direction != 0 && bound(k, direction) > inputs_.box(k).at(direction).sliding.value) broken.push_back(static_cast<int>(k));
   }
@@ -100,6 +100,11 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     report_undecided(network_, at_time(*network_.scene, t));
   }
   return selection;
+}
+
+/// Whether a slider joins its ends after the event.
+bool EventTransition::holds(const ModeSelection& selection, std::size_t slider) const {
+  return selection.problem.direction(selection.slider[slider]) == 0 && !apart(slider);
 }
 
 /// Whether some slider begins to slip although its force was within its bounds.
@@ -290,7 +295,7 @@ void EventTransition::take_directions(const ModeSelection& selection, const Stat
   DisjointSets stuck(structure_.kind.size());
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
-    if (problem.direction(selection.slider[k]) == 0) stuck.join(b.a, b.b);
+    if (holds(selection, k)) stuck.join(b.a, b.b);
   }
   const std::vector<NodeId> given = given_in(stuck);
   // By sticking sliders, or by known nodes of equal velocity.

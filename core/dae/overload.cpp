@@ -125,7 +125,7 @@ std::vector<EventTransition::Bounded> EventTransition::bounded() const {
   }
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
-      if (laws.batch->delay(i) > 0) continue;
+      if (laws.batch->delay(i) > 0 || network_.is_gauge(laws.first + static_cast<int>(i))) continue;
       result.push_back({network_.deflections[at(laws.first) + i], laws.batch->steady(i).bound});
     }
   }

@@ -47,7 +47,7 @@ std::vector<int> EventTransition::let_slip(const ConvexNetwork& problem, double 
   DisjointSets firm(structure_.kind.size());
   join_given(problem, firm);
   for (std::size_t k = 0; k < slider_of.size(); ++k) {
-    if (problem.direction(slider_of[k]) != 0) continue;
+    if (problem.direction(slider_of[k]) != 0 || apart(k)) continue;
     const Branch& b = network_.sliders[k].branch;
     // Known nodes take any force, and leave the force of a slider at rest between them open.
     const bool given = structure_.kind[at(b.a)] == Kind::known && structure_.kind[at(b.b)] == Kind::known;

@@ -15,7 +15,8 @@
 
 namespace rheonet {
 
-void EventTransition::position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, std::vector<std::string>& notes) {
+void EventTransition::position_steps(double t, std::vector<double>& dx, std::vector<double>& momentum, const State& state,
+                                     std::vector<std::string>& notes) {
   for (std::size_t m = 0; m < network_.motions.size(); ++m) dx[at(network_.motions[m].node)] = inputs_.steps()[m];
   if (std::all_of(dx.begin(), dx.end(), [](double step) { return step == 0; })) return;
   const Structure led = take_along(t, dx);
@@ -42,8 +43,10 @@ void EventTransition::position_steps(double t, std::vector<double>& dx, std::vec
                                       "to rise in",
                                       at_time(*network_.scene, t), network_.scene->elements[at(train.element)].name));
   }
+  refuse_steps_through_contacts(t, dx, state);
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
+    if (network_.sliders[k].contact) continue;
     const double by = dx[at(b.a)] - dx[at(b.b)];
     if (massless(b.a) || massless(b.b) || step_together(dx[at(b.a)], dx[at(b.b)]) || is_rigid_link(network_.sliders[k])) continue;
     if (!std::isinf(inputs_.box(k).at(by < 0 ? -1 : 1).sliding.value)) continue;
@@ -215,16 +218,17 @@ bool EventTransition::settle_errors(double t, State& state, std::vector<double>&
   return true;
 }
 
-bool EventTransition::jump(double t, bool stepped, const std::vector<double>& dx, State& state, std::vector<double>& force,
-                   Change& change) {
-  const std::optional<Jump> found = find_jump(dx, state, force);
+bool EventTransition::jump(double t, bool stepped, std::vector<double>& dx, State& state, std::vector<double>& force, Change& change) {
+  std::optional<Jump> found = find_jump(dx, state, force);
   if (!found) return false;
-  const auto& [problem, outcome, slider_branch] = *found;
+  const auto& [problem, outcome, slider_branch, share] = *found;
   if (outcome == ConvexNetwork::Outcome::unbounded) report_runaway(t, problem.runaways(), state);
   if (outcome != ConvexNetwork::Outcome::solved) {
     report_unbalanced(t);
   }
 
+  found->share = share_to_contact(*found, state);
+  for (double& d : dx) d *= 1 - share;
   const auto moved = [&](NodeId node) { return this->moved(*found, node); };
   double stored = 0, work = 0, heat = 0, delayed = 0, slope;
   for (const Laws<DeflectionBatch>& laws : network_.deflection_laws) {
@@ -245,10 +249,10 @@ bool EventTransition::jump(double t, bool stepped, const std::vector<double>& dx
   for (std::size_t k = 0; k < slider_branch.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double step = moved(b.a) - moved(b.b);
-    if (step != 0) heat += inputs_.box(k).at(step > 0 ? 1 : -1).sliding.value * std::abs(step);
+    if (step != 0 && !network_.sliders[k].contact) heat += inputs_.box(k).at(step > 0 ? 1 : -1).sliding.value * std::abs(step);
     if (slider_branch[k] < 0) continue;
     if (step != 0) broken_[k] = 1;
-    force[k] += problem.force(slider_branch[k]);
+    force[k] += share * problem.force(slider_branch[k]);
   }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
     const Network::Force& load = network_.forces[k];

@@ -96,7 +96,7 @@ class StartBalance {
       }
     }
     for (const Network::Slider& slider : network_.sliders) {
-      if (slider.box.takes_force() || !slider.varying.empty()) let_go(slider.branch);
+      if (slider.box.takes_force() || !slider.varying.empty() || slider.contact) let_go(slider.branch);
     }
     if (network_.bundles == nullptr) return;
     // A bundle contains sliders, and gives way as they do.

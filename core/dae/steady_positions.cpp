@@ -44,7 +44,7 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] == 0) {
       forces.hang.join(s.branch.a, s.branch.b);
-      if (!rigid(k)) forces.sticking.push_back(name(s.branch));
+      if (!rigid(k) && !has_contact(k)) forces.sticking.push_back(name(s.branch));
     } else {
       result_.slider_force[k] = slip_[k] * inputs_.box(k).at(slip_[k]).sliding.value;
       forces.push(s.branch, result_.slider_force[k]);
@@ -53,12 +53,9 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
   return forces;
 }
 
-/// Finds the displacements from the start values to where the forces at these velocities balance. False if sliders have broken
-/// away on the way there.
-bool SteadyStateSolver::find_positions() {
-  Forces forces = forces_at_start();
+/// The displacements under these forces and those of the contacts.
+ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, std::vector<int>& slider_branch) {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
-  const std::vector<std::string> open = fix_positions(problem, forces.hang);
   for (std::size_t n = 0; n < velocity_.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), forces.load[n]);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Law& law = laws_[j];
@@ -72,17 +69,32 @@ bool SteadyStateSolver::find_positions() {
                    return batch->force_along(i, p, step, slope) - f0;
                  }});
   }
-  std::vector<int> slider_branch(slip_.size(), -1);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (slip_[k] != 0) continue;
-    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b), {.low = -bound(k, -1), .high = bound(k, 1)});
+    slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b),
+                                   s.contact ? contact_law(k) : ConvexNetwork::Law{.low = -bound(k, -1), .high = bound(k, 1)});
   }
+  return problem;
+}
+
+/// Finds the displacements from the start values to where the forces at these velocities balance. False if sliders have broken
+/// away on the way there.
+bool SteadyStateSolver::find_positions() {
+  Forces forces = forces_at_start();
+  std::vector<int> slider_branch(slip_.size(), -1);
+  ConvexNetwork problem = position_problem(forces, slider_branch);
+  const std::vector<std::string> open = fix_positions(problem, forces.hang);
   solve(problem, std::numeric_limits<double>::infinity());
+  for (int n = 0; n < numerics::contact_iterations && press_contacts(problem, slider_branch); ++n) {
+    problem = position_problem(forces, slider_branch);
+    fix_positions(problem, forces.hang);
+    solve(problem, std::numeric_limits<double>::infinity());
+  }
   std::vector<int> direction(slip_.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (slip_[k] != 0) continue;
-    direction[k] = problem.direction(slider_branch[k]);
+    direction[k] = has_contact(k) ? 0 : problem.direction(slider_branch[k]);
     result_.slider_force[k] = problem.force(slider_branch[k]);
   }
   if (break_away(direction)) return false;
@@ -103,12 +115,15 @@ void SteadyStateSolver::take_positions(const ConvexNetwork& problem) {
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Branch& b = network_.deflections[j];
     const double step = moved(b.a) - moved(b.b);
-    if (laws_[j].elastic()) {
+    if (laws_[j].elastic() || laws_[j].batch->contact(laws_[j].i)) {
       laws_[j].batch->jump(laws_[j].i, state_.p[j], step);
       state_.p[j] += step;
     } else {
       state_.offset[j] += step;
     }
+  }
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    if (has_contact(k) && network_.contact_of(network_.sliders[k]) == 0) result_.modes.slider[k] = Modes::forward;
   }
   for (std::size_t n = 0; n < velocity_.size(); ++n) {
     state_.position[n] += moved(static_cast<NodeId>(n));

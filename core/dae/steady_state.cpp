@@ -28,6 +28,7 @@ SteadyStateSolver::SteadyStateSolver(const Network& network, const Structure& cl
 
 SteadyStart SteadyStateSolver::go() {
   enter_inputs();
+  open_contacts();
   refuse_stretching();
   hold_what_is_free();
   // A slider that breaks away releases the difference to its sliding force: then everything is to be found anew.

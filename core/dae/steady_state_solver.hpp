@@ -62,10 +62,13 @@ class SteadyStateSolver {
     return known(node) || std::find(pinned_.begin(), pinned_.end(), node) != pinned_.end();
   }
 
+  /// A displacement that has a bound cannot change for ever in its direction.
   double bound(std::size_t slider, int side) const {
-    const Bounds& bounds = inputs_.box(slider).at(side);
+    const std::optional<Contact>& contact = network_.sliders[slider].contact;
+    const Bounds& bounds = (contact ? contact->at(side) : inputs_.box(slider)).at(side);
     return broken_[slider] ? bounds.sliding.value : bounds.breakaway.value;
   }
+  bool has_contact(std::size_t slider) const { return network_.sliders[slider].contact.has_value(); }
   bool rigid(std::size_t slider) const { return is_rigid_link(network_.sliders[slider]); }
 
   template <class Visit>
@@ -102,8 +105,13 @@ class SteadyStateSolver {
   struct Forces;
   Forces forces_at_start();
   bool find_positions();
+  ConvexNetwork position_problem(const Forces& forces, std::vector<int>& slider_branch);
   void take_positions(const ConvexNetwork& problem);
   std::vector<std::string> fix_positions(ConvexNetwork& problem, DisjointSets& hang) const;
+  // steady_contacts.cpp
+  void open_contacts();
+  ConvexNetwork::Law contact_law(std::size_t slider) const;
+  bool press_contacts(const ConvexNetwork& problem, const std::vector<int>& slider_branch);
 
   const Network& network_;
   const Structure& structure_;
@@ -118,6 +126,8 @@ class SteadyStateSolver {
   std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else determines it
   std::vector<char> broken_;      ///< of each slider: it has broken away
   std::vector<int> slip_;         ///< of each slider: its direction
+  std::vector<double> pressed_;   ///< of each slider with a gauge: estimate of its force [N]
+  double contact_stiffness_ = 0;  ///< of these estimates [N/m]
   SteadyStart result_;
 };
 

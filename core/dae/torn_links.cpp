@@ -75,6 +75,12 @@ void EventTransition::refuse_blocked_motions(double t, const ConvexNetwork& prob
       const Box& box = inputs_.box(k);
       const bool forbids = std::isinf(box.forward.sliding.value) != std::isinf(box.backward.sliding.value);
       if (!forbids || !problem.joined(node, slot(b.a)) || !problem.joined(node, slot(b.b))) continue;
+      if (network_.sliders[k].contact) {
+        throw SimulationError(network_.spot_of(b.element),
+                              fmt::format("{} `{}` is at its bound, and the prescribed motions of nodes `{}` and `{}` demand that it goes on: put an "
+                                          "element that gives way in series with it",
+                                          at_time(*network_.scene, t), network_.name_of(b), network_.node_name(b.a), network_.node_name(b.b)));
+      }
       throw SimulationError(network_.spot_of(b.element),
                             fmt::format("{} `{}` forbids the motion of node `{}` against `{}` that the prescribed motions demand; name its nodes the other "
                                         "way round, or put an element that gives way in series with it",

@@ -130,8 +130,8 @@ std::vector<Effect> declared_effects(const Declaration& declaration, std::span<c
     const auto parameter = std::find_if(declaration.parameters.begin(), declaration.parameters.end(),
                                         [&](const Parameter& p) { return p.name == brought.parameter; });
     const double value = values[static_cast<std::size_t>(parameter - declaration.parameters.begin())];
-    // A parameter that varies in time has no value here.
-    if (!(value <= 0) && !std::isinf(value)) result.push_back(brought.effect);
+    // A parameter that varies in time has no value here. A contact remains one where it is rigid.
+    if (!(value <= 0) && (!std::isinf(value) || brought.effect == Effect::contact)) result.push_back(brought.effect);
   }
   return result;
 }

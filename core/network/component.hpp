@@ -190,6 +190,16 @@ struct Box {
   bool rigid() const { return std::isinf(forward.breakaway.value) && std::isinf(backward.breakaway.value); }
 };
 
+/// A law of the role `slip` that has a force only in contact, and none while it is apart. Its gauge measures the displacement.
+struct Contact {
+  double lowest, highest;  ///< displacements at which it is in contact; infinite where there is no such side [m]
+  Box lower, upper;        ///< its box there; without force where there is no such side
+  double restitution;      ///< velocity after an impact over that before it, turned round
+
+  const Box& at(int side) const { return side < 0 ? lower : upper; }
+  double bound(int side) const { return side < 0 ? lowest : highest; }
+};
+
 /// A law of the role `block`. With u the sum of the inputs (or the generated signal), its output is
 ///
 ///     z, where z' = gain u - leak z and z = initial at first   if it has a state
@@ -271,11 +281,14 @@ struct Component {
   std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
   std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
   std::string with_row = {};             ///< the component that a transmission has instead if it is an equation of its own
-  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection
+  std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection; and the gauge of a contact
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
   std::optional<VaryingLaw> varying = {};  ///< if signals may give parameters of a deflection or rate law
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
   std::function<Box(std::span<const Dual>)> box = {};
+  /// For Role::slip: of a law that has a force only in contact. Its gauge is a deflection law without force, whose contact
+  /// (DeflectionBatch::contact) selects the box. `box` is that of the law while it is apart.
+  std::function<Contact(std::span<const double>)> contact = {};
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};

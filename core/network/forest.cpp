@@ -44,7 +44,7 @@ class Forest {
         const Branch& b = s.deflections[at(j)];
         if (b.a == b.b || laws.batch->delay(i) > 0) continue;  // a delayed force does not depend on the present motion
         if (laws.batch->constant(i)) {
-          weak_.push_back({b.element, b.a, b.b});
+          if (!network.is_gauge(j)) weak_.push_back({b.element, b.a, b.b});
           continue;
         }
         const int ga = s.group[at(b.a)], gb = s.group[at(b.b)];

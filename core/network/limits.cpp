@@ -25,7 +25,7 @@ Reduced take_limits(const Component* component, std::vector<double> values, std:
 
 std::string name_of(const Reduced& law) {
   if (law.component->box && constant_box(*law.component, law.values).rigid()) return "a rigid link";
-  return "a `" + law.component->declaration.type + "`";
+  return law.component->hidden ? "a " + law.component->declaration.type : "a `" + law.component->declaration.type + "`";
 }
 
 namespace {

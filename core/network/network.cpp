@@ -34,7 +34,7 @@ void batch_up(ByComponent& sorted, Role role, std::vector<Branch>& branches, std
     Values values;
     const int first = static_cast<int>(branches.size());
     for (auto& [branch, law] : list) {
-      places[static_cast<std::size_t>(branch.element)] = {role, static_cast<int>(branches.size())};
+      if (component->role == role) places[static_cast<std::size_t>(branch.element)] = {role, static_cast<int>(branches.size())};
       branches.push_back(branch);
       values.emplace_back(law.values, law.characteristic.get());
     }
@@ -186,6 +186,11 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::slip:
       place_in(network.sliders);
       network.sliders.push_back({ends, constant_box(*law.component, law.values), law.component});
+      if (law.component->contact) {
+        network.sliders.back().contact = law.component->contact(law.values);
+        gathered.deflections[law.component->declaration.type].push_back({ends, std::move(law)});
+        break;
+      }
       // Their blocks are found later.
       for (const int parameter : varying_parameters(element, law)) {
         network.sliders.back().values = law.values;
@@ -231,6 +236,15 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::block:
       place = {role, -1};
       break;
+  }
+}
+
+/// Connects sliders that have a force only in contact to their gauges.
+void find_gauges(Network& network) {
+  for (int j = 0; j < static_cast<int>(network.deflections.size()); ++j) {
+    if (!network.is_gauge(j)) continue;
+    const int element = network.deflections[static_cast<std::size_t>(j)].element;
+    network.sliders[static_cast<std::size_t>(network.places[static_cast<std::size_t>(element)].index)].gauge = j;
   }
 }
 
@@ -363,6 +377,7 @@ Network build_network(const Scene& scene) {
            [](const Component& c, const Values& v) { return c.deflection(v); });
   batch_up(gathered.rates, Role::rate, network.rates, network.rate_laws, network.places,
            [](const Component& c, const Values& v) { return c.rate(v); });
+  find_gauges(network);
   tie_up_pairs(network);
   feed_sources(network);
   network.blocks = find_blocks(network);

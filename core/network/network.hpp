@@ -65,6 +65,8 @@ struct Network {
     const Characteristic* characteristic = nullptr;  ///< of its friction over the speed
 
     LawValues law_values() const { return {values, characteristic}; }
+    std::optional<Contact> contact = {};           ///< of a law that has a force only in contact ...
+    int gauge = -1;                                ///< ... and the deflection branch that measures its displacement
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
   /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).
@@ -119,6 +121,16 @@ struct Network {
   /// The batch that holds deflection branch number `branch`, and its index there.
   DeflectionBatch& batch_of(int branch, std::size_t& i) const;
   RateBatch& rate_of(int branch, std::size_t& i) const;
+  /// Whether a deflection branch only measures the displacement of a slider.
+  bool is_gauge(int branch) const {
+    const Place& place = places[static_cast<std::size_t>(deflections[static_cast<std::size_t>(branch)].element)];
+    return place.role == Role::slip && !place.paired;
+  }
+  /// The side on which a slider with a gauge is in contact: -1, 1, or 0 while it is apart.
+  int contact_of(const Slider& slider) const {
+    std::size_t i = 0;
+    return batch_of(slider.gauge, i).contact(i).value_or(0);
+  }
   const SceneElement& element_of(const Branch& branch) const { return scene->elements[static_cast<std::size_t>(branch.element)]; }
   /// Places of an element and of a node in the netlist.
   const Spot& spot_of(int element) const { return scene->elements[static_cast<std::size_t>(element)].spot; }

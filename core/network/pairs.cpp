@@ -22,7 +22,7 @@ struct Touch {
 bool is_spring(const Reduced& law) { return law.component && law.component->spring; }
 
 bool is_plain_slider(const Reduced& law) {
-  if (!law.component || law.component->role != Role::slip) return false;
+  if (!law.component || law.component->role != Role::slip || law.component->contact) return false;
   const Box box = constant_box(*law.component, law.values);
   const double sliding = box.forward.sliding.value;
   if (over_velocity(*law.component, {law.values, law.characteristic.get()})) return false;

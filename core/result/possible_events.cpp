@@ -50,6 +50,7 @@ class EventSearch {
 
   void add_slider(const Network::Slider& slider) {
     if (is_rigid_link(slider)) return;
+    if (slider.contact) return add("contact, impact, release", slider.branch.element);
     const bool reverses = std::isfinite(slider.box.forward.sliding.value) && std::isfinite(slider.box.backward.sliding.value);
     std::string kinds = "stick, slip";
     if (slider.box.breaks_away() || !slider.varying.empty()) kinds += ", breakaway";

@@ -35,9 +35,10 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
   law_margin_.assign(events_.size(), 0);
   margin_.assign(structure.sliders.size(), 0);
   for (std::size_t k = 0; k < structure.sliders.size(); ++k) {
-    // A slipping slider whose ends other sliders hold together stays at its bound: it has no event of its own.
+    // A slipping slider whose ends other sliders hold together stays at its bound: it has no event of its own. A law that has a
+    // force only in contact is apart where it does not stick: its gauge has the events.
     const Branch& b = structure.sliders[k];
-    if (!structure.stuck[k] && b.a == b.b) continue;
+    if (!structure.stuck[k] && (b.a == b.b || dae.network().sliders[k].contact)) continue;
     rates_needed_ = rates_needed_ || floating(b);
     slips_along_ = slips_along_ || (!structure.stuck[k] && floating(b));
     const auto firm = [&](NodeId n) { return structure.kind[at(n)] == Kind::known || structure.kind[at(n)] == Kind::massive; };

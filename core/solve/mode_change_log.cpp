@@ -117,7 +117,7 @@ const std::vector<Event>& ModeChangeLog::follow(double t, const Modes& modes, co
     law.last = now;
   }
   for (std::size_t k = 0; k < modes.slider.size(); ++k) {
-    if (modes.slider[k] == last_.slider[k]) continue;
+    if (modes.slider[k] == last_.slider[k] || network_.sliders[k].contact) continue;  // the gauge tells of contacts
     const Bounds& bounds = inputs_.box(k).at(modes.slider[k] != 0 ? modes.slider[k] : last_.slider[k]);
     turn(t, network_.sliders[k].branch.element, last_.slider[k], modes.slider[k], "stick",
          bounds.breakaway > bounds.sliding ? "breakaway" : "slip");

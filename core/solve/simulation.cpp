@@ -8,6 +8,7 @@
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/base/roundoff.hpp"
+#include "core/dae/contacts.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/dae/polynomial.hpp"
 #include "core/dae/prescribed_reversals.hpp"
@@ -21,6 +22,7 @@
 #include "core/solve/initial_scales.hpp"
 #include "core/solve/mode_cache.hpp"
 #include "core/solve/regularisation.hpp"
+#include "core/solve/settling_contacts.hpp"
 
 namespace rheonet {
 
@@ -89,6 +91,7 @@ class Run {
       statistics_.notes = steady.notes;
       inputs_.history().begin(state_.velocity);
     }
+    start_contacts(network_, state_);
     try {
       cross(0, true, {});
     } catch (const SimulationError&) {
@@ -192,6 +195,9 @@ class Run {
     for (const std::string& note : check_ties(dae, t, [this] { tell_overload(); })) note_once(note);
     for (const Event& event : mode_changes_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
+    }
+    for (const EventTransition::Change::Impact& impact : change.impacts) {
+      if (t > 0) tell({t, impact.element, "impact", impact.side});
     }
     observer_.begin(dae, system_->consistency, t, y_, yp_, change.heat);
     const int condition = network_.scene->stop_when;
@@ -350,6 +356,7 @@ class Run {
     leave(t);
     Fired fired = take_events(*system_, t, y_, yp_);
     fired_ = std::move(fired.elements);
+    fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, settings_.accuracy, settings_.stop}, y_, yp_);
     const bool jumps = inputs_.blocks().fire(fired.limits);
     cross(t, jumps, fired.sudden);
   }

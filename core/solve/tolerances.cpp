@@ -31,7 +31,7 @@ Tolerances::Tolerances(const Network& network, double relative) : network_(netwo
   slider_share_.assign(nodes, 1);
   foreseen_ = seen_;
   force_seen_.assign(deflections, 0);
-  flow_seen_ = force_seen_;
+  hop_ = flow_seen_ = force_seen_;
   slide_seen_.assign(network.sliders.size(), 0);
   held_seen_ = slide_seen_;
   dashpot_seen_.assign(network.rates.size(), 0);
@@ -199,6 +199,7 @@ void Tolerances::foresee(double t, double ahead, const std::vector<double>& y, c
   }
   const Dae::View& view = dae_->view(t, y.data(), yp.data());
   see(y, view);
+  see_hops(view, true);
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(std::abs(y[i]), ahead > 0 ? coming_size[i] : 0.0);
   find_slider_shares();
   if (!network_.blocks.blocks.empty()) block_gains_.follow(dae_->inputs().blocks());
@@ -220,6 +221,7 @@ double Tolerances::local() const { return bundle_corners_.dense() ? dense_ : rel
 void Tolerances::follow(double t, const std::vector<double>& y, const std::vector<double>& yp, const Dae::View& view) {
   if (t > forget_) forget();
   see(y, view);
+  see_hops(view, false);
   for (std::size_t i = 0; i < y.size(); ++i) size_[i] = std::max(size_[i], std::abs(y[i]));
   find_difference_rounding(view);
   // Forces of blocks may begin long after a restart.
@@ -297,7 +299,7 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   const double stiffness = std::abs(slope[q.index]);
   const double own = std::max(force_seen_[q.index], stiffness * foreseen_of(q));
   const double by_force = std::max(own, numerics::scale_floor * largest[static_cast<std::size_t>(Sort::force)]);
-  return by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale;
+  return hop_share(q.index) * (by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale);
 }
 
 /// Velocities at a train follow from each other: the slowest is known to the round-off of the fastest.

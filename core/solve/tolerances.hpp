@@ -61,6 +61,8 @@ class Tolerances {
   double unfelt_dilatant(int rate) const;
   /// Dead band of the velocity of a branch for its reversals [m/s].
   double dead_band(int branch) const;
+  /// Largest relative velocity that a deflection branch has had [m/s].
+  double flow_seen(int branch) const { return flow_seen_[static_cast<std::size_t>(branch)]; }
   /// Dead band of the force of a rate branch that is solved for its force [N].
   double force_noise(int rate) const;
   double slider_noise(int slider) const { return slider_noise_[static_cast<std::size_t>(slider)]; }
@@ -83,6 +85,8 @@ class Tolerances {
   /// may be a small motion beside large ones.
   bool stands_alone(const Quantity& q) const { return q.sort == Sort::block || (q.sort == Sort::position && sensed_[q.index]); }
   void see_positions();
+  void see_hops(const Dae::View& view, bool restarts);
+  double hop_share(std::size_t branch) const;
   void find_gaps();
   void find_block_scales(double largest_force, const Dae::View& view);
   void find_states_of_laws();
@@ -171,6 +175,7 @@ class Tolerances {
   std::array<std::vector<double>, sorts> seen_;
   std::array<std::vector<double>, sorts> foreseen_;   ///< estimated, until `forget_`
   std::vector<double> force_seen_, flow_seen_;        ///< of each deflection branch
+  std::vector<double> hop_;                           ///< of each: the gauge of a contact: largest velocity since the last contact [m/s]
   std::vector<double> dashpot_seen_;                  ///< of each rate branch: largest force [N]
   std::vector<double> slide_seen_;                    ///< of each slider: largest velocity [m/s]
   std::vector<double> held_seen_;                     ///< of each slider: largest force [N]

@@ -141,7 +141,7 @@ bool is_rigid(const Limit& limit, const Declaration& declaration) {
 std::string becomes(const Limit& limit, const Declaration& declaration) {
   if (limit.becomes.empty()) return "no force at all";
   if (is_rigid(limit, declaration)) return fmt::format("a rigid link (a `{}` that never slips)", limit.becomes);
-  return fmt::format("a `{}`", limit.becomes);
+  return find_component(limit.becomes)->hidden ? "a " + limit.becomes : fmt::format("a `{}`", limit.becomes);
 }
 
 /// The effects of an element, each with the value that leaves it out: "inertia (without it `mass = 0`)".

@@ -1,0 +1,72 @@
+#include "core/solve/settling_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// Accelerations of contacts towards the side that they meet [m/s^2].
+std::vector<double> pressing(const Network& network, const std::vector<int>& contacts, const Dae::View& view) {
+  std::vector<double> result;
+  for (const int k : contacts) {
+    const Network::Slider& slider = network.sliders[at(k)];
+    result.push_back(network.contact_of(slider) * (view.acceleration[at(slider.branch.a)] - view.acceleration[at(slider.branch.b)]));
+  }
+  return result;
+}
+
+}  // namespace
+
+/// An error of its deflection shifts the next contact by that error over the velocity. Small hops are resolved as well in time as the
+/// largest one.
+double Tolerances::hop_share(std::size_t branch) const { return hop_[branch] > 0 ? hop_[branch] / flow_seen_[branch] : 1; }
+
+void Tolerances::see_hops(const Dae::View& view, bool restarts) {
+  for (const Network::Slider& slider : network_.sliders) {
+    if (!slider.contact) continue;
+    const std::size_t j = at(slider.gauge);
+    const bool begins = restarts && view.p[j] == 0;  // at a bound
+    hop_[j] = std::max(begins ? 0 : hop_[j], std::abs(view.flow[j]));
+  }
+}
+
+std::vector<int> settling_contacts(System& system, const Tolerances& tolerances, const Settling& settling, const std::vector<double>& y,
+                                   const std::vector<double>& yp) {
+  Dae& dae = system.dae;
+  const Network& network = dae.network();
+  std::vector<int> slow;
+  std::vector<double> speed;  // after the impact
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    const Network::Slider& slider = network.sliders[k];
+    const int side = slider.contact && !system.structure.stuck[k] ? network.contact_of(slider) : 0;
+    if (side == 0 || !(slider.contact->restitution < 1)) continue;
+    const Dae::View& view = dae.view_again(settling.t, y.data(), yp.data());
+    const double w = side * (view.velocity[at(slider.branch.a)] - view.velocity[at(slider.branch.b)]) * slider.contact->restitution;
+    if (w > numerics::settled_hops * settling.accuracy * tolerances.flow_seen(slider.gauge)) continue;
+    slow.push_back(static_cast<int>(k));
+    speed.push_back(w);
+  }
+  if (slow.empty()) return {};
+  const double before = system.integrator.previous_time();
+  std::vector<double> y_before, yp_before;
+  system.integrator.interpolate(before, 0, y_before);
+  system.integrator.interpolate(before, 1, yp_before);
+  const std::vector<double> then = pressing(network, slow, dae.view(before, y_before.data(), yp_before.data()));
+  const std::vector<double> now = pressing(network, slow, dae.view(settling.t, y.data(), yp.data()));
+  std::vector<int> result;
+  for (std::size_t i = 0; i < slow.size(); ++i) {
+    if (!(now[i] > 0)) continue;
+    const double e = network.sliders[at(slow[i])].contact->restitution;
+    const double hops = 2 * speed[i] / (now[i] * (1 - e));
+    const double falls = settling.t > before ? std::max(0.0, then[i] - now[i]) / (settling.t - before) : 0;
+    if (hops <= numerics::settled_hops * settling.accuracy * settling.length && falls * hops <= now[i] / 2) result.push_back(slow[i]);
+  }
+  return result;
+}
+
+}  // namespace rheonet
