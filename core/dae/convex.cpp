@@ -335,7 +335,13 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         if (!direction_of_descent(gradient, d, true)) return Outcome::undecided;
       }
       const double descent = slope_along(d, 0);
-      if (!(descent < 0) && !released_.empty()) {
+      if (!equations_.empty() && !(descent < 0) && balanced(gradient)) {
+        // The forces of equations hold what was released.
+        released_.clear();
+        looked_again = false;
+        settled = true;
+      }
+      if (!settled && !(descent < 0) && !released_.empty()) {
         // Branches released together hold each other back: release the worst alone. If it holds itself back, it was round-off.
         const bool alone = released_.size() == 1;
         for (std::size_t k = alone ? 0 : 1; k < released_.size(); ++k) branches_[at(released_[k])].stuck = true;
@@ -344,7 +350,7 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         released_.resize(alone ? 0 : 1);
         continue;
       }
-      settled = !(descent < 0);
+      settled = settled || !(descent < 0);
       idle = -descent <= numerics::least_newton_gain * power() ? idle + 1 : 0;
       double left = 0;
       for (double g : gradient) left = std::max(left, std::abs(g));

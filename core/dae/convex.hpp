@@ -43,6 +43,8 @@ class ConvexNetwork {
   int add(int a, int b, Law law);
   /// The changes of these nodes, times their factors, sum to `given`. Each of them has an inertia, or follows from those that have.
   void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
+  /// Force of the equation number `equation`, after `solve`.
+  double force_of_equation(std::size_t equation) const { return equations_[equation].force; }
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
@@ -93,6 +95,8 @@ class ConvexNetwork {
   bool firm(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || tied_[node]; }
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
+  std::vector<std::size_t> locked_equations() const;
+  void share_with_locked_equations(const std::vector<Conductance>& bonds, const std::vector<int>& row, Eigen::VectorXd& phi);
   void meet_equations();
   /// A force without a bound holds a branch, or ends a motion to the side of w that the law forbids.
   static bool forbids(const Branch& b, double w);

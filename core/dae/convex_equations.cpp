@@ -9,6 +9,46 @@
 
 namespace rheonet {
 
+namespace {
+
+/// Solves [ L  C' ; C  0 ] [ x ; f ] = [ x ; given ] with the conductances L and the equations C. An equation without factors has f = 0.
+bool solve_with_equations(const std::vector<Conductance>& conductances, const std::vector<std::vector<double>>& rows, const Eigen::VectorXd& given,
+                          Eigen::VectorXd& x, Eigen::VectorXd& forces) {
+  const Eigen::Index columns = x.size(), size = columns + given.size();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const auto& [a, b, value] : conductances) {
+    for (const int i : {a, b}) {
+      if (i >= 0) entries.emplace_back(i, i, value);
+    }
+    if (a < 0 || b < 0) continue;
+    entries.emplace_back(a, b, -value);
+    entries.emplace_back(b, a, -value);
+  }
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    const int row = static_cast<int>(columns + static_cast<Eigen::Index>(e));
+    bool any = false;
+    for (std::size_t c = 0; c < rows[e].size(); ++c) {
+      if (rows[e][c] == 0) continue;
+      any = true;
+      entries.emplace_back(row, static_cast<int>(c), rows[e][c]);
+      entries.emplace_back(static_cast<int>(c), row, rows[e][c]);
+    }
+    if (!any) entries.emplace_back(row, row, 1);
+  }
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
+  if (factors.info() != Eigen::Success) return false;
+  Eigen::VectorXd right(size);
+  right << x, given;
+  const Eigen::VectorXd solved = factors.solve(right);
+  x = solved.head(columns);
+  forces = solved.tail(given.size());
+  return true;
+}
+
+}  // namespace
+
 void ConvexNetwork::tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given) {
   equations_.push_back({nodes, factors, given});
   for (const int node : nodes) tied_[at(node)] = 1;
@@ -48,41 +88,50 @@ std::vector<std::vector<double>> ConvexNetwork::equations_of_columns(Eigen::Vect
   return rows;
 }
 
-/// Newton's step and the forces of the equations: [ slopes  C' ; C  0 ]. `step` holds minus the sums of forces, then the step.
+/// Newton's step and the forces of the equations. `step` holds minus the sums of forces, then the step.
 bool ConvexNetwork::step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step) {
-  Eigen::VectorXd left;
+  Eigen::VectorXd left, forces;
   const std::vector<std::vector<double>> rows = equations_of_columns(left);
-  const Eigen::Index columns = step.size(), size = columns + left.size();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& [a, b, value] : slopes) {
-    for (const int i : {a, b}) {
-      if (i >= 0) entries.emplace_back(i, i, value);
-    }
-    if (a < 0 || b < 0) continue;
-    entries.emplace_back(a, b, -value);
-    entries.emplace_back(b, a, -value);
-  }
-  for (std::size_t e = 0; e < rows.size(); ++e) {
-    const int row = static_cast<int>(columns + static_cast<Eigen::Index>(e));
-    bool any = false;
-    for (std::size_t c = 0; c < rows[e].size(); ++c) {
-      if (rows[e][c] == 0) continue;
-      any = true;
-      entries.emplace_back(row, static_cast<int>(c), rows[e][c]);
-      entries.emplace_back(static_cast<int>(c), row, rows[e][c]);
-    }
-    if (!any) entries.emplace_back(row, row, 1);
-  }
-  Eigen::SparseMatrix<double> matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
-  if (factors.info() != Eigen::Success) return false;
-  Eigen::VectorXd right(size);
-  right << step, left;
-  const Eigen::VectorXd solved = factors.solve(right);
-  step = solved.head(columns);
-  for (std::size_t e = 0; e < equations_.size(); ++e) equations_[e].force += solved[columns + static_cast<Eigen::Index>(e)];
+  if (!solve_with_equations(slopes, rows, left, step, forces)) return false;
+  for (std::size_t e = 0; e < equations_.size(); ++e) equations_[e].force += forces[static_cast<Eigen::Index>(e)];
   return true;
+}
+
+/// Equations whose nodes sticking branches hold, each within its cluster: their forces are open.
+std::vector<std::size_t> ConvexNetwork::locked_equations() const {
+  std::vector<std::size_t> result;
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
+    const auto& [node, factor, given, force] = equations_[e];
+    bool locked = true;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      double sum = 0, size = 0;
+      for (std::size_t k = 0; k < node.size(); ++k) {
+        if (cluster_[at(node[k])] == cluster_[at(node[i])]) sum += factor[k];
+        size = std::max(size, std::abs(factor[k]));
+      }
+      locked = locked && (column_[at(cluster_[at(node[i])])] < 0 || std::abs(sum) <= numerics::equal_given_values * size);
+    }
+    if (locked) result.push_back(e);
+  }
+  return result;
+}
+
+/// Forces of least norm of the bonds, if locked equations take any force: `phi` holds the loads of its rows, then the potentials.
+void ConvexNetwork::share_with_locked_equations(const std::vector<Conductance>& bonds, const std::vector<int>& row, Eigen::VectorXd& phi) {
+  const std::vector<std::size_t> locked = locked_equations();
+  std::vector<std::vector<double>> rows;
+  for (const std::size_t e : locked) {
+    rows.emplace_back(static_cast<std::size_t>(phi.size()), 0);
+    for (std::size_t i = 0; i < equations_[e].node.size(); ++i) {
+      if (const int r = row[at(equations_[e].node[i])]; r >= 0) rows.back()[at(r)] += equations_[e].factor[i];
+    }
+  }
+  Eigen::VectorXd forces;
+  if (!solve_with_equations(bonds, rows, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(locked.size())), phi, forces)) {
+    solve_conductances(bonds, phi);
+    return;
+  }
+  for (std::size_t k = 0; k < locked.size(); ++k) equations_[locked[k]].force = forces[static_cast<Eigen::Index>(k)];
 }
 
 /// Brings the start values to where the equations hold, by the least change that the inertias allow. From there on steps keep them.

@@ -19,6 +19,7 @@ void ConvexNetwork::find_bond_forces() {
     left[at(b.a)] += f;
     left[at(b.b)] -= f;
   }
+  for (const std::size_t e : locked_equations()) equations_[e].force = 0;
   for (const Equation& e : equations_) {
     for (std::size_t i = 0; i < e.node.size(); ++i) left[at(e.node[i])] += e.factor[i] * e.force;
   }
@@ -47,7 +48,12 @@ void ConvexNetwork::find_bond_forces() {
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (row[k] >= 0) phi[row[k]] = touched[at(row[k])] ? -left[k] : 0;
   }
-  solve_conductances(bonds, phi);  // every cluster has its reference: nothing is left open
+  // Every cluster has its reference: nothing is left open.
+  if (equations_.empty()) {
+    solve_conductances(bonds, phi);
+  } else {
+    share_with_locked_equations(bonds, row, phi);
+  }
   const auto potential = [&](int node) { return row[at(node)] < 0 ? 0 : phi[row[at(node)]]; };
   for (std::size_t k = 0; k < branches_.size(); ++k) {
     if (branches_[k].stuck) bond_force_[k] = potential(branches_[k].a) - potential(branches_[k].b);

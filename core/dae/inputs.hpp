@@ -88,6 +88,8 @@ class Inputs {
   /// The box of a slider at the time last evaluated. Derivatives are rates in time, partial (at constant unknowns) where a block
   /// gives a parameter.
   const Box& box(std::size_t slider) const { return box_[slider]; }
+  /// Bounds of the losses of trains with these forces [N].
+  void transmit(const std::vector<double>& train_force);
   /// Derivative of the sliding force of a slider to one side by its varying parameter number `which`.
   double sliding_slope(std::size_t slider, int side, std::size_t which) const;
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -9,13 +10,18 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/dae/convex.hpp"
 #include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
 
 // The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
 // the balance there is the sum of the balances of the other nodes. The rest falls into separate parts.
-StickForces::StickForces(const Network& network, const Structure& structure, const Inputs& inputs) : network_(network), inputs_(inputs) {
+StickForces::StickForces(const Network& network, const Structure& structure, const Inputs& inputs) : network_(network), structure_(structure), inputs_(inputs) {
+  for (std::size_t k = 0; k < network.trains.size(); ++k) {
+    const auto of_train = [&](const Structure::Tied& tied) { return tied.train == static_cast<int>(k); };
+    if (std::none_of(structure.tied.begin(), structure.tied.end(), of_train)) locked_.push_back(k);
+  }
   const auto inner = [&](NodeId node) { return structure.kind[at(node)] == Kind::joined; };
   DisjointSets parts(structure.kind.size());
   std::vector<int> sliders_at(structure.kind.size(), 0);
@@ -63,7 +69,44 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
   }
 }
 
-void StickForces::solve(double t, const std::vector<double>& left, std::vector<double>& force) {
+/// The problem of BoxedForces in its dual, where a train is an equation between potentials. Without bounds if none would hold.
+bool StickForces::share_with_trains(const std::vector<double>& left, bool bounded, std::vector<double>& force, std::vector<double>& train_force) const {
+  std::vector<int> place(structure_.kind.size(), 0);
+  int nodes = 1;  // node 0 is held, as are the leading nodes of clusters and known ones
+  for (std::size_t n = 0; n < place.size(); ++n) {
+    if (structure_.kind[n] == Kind::joined) place[n] = nodes++;
+  }
+  ConvexNetwork problem(nodes);
+  problem.fix(0, 0);
+  for (std::size_t n = 0; n < place.size(); ++n) {
+    if (place[n] > 0) problem.load(place[n], -left[n]);
+  }
+  for (const std::size_t k : locked_) {
+    const Network::Train& train = network_.trains[k];
+    problem.tie({place[at(train.node[0])], place[at(train.node[1])], place[at(train.node[2])]}, train.factor, 0);
+  }
+  std::vector<int> branch(force.size(), -1);
+  for (std::size_t k = 0; k < branch.size(); ++k) {
+    if (!structure_.stuck[k]) continue;
+    const Box& box = inputs_.box(k);
+    const double low = -box.backward.breakaway.value, high = box.forward.breakaway.value;
+    ConvexNetwork::Law law{.backward = 1, .forward = 1};
+    if (bounded) law.beyond = [low, high](double w, double& slope) {
+      slope = w < low || w > high ? 0 : 1;
+      return std::clamp(w, low, high);
+    };
+    branch[k] = problem.add(place[at(network_.sliders[k].branch.a)], place[at(network_.sliders[k].branch.b)], law);
+  }
+  if (problem.solve() != ConvexNetwork::Outcome::solved) return false;
+  for (std::size_t k = 0; k < branch.size(); ++k) {
+    if (branch[k] >= 0) force[k] = problem.force(branch[k]);
+  }
+  for (std::size_t e = 0; e < locked_.size(); ++e) train_force[locked_[e]] = problem.force_of_equation(e);
+  return true;
+}
+
+void StickForces::solve(double t, const std::vector<double>& left, std::vector<double>& force, std::vector<double>& train_force) {
+  if (!locked_.empty() && (share_with_trains(left, true, force, train_force) || share_with_trains(left, false, force, train_force))) return;
   for (const auto& [slider, node, side] : lone_) force[slider] = side == 0 ? 0 : -side * left[at(node)];
   for (Shared& shared : shared_) {
     double sum = 0;
@@ -75,7 +118,7 @@ void StickForces::solve(double t, const std::vector<double>& left, std::vector<d
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const std::size_t k = shared.sliders[i];
       const Box& box = inputs_.box(k);
-      if (!network_.sliders[k].varying.empty()) shared.problem.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
+      if (!network_.sliders[k].varying.empty() || network_.sliders[k].train >= 0) shared.problem.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
     }
     if (shared.problem.solve(shared.load, shared.force) == BoxedForces::Outcome::failed) report_unbalanced(t, shared);
     for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];

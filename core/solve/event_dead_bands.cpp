@@ -35,7 +35,8 @@ void Tolerances::find_noise(const std::vector<double>& slope) {
   const Structure& structure = dae_->structure();
   find_force_errors(slope);
   for (std::size_t k = 0; k < slider_noise_.size(); ++k) {
-    slider_noise_[k] = noise_of(slider_given_[k] != 0, slide_seen_[k], structure.sliders[k], slide_rounding_[k]);
+    const Branch& b = structure.sliders[k];
+    slider_noise_[k] = noise_of(slider_given_[k] != 0, slide_seen_[k], b, std::max(slide_rounding_[k], tied_rounding(b)));
   }
   find_slip_noise(slope);
 }

@@ -299,6 +299,19 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   return by_force > 0 && stiffness > 0 ? std::min(scale, by_force / stiffness) : scale;
 }
 
+/// Velocities at a train follow from each other: the slowest is known to the round-off of the fastest.
+void Tolerances::find_tied_rounding(const Dae::View& view) {
+  tied_rounding_.assign(network_.trains.empty() ? 0 : network_.nodes(), 0);
+  for (const Structure::Tied& tied : dae_->structure().tied) {
+    double sum = std::abs(view.velocity[at(tied.pivot)]);
+    for (const auto& [node, factor] : tied.terms) sum += std::abs(factor * view.velocity[at(node)]);
+    sum *= numerics::sum_ulps * std::numeric_limits<double>::epsilon();
+    const auto round = [&](NodeId node, double factor) { tied_rounding_[at(node)] = std::max(tied_rounding_[at(node)], sum / std::abs(factor)); };
+    round(tied.pivot, 1);
+    for (const auto& [node, factor] : tied.terms) round(node, factor);
+  }
+}
+
 /// Raises the tolerance of unknown i to its round-off. `jitter`: change of the unknown within the round-off of time.
 void Tolerances::bear_noise(std::size_t i, double t, double jitter, double largest_velocity) {
   const Quantity& q = quantity_[i];
@@ -313,6 +326,10 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
     grain_[i] = block_rounding_[q.index];
     tolerance = std::max(tolerance, grain_[i]);
   }
+  if (q.sort == Sort::velocity && !network_.trains.empty()) {
+    grain_[i] = std::max(block_rounding_.empty() ? 0 : grain_[i], tied_rounding(q.index));
+    tolerance = std::max(tolerance, grain_[i]);
+  }
   if (q.sort == Sort::velocity && dae_->structure().inertia[q.index] == 0) tolerance = std::max(tolerance, rounding_now_[at(part_[q.index])]);
   if (q.sort == Sort::velocity && dae_->rough()) tolerance = std::min(tolerance, std::max(stopping_[q.index], jitter));
   if (q.sort == Sort::position) {
@@ -321,7 +338,9 @@ void Tolerances::bear_noise(std::size_t i, double t, double jitter, double large
     // The positions of nodes on springs and friction follow from deflections, which are rounded.
     tolerance = std::max(tolerance, numerics::sum_ulps * std::numeric_limits<double>::epsilon() * longest_[at(part_[at(dae_->structure().rigid[q.index])])]);
   }
-  const Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
+  Drift drift = q.sort == Sort::position ? Drift{rounding_now_[at(part_[q.index])]} : drift_[i];
+  if (q.sort == Sort::position) drift.velocity = std::max(drift.velocity, tied_rounding(q.index));
+  if (q.sort == Sort::deflection) drift.velocity = std::max(drift.velocity, tied_rounding(dae_->structure().deflections[q.index]));
   // An error test compares a step with those since the restart: earlier round-off does not enter.
   const double adds_up = t - (q.sort == Sort::position ? begin_ : restarted_);
   tolerance = std::max(tolerance, drift.velocity * std::min(adds_up, drift.lasting));
@@ -334,6 +353,7 @@ void Tolerances::update(double t, const std::vector<double>& yp, const Dae::View
   if (!balance_rounding_.none()) balance_rounding_.find(view, slope);
   const bool positions = !dae_->integrated_positions().empty();
   if (positions) find_longest();
+  find_tied_rounding(view);
   // Time is known to half an ulp: changes within that cannot be resolved.
   const double grain = numerics::time_change_ulps * std::numeric_limits<double>::epsilon() * std::abs(t);
   const Scales largest = find_largest(slope);

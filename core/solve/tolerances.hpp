@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -95,6 +96,11 @@ class Tolerances {
   // `slope`: df/dp of all deflection branches [N/m].
   Scales find_largest(const std::vector<double>& slope);
   double scale_of(const Quantity& q, const Scales& largest, const LeastShares& least, const std::vector<double>& slope);
+  void find_tied_rounding(const Dae::View& view);
+  double tied_rounding(std::size_t node) const { return tied_rounding_.empty() ? 0 : tied_rounding_[node]; }
+  double tied_rounding(const Branch& b) const {
+    return std::max(tied_rounding(static_cast<std::size_t>(b.a)), tied_rounding(static_cast<std::size_t>(b.b)));
+  }
   void bear_noise(std::size_t i, double t, double jitter, double largest_velocity);
   void update(double t, const std::vector<double>& yp, const Dae::View& view);
   void find_parts();
@@ -153,6 +159,7 @@ class Tolerances {
   /// Of each node, if there are sensors: velocity caused by the round-off of what blocks sense [m/s]; stiffness and damping
   /// around the node, without blocks, at the last restart [N/m, N s/m].
   std::vector<double> block_rounding_, stiffness_around_, damping_around_;
+  std::vector<double> tied_rounding_;                 ///< of each node in a train: round-off of the equation there [m/s]
   std::vector<double> block_force_seen_;              ///< of each force of the network: largest magnitude if a block gives it [N]
   std::vector<char> given_, slider_given_;            ///< of each branch: its velocity is a function of time alone
   /// Largest magnitude of everything that can be an unknown; positions only where some are.

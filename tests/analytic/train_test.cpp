@@ -90,7 +90,7 @@ T = {{ type = "torque", at = "s", torque = {} }}
 
 TEST_CASE("trains: a massless ring is held by a brake, and slips above its torque") {
   // The ring takes r times the torque of the sun. The brake slips at first, and locks when its torque has risen enough.
-  const double r = 2.0, Js = 0.4, Jc = 0.9, T = 3.0, rise = 4.0, Tc0 = 1.0;
+  const double r = 2.0, Js = 0.4, Jc = 0.9, T = 9.0, rise = 4.0, Tc0 = 1.0;
   const RunTable rows = simulate(fmt::format(R"~(
 domain = "rotation"
 [elements]
@@ -247,6 +247,16 @@ double difference(const RunTable& one, const RunTable& other, const std::string&
   return largest / scale;
 }
 
+/// The same for the force of the gear, while the shafts turn: at rest it may share the load with sliders in several ways.
+double difference_of_force(const RunTable& one, const RunTable& other, double times) {
+  double largest = 0;
+  for (std::size_t k = 0; k < one.time().size(); ++k) {
+    const bool turns = one["x.velocity"][k] != 0 && one["y.velocity"][k] != 0 && one["z.velocity"][k] != 0;
+    if (turns) largest = std::max(largest, std::abs(one["g.force"][k] - times * other["g.force"][k]));
+  }
+  return largest / one.scale("g.force");
+}
+
 }  // namespace
 
 TEST_CASE("trains: a planetary gear is any gear between two of its nodes that turns against the third") {
@@ -256,7 +266,9 @@ TEST_CASE("trains: a planetary gear is any gear between two of its nodes that tu
     const auto seed = random();
     const auto run = [&](const std::string& gear) {
       std::mt19937 same(seed);
-      return simulate(around_three(same, gear));
+      const std::string text = around_three(same, gear);
+      CAPTURE(text);
+      return simulate(text);
     };
     const RunTable planetary = run(fmt::format("g = {{ type = \"planetary\", between = [\"x\", \"y\", \"z\"], ratio = {} }}\n", r));
     struct Same { const char *between, *support; double ratio, force; };
@@ -267,7 +279,7 @@ TEST_CASE("trains: a planetary gear is any gear between two of its nodes that tu
       CAPTURE(same.between);
       const RunTable gear = run(fmt::format("g = {{ type = \"gear\", between = [{}], support = \"{}\", ratio = {:.17g} }}\n", same.between, same.support, same.ratio));
       for (const char* column : {"x.velocity", "y.velocity", "z.velocity", "x.position"}) CHECK(difference(planetary, gear, column) < 1e-7);
-      CHECK(difference(planetary, gear, "g.force", 1 / same.force) < 1e-6);
+      CHECK(difference_of_force(planetary, gear, 1 / same.force) < 1e-6);
     }
   }
 }
@@ -279,13 +291,15 @@ TEST_CASE("trains: a support that a motion holds still is ground") {
     const auto seed = random();
     const auto run = [&](const std::string& support) {
       std::mt19937 same(seed);
-      return simulate(around_three(same, fmt::format("g = {{ type = \"gear\", between = [\"x\", \"y\"]{}, ratio = {} }}\nh = {{ type = \"dashpot\", between = [\"y\", \"z\"], damping = 1 }}\n",
-                                                     support.empty() ? "" : ", support = \"frame\"", i) + support));
+      const std::string text = around_three(same, fmt::format("g = {{ type = \"gear\", between = [\"x\", \"y\"]{}, ratio = {} }}\nh = {{ type = \"dashpot\", between = [\"y\", \"z\"], damping = 1 }}\n",
+                                                     support.empty() ? "" : ", support = \"frame\"", i) + support);
+      CAPTURE(text);
+      return simulate(text);
     };
     CAPTURE(n);
     const RunTable plain = run(""), framed = run("frame = { type = \"motion\", at = \"frame\", velocity = 0 }\n");
     for (const char* column : {"x.velocity", "y.velocity", "z.velocity", "x.position"}) CHECK(difference(plain, framed, column) < 1e-7);
-    CHECK(difference(plain, framed, "g.force") < 1e-6);
+    CHECK(difference_of_force(plain, framed, 1) < 1e-6);
   }
 }
 
@@ -351,8 +365,8 @@ TEST_CASE("trains: what cannot be is refused by name") {
   const std::string p = "p = { type = \"planetary\", between = [\"s\", \"c\", \"r\"], ratio = 2 }\n";
   const std::string Js = "Js = { type = \"inertia\", at = \"s\", inertia = 1 }\n", Jc = "Jc = { type = \"inertia\", at = \"c\", inertia = 1 }\n";
   CHECK(message(p + Js) ==
-        "too few nodes at transmission `p` have a mass: where its support moves, or where it is in a loop with other elements, a transmission determines the "
-        "motion of one massless node, but here are `c`, `r`; give one of them a mass");
+        "too few nodes at transmission `p` have a mass: with losses, with a support that moves, or in a loop with other elements a transmission determines the "
+        "motion of one massless node, but here are `r`, `c`; give one of them a mass");
   const auto moves = [](const std::string& node) { return fmt::format("m{0} = {{ type = \"motion\", at = \"{0}\", velocity = 1 }}\n", node); };
   CHECK(message(p + moves("s") + moves("c") + moves("r")) ==
         "transmission `p` is too many: the motion of all its nodes is given: it could only repeat or contradict that; leave it out, or leave one of its nodes free");
@@ -361,6 +375,6 @@ TEST_CASE("trains: what cannot be is refused by name") {
   CHECK(message(p + Js + Jc + "m = { type = \"motion\", at = \"r\", position = { step = \"0.1 rad\", time = 0.5 } }\n") ==
         "at t = 0.5 s a step in position turns transmission `p` in no time, which takes a force beyond any bound; give the step a time to rise in");
   CHECK(refusal("domain = \"rotation\"\n[elements]\n" + p + Js + Jc + "[simulate]\nstart_from = \"rest\"\nstop = 1\n") ==
-        "with transmission `p`, whose support moves or which is in a loop with other elements, a start from rest or in steady motion is not available; start "
+        "with transmission `p`, which has losses, a support that moves, or a loop with other elements, a start from rest or in steady motion is not available; start "
         "from given values, and give it time to settle");
 }

@@ -18,6 +18,7 @@ double direction(const Component& component) {
     case Role::slip:
     case Role::mass:
     case Role::inerter:
+    case Role::train:
     case Role::nothing:
       return 1;
     case Role::motion:

@@ -32,8 +32,8 @@ std::string assemblies_of(const Scene& scene) {
   std::string text;
   for (const SceneAssembly& assembly : scene.assemblies) {
     text += fmt::format("{}: {}-{} =", assembly.name, name(scene, assembly.a), name(scene, assembly.b));
-    for (const auto& [element, sign] : assembly.force)
-      text += fmt::format(" {}{}", sign > 0 ? '+' : '-', scene.elements.at(static_cast<std::size_t>(element)).name);
+    for (const SceneAssembly::Term& term : assembly.force)
+      text += fmt::format(" {}{}", term.sign > 0 ? '+' : '-', scene.elements.at(static_cast<std::size_t>(term.element)).name);
     text += '\n';
   }
   return text;

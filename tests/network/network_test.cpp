@@ -62,6 +62,9 @@ TEST_CASE("laws are sorted into one contiguous batch a type, and every element k
       case Role::inerter:
         CHECK_EQ(net.inerters.at(index).branch.element, element);
         break;
+      case Role::train:
+        CHECK_EQ(net.trains.at(index).element, element);
+        break;
       case Role::deflection:
         CHECK_EQ(net.deflections.at(index).element, element);
         break;
