@@ -6,7 +6,7 @@ namespace {
 // Seen from the carrier, sun and ring turn against each other with the ratio of their teeth.
 double sun_over_ring(std::span<const double> v) { return -v[0]; }
 
-const RegisterComponent register_planetary(lossless_transmission(
+const RegisterComponent register_planetary(transmission(
     {
         .type = "planetary",
         .three = {"sun", "carrier", "ring"},

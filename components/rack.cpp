@@ -3,7 +3,7 @@
 namespace rheonet {
 namespace {
 
-const RegisterComponent register_rack(lossless_transmission(
+const RegisterComponent register_rack(transmission(
     {
         .type = "rack",
         .domains = {Domain::rotation, Domain::translation},

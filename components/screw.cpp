@@ -11,7 +11,7 @@ std::optional<Misfit> zero_lead(std::span<const double> v) {
   return Misfit{"lead", "must not be 0: the nut would not move"};
 }
 
-const RegisterComponent register_screw(lossless_transmission(
+const RegisterComponent register_screw(transmission(
     {
         .type = "screw",
         .domains = {Domain::rotation, Domain::translation},

@@ -14,11 +14,14 @@ inline Box rigid_transmission(std::span<const Dual>) {
   return Box::symmetric({unlimited, unlimited});
 }
 
-/// The declaration and law that transmissions without losses have in common.
-inline Component lossless_transmission(Declaration declaration, std::function<double(std::span<const double>)> ratio, Symbol drawing) {
+inline std::optional<Loss> no_loss(std::span<const double>) { return {}; }
+
+/// What transmissions have in common.
+inline Component transmission(Declaration declaration, std::function<double(std::span<const double>)> ratio, Symbol drawing,
+                              std::function<std::optional<Loss>(std::span<const double>)> loss = no_loss) {
   declaration.ports = Declaration::Ports::between;
-  declaration.source = "definition";
-  Component component{.declaration = std::move(declaration), .role = Role::slip, .with_row = "gear train", .box = rigid_transmission, .ratio = std::move(ratio)};
+  if (declaration.source.empty()) declaration.source = "definition";
+  Component component{.declaration = std::move(declaration), .role = Role::slip, .with_row = "gear train", .box = rigid_transmission, .ratio = std::move(ratio), .loss = std::move(loss)};
   component.drawing = std::move(drawing);
   return component;
 }

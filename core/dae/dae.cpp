@@ -53,6 +53,7 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   df_.assign(nd, 0);
   dc_ = df_;
   view_.train_force.assign(network.trains.size(), 0);
+  loss_lines_.assign(network.trains.size(), {});
   view_.velocity = view_.acceleration = view_.nodal = view_.applied = view_.position = v_;
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
@@ -156,9 +157,7 @@ void Dae::share_balances_of_pivots(Drafts& drafts) {
   std::map<int, const Structure::Tied*> of_row;
   for (const Structure::Tied& tied : structure_->tied) of_row.emplace(iv_[at(tied.pivot)], &tied);
   const auto share = [&](const Structure::Tied& tied, auto visit) {
-    for (const auto& [node, factor] : tied.terms) {
-      if (iv_[at(node)] >= 0) visit(iv_[at(node)], -factor);
-    }
+    for (const auto& [node, factor] : tied.shares) visit(iv_[at(node)], -factor);
   };
   std::vector<Constant> masses;
   std::swap(masses, drafts.masses);
@@ -293,6 +292,11 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     const Branch& b = network_->sliders[k].branch;
     slip_side_[k] = structure_->stuck[k] ? static_cast<signed char>(Modes::stuck) : modes.slider[k];
     slip_force_[k] = slip_side_[k] == 0 ? 0 : slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
+    // That of losses depends on the force of their train, which shares it out (Structure::train_forces): the rest is constant.
+    if (const int train = network_->sliders[k].train; train >= 0 && slip_side_[k] != 0) {
+      loss_lines_[at(train)] = network_->trains[at(train)].loss->line(slip_side_[k], modes.b_drives[at(train)] != 0);
+      slip_force_[k] = loss_lines_[at(train)].offset;
+    }
     slider_shift_[k] = network_->sliders[k].contact ? rheonet::displacement(network_->sliders[k], state) : state.position[at(b.a)] - state.position[at(b.b)];
   }
   y.assign(at(size_), 0);
@@ -334,6 +338,7 @@ std::vector<double> Dae::places(const State& state) const {
 void Dae::leave(State& state) const {
   state.velocity = view_.velocity;
   state.p = view_.p;
+  state.train_force = view_.train_force;
   for (std::size_t k = 0; k < iz_.size(); ++k) state.blocks[k] = inputs_->blocks().state[k].value;
   for (NodeId node : positions_.order) state.position[at(node)] = view_.position[at(node)];
 }

@@ -324,6 +324,7 @@ class Dae {
   std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
   std::vector<signed char> slip_side_; ///< of each slider: the direction in which it slips; 0 while it sticks
   std::vector<std::size_t> varying_;   ///< slipping sliders whose sliding force varies
+  std::vector<Loss::Line> loss_lines_; ///< of each train whose losses slip
   std::vector<char> by_force_;         ///< of each rate branch: these equations need its law as w = rate(f)
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;

@@ -44,6 +44,7 @@ double EventTransition::bound_rate(std::size_t k, int side) const {
 EventTransition::Change EventTransition::cross(double t, double horizon, bool stepped, const Fired& fired, State& state,
                                Modes& modes, std::vector<double>& force) {
   Change change;
+  inputs_.transmit(state.train_force);
   inputs_.sense(t, state);
   stepped_ = stepped;
   std::vector<double> dx(structure_.kind.size(), 0);

@@ -109,6 +109,8 @@ class EventTransition {
   struct ModeSelection;
   ModeSelection look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
                    const Nodal& now);
+  ModeSelection look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes, const std::vector<double>& force,
+                   const Nodal& now, const std::vector<double>& train_force);
   bool breaks_loose(const ModeSelection& selection) const;
   bool holds(const ModeSelection& selection, std::size_t slider) const;
   void count_from_turns(State& state) const;

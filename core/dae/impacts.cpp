@@ -186,7 +186,7 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
   refuse_torn_links(t);
   // Rigid links first, alone: friction between other nodes takes no impulse.
   std::vector<int> links;
-  Modes held{std::vector<signed char>(modes.slider.size(), Modes::forward)};
+  Modes held{std::vector<signed char>(modes.slider.size(), Modes::forward), modes.b_drives};
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
     if (!is_rigid_link(network_.sliders[k])) continue;
     links.push_back(static_cast<int>(k));

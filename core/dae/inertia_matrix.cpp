@@ -1,8 +1,8 @@
 #include "core/dae/inertia_matrix.hpp"
 
-#include <Eigen/Dense>
 #include <Eigen/SparseLU>
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/index.hpp"
@@ -11,7 +11,6 @@ namespace rheonet {
 
 struct InertiaMatrix::Factors {
   Eigen::SparseLU<Eigen::SparseMatrix<double>> of;
-  Eigen::MatrixXd train_force;  ///< the forces of the trains, from those of the equations in Structure::tied
 };
 
 InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
@@ -46,17 +45,18 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
   }
   for (std::size_t k = 0; k < structure.tied.size(); ++k) {
     const int r = static_cast<int>(nodes_.size() + k);
-    const auto put = [&](NodeId node, double factor) {
-      const int i = row_[at(node)];
-      if (i < 0) return;
-      entries.emplace_back(r, i, factor);
-      entries.emplace_back(i, r, factor);
-    };
-    put(structure.tied[k].pivot, 1);
-    for (const auto& [node, factor] : structure.tied[k].terms) put(node, factor);
+    const Structure::Tied& tied = structure.tied[k];
+    entries.emplace_back(r, row_[at(tied.pivot)], 1);
+    for (const auto& [node, factor] : tied.terms) {
+      if (row_[at(node)] >= 0) entries.emplace_back(r, row_[at(node)], factor);
+    }
+    const std::array<NodeId, 3>& nodes = network.trains[at(tied.train)].node;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const int place = row_[at(structure.rigid[at(nodes[i])])];
+      if (place >= 0) entries.emplace_back(place, r, structure.train_forces[at(tied.train)][i]);
+    }
   }
   factors_ = std::make_unique<Factors>();
-  find_train_forces();
   if (nodes_.empty()) return;
   const auto size = static_cast<Eigen::Index>(nodes_.size() + structure.tied.size());
   Eigen::SparseMatrix<double> matrix(size, size);
@@ -65,22 +65,6 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
 }
 
 InertiaMatrix::~InertiaMatrix() = default;
-
-/// The equation of a train is the sum of those of the pivots in it, each times the factor of the pivot: so the force of each of these
-/// equations is the sum of the forces of the trains times these factors. Where equations were left out, the forces have least norm.
-void InertiaMatrix::find_train_forces() {
-  const std::vector<Structure::Tied>& tied = structure_.tied;
-  Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(tied.size()), static_cast<Eigen::Index>(network_.trains.size()));
-  for (std::size_t i = 0; i < tied.size(); ++i) {
-    for (std::size_t j = 0; j < network_.trains.size(); ++j) {
-      const Network::Train& train = network_.trains[j];
-      for (std::size_t k = 0; k < train.node.size(); ++k) {
-        if (structure_.rigid[at(train.node[k])] == tied[i].pivot) factors(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) += train.factor[k];
-      }
-    }
-  }
-  if (factors.size() > 0) factors_->train_force = factors.completeOrthogonalDecomposition().pseudoInverse();
-}
 
 void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<double>& acceleration, std::vector<double>& train_force) const {
   const std::vector<Structure::Tied>& tied = structure_.tied;
@@ -102,9 +86,7 @@ void InertiaMatrix::accelerate(const std::vector<double>& force, std::vector<dou
   }
   const Eigen::VectorXd solved = factors_->of.solve(right);
   for (std::size_t i = 0; i < nodes_.size(); ++i) acceleration[at(nodes_[i])] = solved[static_cast<Eigen::Index>(i)];
-  if (tied.empty()) return;
-  const Eigen::VectorXd forces = factors_->train_force * solved.tail(static_cast<Eigen::Index>(tied.size()));
-  for (std::size_t j = 0; j < train_force.size(); ++j) train_force[j] = forces[static_cast<Eigen::Index>(j)];
+  for (std::size_t k = 0; k < tied.size(); ++k) train_force[at(tied[k].train)] = solved[static_cast<Eigen::Index>(nodes_.size() + k)];
 }
 
 }  // namespace rheonet

@@ -13,7 +13,8 @@ namespace rheonet {
 /// Prescribed nodes have no rows and columns. M is positive definite, because each group of nodes that inerters join has a
 /// mass or a prescribed node (see Structure).
 ///
-/// The equations of trains, C v = 0, add their forces C' f and hold for the accelerations too: [ M  C' ; C  0 ].
+/// The equations of trains, C v = 0, hold for the accelerations too, and add their forces D f: [ M  D ; C  0 ]. D is the transpose of C
+/// but for losses that slip. A train whose equation follows from others in the present modes has no force.
 class InertiaMatrix {
  public:
   /// Network and structure must outlive this.
@@ -21,14 +22,12 @@ class InertiaMatrix {
   ~InertiaMatrix();
 
   bool coupled() const { return !nodes_.empty(); }
-  /// Solves M a + C' f = force - (the inerters' forces due to the accelerations of prescribed nodes) with C a = 0, for the coupled
+  /// Solves M a + D f = force - (the inerters' forces due to the accelerations of prescribed nodes) with C a = 0, for the coupled
   /// nodes alone. `acceleration` holds those of prescribed nodes [m/s^2], `force` the sum of the forces that act on each node [N];
   /// `train_force` gets the force of each train [N].
   void accelerate(const std::vector<double>& force, std::vector<double>& acceleration, std::vector<double>& train_force) const;
 
  private:
-  void find_train_forces();
-
   struct Factors;
   const Network& network_;
   const Structure& structure_;

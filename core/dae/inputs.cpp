@@ -187,6 +187,15 @@ void Inputs::apply_blocks() {
   }
 }
 
+void Inputs::transmit(const std::vector<double>& train_force) {
+  for (std::size_t k = 0; k < network_->trains.size(); ++k) {
+    const Network::Train& train = network_->trains[k];
+    if (train.friction < 0) continue;
+    const Dual forward = train.loss->lost(1, train_force[k]), backward = train.loss->lost(-1, train_force[k]);
+    box_[at(train.friction)] = {{forward, forward}, {backward, backward}};
+  }
+}
+
 double Inputs::sliding_slope(std::size_t k, int side, std::size_t which) const {
   const Network::Slider& slider = network_->sliders[k];
   std::vector<Dual> values(slider.values.begin(), slider.values.end());

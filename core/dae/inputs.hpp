@@ -92,6 +92,8 @@ class Inputs {
     const int side = s.contact ? network_->contact_of(s) : 0;
     return side == 0 ? box_[slider] : s.contact->at(side);
   }
+  /// Bounds of the losses of trains with these forces [N].
+  void transmit(const std::vector<double>& train_force);
   /// Derivative of the sliding force of a slider to one side by its varying parameter number `which`.
   double sliding_slope(std::size_t slider, int side, std::size_t which) const;
 

@@ -32,6 +32,7 @@ struct EventTransition::ModeSelection {
   std::vector<int> law;              // of each deflection branch: its branch of the problem; -1: delayed, hence a load
   std::vector<double> creep, at_rest;  // of each deflection branch
   std::vector<int> slider, bound_side;
+  std::vector<double> train_force;  // of each train, at the end of h: the bounds of losses depend on it
 
   void meet(const Structure& structure, const Branch& b, double slope) {
     for (const NodeId n : {b.a, b.b}) {
@@ -77,17 +78,51 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
     if (bound(at(k), direction) > inputs_.box(at(k)).at(direction).sliding.value) broken.push_back(k);
   }
   rest_beside_sliders(fired, state, modes);
+  for (std::size_t k = 0; k < network_.trains.size(); ++k) {
+    const Network::Train& train = network_.trains[k];
+    if (train.loss) modes.b_drives[k] = train.loss->b_drives(modes.slider[at(train.friction)], selection.train_force[k]);
+  }
   return broken;
 }
 
+/// The bounds of losses depend on the forces of their trains, which the problem gives: repeats it until they agree. Each is a piecewise
+/// linear function of the other, so that a secant through two trials (Anderson 1965) meets them.
 EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
                                    const std::vector<double>& force, const Nodal& now) {
+  using Vector = Eigen::VectorXd;
+  const auto trains = static_cast<Eigen::Index>(network_.trains.size());
+  Vector trial = Eigen::Map<const Vector>(state.train_force.data(), trains), before, miss_before;
+  for (int round = 0;; ++round) {
+    ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, {trial.begin(), trial.end()});
+    Vector miss = Vector::Zero(trains);
+    double size = 0;
+    for (Eigen::Index k = 0; k < trains; ++k) {
+      const double found = selection.problem.force_of_equation(static_cast<std::size_t>(k));
+      selection.train_force[static_cast<std::size_t>(k)] = found;
+      if (network_.trains[static_cast<std::size_t>(k)].loss) miss[k] = found - trial[k];
+      size = std::max({size, std::abs(found), std::abs(trial[k])});
+    }
+    if (miss.lpNorm<Eigen::Infinity>() <= numerics::equal_given_values * size) return selection;
+    if (round == numerics::loss_trials) report_undecided(network_, at_time(*network_.scene, t));
+    Vector next = trial + miss;
+    if (round > 0) {
+      const Vector turn = miss - miss_before;
+      const double share = turn.squaredNorm() > 0 ? turn.dot(miss) / turn.squaredNorm() : 0;
+      next -= share * (trial - before + turn);
+    }
+    before = std::exchange(trial, std::move(next));
+    miss_before = std::move(miss);
+  }
+}
+
+EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
+                                   const std::vector<double>& force, const Nodal& now, const std::vector<double>& train_force) {
   const std::size_t nodes = structure_.kind.size();
   ModeSelection selection{.t = t, .h = h, .fired = &fired, .modes = &modes, .force = &force, .now = &now,
               .problem = ConvexNetwork(static_cast<int>(nodes)), .slope_around = std::vector<double>(nodes, 0),
               .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
               .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
-              .bound_side = std::vector<int>(network_.sliders.size())};
+              .bound_side = std::vector<int>(network_.sliders.size()), .train_force = train_force};
   add_nodes(selection, state);
   add_inputs(selection);
   add_deflection_laws(selection, state);
@@ -216,7 +251,11 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double force = (*selection.force)[k];
-    const double forward = selection.h * bound_rate(k, 1), backward = selection.h * bound_rate(k, -1);
+    const auto change = [&](int side) {
+      const int train = network_.sliders[k].train;
+      return train < 0 ? selection.h * bound_rate(k, side) : network_.trains[at(train)].loss->lost(side, selection.train_force[at(train)]) - bound(k, side);
+    };
+    const double forward = change(1), backward = change(-1);
     ConvexNetwork::Law law{.low = -bound(k, -1) - force - backward, .high = bound(k, 1) - force + forward};
     // At its bound the rate alone decides, not the round-off of the event.
     const int side = bound(k, 1) - force < bound(k, -1) + force ? 1 : -1;

@@ -123,10 +123,8 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
   for (const Structure::Tied& tied : structure_->tied) {
     double& row = r[iv_[at(tied.pivot)]];
     double sum = v_[at(tied.pivot)];
-    for (const auto& [node, factor] : tied.terms) {
-      sum += factor * v_[at(node)];
-      if (iv_[at(node)] >= 0) r[iv_[at(node)]] -= factor * row;
-    }
+    for (const auto& [node, factor] : tied.terms) sum += factor * v_[at(node)];
+    for (const auto& [node, share] : tied.shares) r[iv_[at(node)]] -= share * row;
     row = sum;
   }
   for (const Follower& f : followers_) {

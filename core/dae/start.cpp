@@ -162,6 +162,7 @@ State first_state(const Network& network, const std::vector<double>& x, const In
   State state;
   state.position = x;
   state.velocity.assign(x.size(), 0);
+  state.train_force.assign(network.trains.size(), 0);
   for (std::size_t n = 1; n < x.size(); ++n) {
     const double given = network.node(static_cast<NodeId>(n)).velocity;
     if (!std::isnan(given)) state.velocity[n] = given;

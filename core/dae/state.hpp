@@ -9,6 +9,7 @@ struct State {
   std::vector<double> velocity;  ///< of each node [m/s]; a guess at massless nodes
   std::vector<double> p;         ///< deflection of each deflection branch [m]
   std::vector<double> position;  ///< of each node [m]; updated where it is requested
+  std::vector<double> train_force;  ///< of each train [N]: the bounds of its losses depend on it
   std::vector<double> blocks;    ///< states of the blocks that have one [unit of the output]
   std::vector<double> offset;    ///< displacement less deflection of each deflection branch that does not creep [m]; changes at
                                  ///< reversals only

@@ -34,7 +34,7 @@ void Dae::share_among_joined(double t) {
   }
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
-    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += train.factor[i] * view_.train_force[k];
+    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += structure_->train_forces[k][i] * view_.train_force[k];
   }
   stick_forces_.solve(t, left, view_.slider_force, view_.train_force);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
@@ -60,6 +60,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
     inertia_.accelerate(work_, view_.acceleration, view_.train_force);
   }
+  inputs_->transmit(view_.train_force);
   if (!stick_forces_.empty()) {
     for (std::size_t n = 0; n < v_.size(); ++n) {
       const std::size_t leader = at(structure_->rigid[n]);
@@ -71,7 +72,9 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = structure_->sliders[k];
     view_.slider_velocity[k] = structure_->stuck[k] ? 0 : view_.velocity[at(b.a)] - view_.velocity[at(b.b)];
-    if (!structure_->stuck[k]) view_.slider_force[k] = slip_force_[k];
+    if (structure_->stuck[k]) continue;
+    view_.slider_force[k] = slip_force_[k];
+    if (const int train = network_->sliders[k].train; train >= 0) view_.slider_force[k] = loss_lines_[at(train)].at(view_.train_force[at(train)]) - view_.train_force[at(train)];
   }
   for (std::size_t r = 0; r < if_.size(); ++r) {
     view_.rate_velocity[r] = if_[r] >= 0 ? rate_out_[r] : rate_in_[r];
@@ -169,7 +172,7 @@ double Dae::reaction(NodeId node) const {
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
     for (std::size_t i = 0; i < train.node.size(); ++i) {
-      if (train.node[i] == node) force += train.factor[i] * view_.train_force[k];
+      if (train.node[i] == node) force += structure_->train_forces[k][i] * view_.train_force[k];
     }
   }
   return force;
@@ -215,7 +218,7 @@ double Dae::dissipated_power() const {
     }
   }
   for (std::size_t r = 0; r < if_.size(); ++r) power += view_.rate_force[r] * view_.rate_velocity[r];
-  for (std::size_t k = 0; k < slip_force_.size(); ++k) power += slip_force_[k] * view_.slider_velocity[k];
+  for (std::size_t k = 0; k < slip_force_.size(); ++k) power += view_.slider_force[k] * view_.slider_velocity[k];
   // All power that such a force takes from the motion counts as heat here; `heat_of_laws` subtracts the part that it stores.
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];

@@ -118,7 +118,7 @@ void StickForces::solve(double t, const std::vector<double>& left, std::vector<d
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const std::size_t k = shared.sliders[i];
       const Box& box = inputs_.box(k);
-      if (!network_.sliders[k].varying.empty() || network_.sliders[k].contact) shared.problem.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
+      if (!network_.sliders[k].varying.empty() || network_.sliders[k].contact || network_.sliders[k].train >= 0) shared.problem.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
     }
     if (shared.problem.solve(shared.load, shared.force) == BoxedForces::Outcome::failed) report_unbalanced(t, shared);
     for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];

@@ -53,6 +53,7 @@ struct Parameter {
   bool may_be_curve = false;          ///< a function of `over` may be given in place of a value: friction over the speed
   bool optional = false;              ///< may be absent, without a default
   std::string coefficient_with = {};  ///< where that parameter is given, this one is a number that multiplies it
+  std::string second_of = {};         ///< the second of two values in brackets, that parameter = [x, y]; without brackets both are the same
   std::string not_with = {};          ///< a parameter that may not be given together with this one
   std::string same_as = {};           ///< the parameter whose value is used if none is given (`breakaway` = `coulomb`)
   bool opposite = false;              ///< the value of `same_as` is negated (`lower` = -`upper`)

@@ -256,6 +256,7 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
   plan.values.resize(declaration.parameters.size());
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const Parameter& parameter = declaration.parameters[i];
+    if (!parameter.second_of.empty()) continue;  // read with the first
     const std::string& name = name_given(parameter, plan, domain, reader);
     const bool misnamed = refuse_other_names(parameter, name, plan.in_model, domain, reader, diagnostics);
     const bool may_be_absent = parameter.kind == Parameter::Kind::initial || parameter.optional || parameter.fallback ||
@@ -295,6 +296,14 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
       const bool any_unit = parameter.unit != Parameter::Unit::quantity;
       plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(plan.quantity_of(parameter)), context_);
       plan.signal_parameters.push_back(static_cast<int>(i));
+    } else if (const bool two = i + 1 < declaration.parameters.size() && declaration.parameters[i + 1].second_of == parameter.name; two && entry->value.kind == TomlValue::Kind::array) {
+      const auto& items = entry->value.items;
+      if (items.size() != 2) {
+        diagnostics.error(entry->value.spot, "`" + name + "` takes one value or two, but has " + std::to_string(items.size()),
+                          name + " = [" + parameter.symbol + ", " + declaration.parameters[i + 1].symbol + "]");
+        continue;
+      }
+      for (std::size_t k = 0; k < 2; ++k) plan.values[i + k] = Formula(items[k], "`" + name + "`", diagnostics);
     } else if (entry->value.is_table()) {
       diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(context_.declarations));
     } else {

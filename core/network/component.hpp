@@ -200,6 +200,29 @@ struct Contact {
   double bound(int side) const { return side < 0 ? lowest : highest; }
 };
 
+/// Losses of a transmission whose second node gets the force m, as seen at its first node. The first node has the force
+///     max((m + bearing_a)/efficiency_a, efficiency_b (m + bearing_b))   while it turns forwards,
+///     min((m - bearing_a)/efficiency_a, efficiency_b (m - bearing_b))   while it turns backwards,
+/// the first term if a drives, the second one if b does; at rest any force between the two.
+struct Loss {
+  double efficiency_a = 1, efficiency_b = 1;  ///< while a drives, while b drives; 0 or less: b cannot drive
+  double bearing_a = 0, bearing_b = 0;        ///< friction of the bearings, seen at a [N]
+
+  /// Force at the first node: factor m + offset.
+  struct Line {
+    double factor, offset;
+    double at(double m) const { return factor * m + offset; }
+  };
+  Line line(int side, bool b_drives) const {
+    return b_drives ? Line{efficiency_b, side * efficiency_b * bearing_b} : Line{1 / efficiency_a, side * bearing_a / efficiency_a};
+  }
+  /// By how much a drives, while it turns to this side [N]: the difference of both lines.
+  double lead_of_a(int side, double m) const { return side * (line(side, false).at(m) - line(side, true).at(m)); }
+  bool b_drives(int side, double m) const { return lead_of_a(side, m) < 0; }
+  /// What is lost at the first node while it turns to this side, at least 0.
+  double lost(int side, double m) const { return std::max(0.0, side * (line(side, b_drives(side, m)).at(m) - m)); }
+};
+
 /// A law of the role `block`. With u the sum of the inputs (or the generated signal), its output is
 ///
 ///     z, where z' = gain u - leak z and z = initial at first   if it has a state
@@ -292,6 +315,7 @@ struct Component {
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
+  std::function<std::optional<Loss>(std::span<const double>)> loss = {};  ///< of a transmission; absent if it has none
   /// For Role::slip: a parameter that depends on the velocity; absent if none does.
   std::function<std::optional<MotionExpression>(const LawValues&)> over_velocity = {};
   /// For Role::deflection: a force beside that of the law, which dissipates; absent if there is none.

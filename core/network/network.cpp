@@ -213,7 +213,14 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::train: {
       const auto node = [&](NodeId n) { return network.node_of[static_cast<std::size_t>(n)]; };
       place_in(network.trains);
-      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row});
+      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row, components()[static_cast<std::size_t>(element.declaration)]->loss(element.values)});
+      if (Network::Train& train = network.trains.back(); train.loss) {
+        train.friction = static_cast<int>(network.sliders.size());
+        const auto bounds = [&](int side) { return Bounds{train.loss->lost(side, 0), train.loss->lost(side, 0)}; };
+        network.sliders.push_back({{index, ends.a, train.node[2]}, {bounds(1), bounds(-1)}});
+        network.sliders.back().component = law.component;
+        network.sliders.back().train = place.index;
+      }
       break;
     }
     case Role::motion:
@@ -329,7 +336,7 @@ void refuse_balanced_start_of_trains(const Network& network) {
   if (network.trains.empty() || network.scene->start_from == Scene::StartFrom::given) return;
   const int element = network.trains.front().element;
   throw SimulationError(network.spot_of(element),
-                        fmt::format("with transmission `{}`, whose support moves or which is in a loop with other elements, a start from rest or in steady "
+                        fmt::format("with transmission `{}`, which has losses, a support that moves, or a loop with other elements, a start from rest or in steady "
                                     "motion is not available; start from given values, and give it time to settle",
                                     network.scene->elements[static_cast<std::size_t>(element)].name));
 }

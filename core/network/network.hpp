@@ -43,6 +43,8 @@ struct Network {
     int element;
     std::array<NodeId, 3> node;
     std::array<double, 3> factor;
+    std::optional<Loss> loss = {};
+    int friction = -1;  ///< of its losses: index into `sliders`, between its first node and its support; -1: none
   };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given. A given
   /// acceleration is integrated by such a block.
@@ -67,6 +69,7 @@ struct Network {
     LawValues law_values() const { return {values, characteristic}; }
     std::optional<Contact> contact = {};           ///< of a law that has a force only in contact ...
     int gauge = -1;                                ///< ... and the deflection branch that measures its displacement
+    int train = -1;  ///< whose losses it is: its bounds depend on the force of that train
   };
   /// b = -1 for a force at one node. With a `block`, the force is `sign` times its output. The force of an element that `resists`
   /// is the negative of the one that it applies; the output of block `energy` is what it stores [J] (-1: nothing).

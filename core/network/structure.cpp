@@ -196,7 +196,7 @@ Structure::Loop closed_loop(const Network& network, const Structure& structure, 
 Structure classify(const Network& network) {
   Structure s = blank_structure(network);
   assign_inertia(network, s);
-  assign_trains(network, s, true);
+  assign_trains(network, s, nullptr);
   assign_viscous_and_floating(network, s);
   return s;
 }
@@ -206,7 +206,7 @@ Structure analyse(const Network& network, const Modes& modes) {
   for (std::size_t k = 0; k < s.stuck.size(); ++k) s.stuck[k] = modes.slider[k] == Modes::stuck;
   join(network, modes, s);
   assign_inertia(network, s);
-  assign_trains(network, s, false);
+  assign_trains(network, s, &modes);
   assign_viscous_and_floating(network, s);
   grow_forest(network, s);
 

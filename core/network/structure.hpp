@@ -19,6 +19,7 @@ enum class Kind : char {
 struct Modes {
   enum Slide : signed char { backward = -1, stuck = 0, forward = 1 };
   std::vector<signed char> slider;  ///< of each slider
+  std::vector<char> b_drives;       ///< of each train with losses
 };
 
 /// Structural analysis of a network: which equation gives each velocity, so that the DAE has index 1 for any wiring.
@@ -57,12 +58,13 @@ struct Structure {
   };
 
   /// An equation between velocities, v of `pivot` + sum of factors times velocities = 0. The balance of the pivot's forces is that of a
-  /// train; it gives factor times this balance to each of the other nodes, and its own row is this equation.
+  /// train; a share of it goes to each of the other nodes, and its own row is this equation.
   struct Tied {
     struct Term { NodeId node; double factor; };
     NodeId pivot;
-    std::vector<Term> terms;  ///< no pivot of any other
-    int train;                ///< whose equation it was
+    std::vector<Term> terms;   ///< no pivot of any other
+    std::vector<Term> shares;  ///< without losses the same as `terms`
+    int train;                 ///< whose equation it was
   };
 
   std::vector<NodeId> rigid;     ///< of each node: the node to which it is joined, or itself
@@ -71,6 +73,8 @@ struct Structure {
   std::vector<char> stuck;                 ///< of each slider
   std::vector<Branch> inerters;            ///< likewise
   std::vector<Tied> tied;        ///< the independent equations of the trains, in reduced row echelon form
+  /// Of each train: its forces at its nodes over the force that it hands on. While its losses slip, these are not its factors.
+  std::vector<std::array<double, 3>> train_forces;
   std::vector<Tie> ties;         ///< their balances contain no unknown: callers must check them
   std::vector<Kind> kind;        ///< of each node
   std::vector<int> rank;         ///< of each node: its place in Network::node_order

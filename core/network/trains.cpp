@@ -20,8 +20,8 @@ namespace {
 
 class Trains {
  public:
-  Trains(const Network& network, Structure& structure, bool all_slip)
-      : network_(network), s_(structure), all_slip_(all_slip), sets_(joined_by_links(network)), mass_(structure.kind.size(), 0), head_(structure.kind.size(), -1) {
+  Trains(const Network& network, Structure& structure, const Modes* modes)
+      : network_(network), s_(structure), modes_(modes), all_slip_(!modes), sets_(joined_by_links(network)), mass_(structure.kind.size(), 0), head_(structure.kind.size(), -1) {
     for (std::size_t n = 0; n < head_.size(); ++n) sets_.join(static_cast<NodeId>(n), s_.rigid[n]);
     for (const NodeId node : network.node_order) {
       const std::size_t set = at(sets_.find(node));
@@ -34,6 +34,7 @@ class Trains {
 
   void assign() {
     eliminate();
+    find_forces();
     find_groups();
     for (const std::set<NodeId>& group : groups_) find_inertia(group);
     for (const Network::Train& train : network_.trains) {
@@ -84,11 +85,48 @@ class Trains {
       std::erase_if(row, [](const auto& term) { return term.second == 0; });
       for (Row& other : rows) subtract(row, pivot, other);
       rows.push_back(std::move(row));
-      s_.tied.push_back({pivot, {}, static_cast<int>(&train - network_.trains.data())});
+      s_.tied.push_back({pivot, {}, {}, static_cast<int>(&train - network_.trains.data())});
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (const auto& [node, factor] : rows[r]) {
         if (node != s_.tied[r].pivot && factor != 0) s_.tied[r].terms.push_back({node, factor});
+      }
+    }
+  }
+
+  /// Losses that slip change the forces at the first node and at the support. The balances of the pivots then give the forces of the trains
+  /// by a system of their own, and these go to all other nodes.
+  void find_forces() {
+    bool any = false;
+    for (const Network::Train& train : network_.trains) {
+      s_.train_forces.push_back(train.factor);
+      const int side = modes_ && train.friction >= 0 && !s_.stuck[at(train.friction)] ? modes_->slider[at(train.friction)] : 0;
+      if (side == 0) continue;
+      const double more = train.loss->line(side, modes_->b_drives[s_.train_forces.size() - 1] != 0).factor - 1;
+      s_.train_forces.back()[0] += more;
+      s_.train_forces.back()[2] -= more;
+      any = true;
+    }
+    for (Structure::Tied& tied : s_.tied) tied.shares = tied.terms;
+    if (!any) return;
+    const auto rows = static_cast<Eigen::Index>(s_.tied.size());
+    std::map<NodeId, Eigen::RowVectorXd> forces;  // at each head, of each train that has an equation
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      const std::size_t train = at(s_.tied[static_cast<std::size_t>(r)].train);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const NodeId node = head(network_.trains[train].node[k]);
+        forces.try_emplace(node, Eigen::RowVectorXd::Zero(rows)).first->second[r] += s_.train_forces[train][k];
+      }
+    }
+    Eigen::MatrixXd of_pivots(rows, rows);
+    for (Eigen::Index r = 0; r < rows; ++r) of_pivots.row(r) = forces.at(s_.tied[static_cast<std::size_t>(r)].pivot);
+    const Eigen::FullPivLU<Eigen::MatrixXd> factors(of_pivots.transpose());
+    for (Structure::Tied& tied : s_.tied) tied.shares.clear();
+    for (const auto& [node, row] : forces) {
+      if (known(node) || std::any_of(s_.tied.begin(), s_.tied.end(), [&](const Structure::Tied& tied) { return tied.pivot == node; })) continue;
+      const Eigen::RowVectorXd shares = factors.solve(row.transpose()).transpose();
+      for (Eigen::Index r = 0; r < rows; ++r) {
+        if (shares[r] != 0) s_.tied[static_cast<std::size_t>(r)].shares.push_back({node, shares[r]});
       }
     }
   }
@@ -220,7 +258,7 @@ class Trains {
       if (mass(node) == 0) light.push_back(network_.node_name(node));
     }
     throw SimulationError(network_.spot_of(first),
-                          fmt::format("too few nodes at transmission{} {} have a mass: where its support moves, or where it is in a loop with other elements, a "
+                          fmt::format("too few nodes at transmission{} {} have a mass: with losses, with a support that moves, or in a loop with other elements a "
                                       "transmission determines the motion of one massless node, but here are {}; give {} of them a mass",
                                       trains.size() > 1 ? "s" : "", format_list(trains), format_list(light), light.size() - trains.size() > 1 ? "more" : "one"));
   }
@@ -233,6 +271,7 @@ class Trains {
 
   const Network& network_;
   Structure& s_;
+  const Modes* modes_;
   bool all_slip_;
   DisjointSets sets_;                      ///< nodes that rigid links or sticking sliders join
   std::vector<double> mass_;               ///< of each set
@@ -242,8 +281,8 @@ class Trains {
 
 }  // namespace
 
-void assign_trains(const Network& network, Structure& structure, bool all_slip) {
-  if (!network.trains.empty()) Trains(network, structure, all_slip).assign();
+void assign_trains(const Network& network, Structure& structure, const Modes* modes) {
+  if (!network.trains.empty()) Trains(network, structure, modes).assign();
 }
 
 }  // namespace rheonet

@@ -28,8 +28,10 @@ double ratio_of(const SceneElement& element) { return component_of(element).rati
 
 bool joins_two_nodes(const SceneElement& element) { return !element.at && element.a != ground && element.b != ground; }
 
-/// Its support is at rest: it may be a change of units.
-bool is_two_port(const SceneElement& element) { return is_transmission(element) && element.support == ground; }
+bool has_losses(const SceneElement& element) { return component_of(element).loss(element.values).has_value(); }
+
+/// Its support is at rest, and it has no losses: it may be a change of units.
+bool is_two_port(const SceneElement& element) { return is_transmission(element) && element.support == ground && !has_losses(element); }
 
 /// The elements on a shortest path between two nodes, from the first node on, along elements that `may_pass`. Empty if none.
 template <class MayPass>
@@ -57,8 +59,8 @@ std::vector<int> path_between(const Scene& scene, NodeId from, NodeId to, MayPas
   return path;
 }
 
-/// Finds the scale of each node, and the transmissions that cannot be changes of units: those with a moving support, and those that
-/// close a loop with other elements.
+/// Finds the scale of each node, and the transmissions that cannot be changes of units: those with losses or a moving support, and those
+/// that close a loop with other elements.
 class Scales {
  public:
   explicit Scales(const Scene& scene)
@@ -66,10 +68,12 @@ class Scales {
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
       const SceneElement& element = scene.elements[e];
       if (joins_two_nodes(element) && !is_transmission(element)) regions_.join(element.a, element.b);
+      // Losses are friction between the first node and the support.
+      if (is_transmission(element) && has_losses(element) && element.a != ground && element.support != ground) regions_.join(element.a, element.support);
     }
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
       const SceneElement& element = scene.elements[e];
-      row_[e] = is_transmission(element) && element.support != ground;
+      row_[e] = is_transmission(element) && !is_two_port(element);
       if (!joins_two_nodes(element) || !is_two_port(element)) continue;
       across_[at(regions_.find(element.a))].push_back(static_cast<int>(e));
       across_[at(regions_.find(element.b))].push_back(static_cast<int>(e));
@@ -197,6 +201,11 @@ class Converter {
     if (component.role == Role::block) return;
     if (component.ratio) {
       element.scale = scale_at(element, true);
+      std::vector<double> values = element.values;
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (element.has_row()) values[k] /= own_unit(component.declaration.parameters[k].quantity, element.scale);
+      }
+      element.values = std::move(values);
       return;
     }
     element.scale = node(element.a == ground && !element.at ? element.b : element.a).scale;

@@ -13,6 +13,12 @@ double OutputSampler::force_beside(int element) const {
   return found == network_.beside.end() ? 0 : -dae_->applied_force(found->second);
 }
 
+/// Force of the losses of a train at its first node.
+double OutputSampler::loss_force(int train, const Dae::View& view) const {
+  const int friction = network_.trains[at(train)].friction;
+  return friction < 0 ? 0 : view.slider_force[at(friction)];
+}
+
 double OutputSampler::element_force(int element, const Dae::View& view) const {
   const Network& network = network_;
   const Network::Place& place = network.places[at(element)];
@@ -38,7 +44,7 @@ double OutputSampler::element_force(int element, const Dae::View& view) const {
     case Role::inerter:
       return dae_->inerter_force(at(place.index));
     case Role::train:
-      return view.train_force[at(place.index)];
+      return view.train_force[at(place.index)] + loss_force(place.index, view);
     case Role::motion:
       return dae_->reaction(network.motions[at(place.index)].node);
     case Role::force:
@@ -77,6 +83,10 @@ double OutputSampler::dissipated_power(int element, const Dae::View& view) const
     if (network_.forces[at(place.index)].lossless()) return 0;
     const int energy = network_.forces[at(place.index)].energy;
     return element_force(element, view) * element_velocity(element, view) - (energy < 0 ? 0 : dae_->output_rate(energy));
+  }
+  if (!place.paired && place.role == Role::train) {
+    const int friction = network_.trains[at(place.index)].friction;
+    return friction < 0 ? 0 : view.slider_force[at(friction)] * view.slider_velocity[at(friction)];
   }
   // The spring of a pair stores; rate laws and sliders store nothing.
   const bool dissipates = place.paired ? element != network_.pairs[at(place.index)].spring

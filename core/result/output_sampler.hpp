@@ -34,6 +34,7 @@ class OutputSampler {
   // element_values.cpp
   double element_force(int element, const Dae::View& view) const;
   double force_beside(int element) const;
+  double loss_force(int train, const Dae::View& view) const;
   double element_velocity(int element, const Dae::View& view) const;
   double dissipated_power(int element, const Dae::View& view) const;
   double stored_energy(int element, const Dae::View& view) const;

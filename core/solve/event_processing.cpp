@@ -62,7 +62,8 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
     if (events[k] == 0) continue;
     const auto [branch, which] = system.events[k];
     if (which < 0) {
-      (which == NetworkEvents::of_slider ? fired.sudden.sliders : fired.limits).push_back(branch);
+      if (which == NetworkEvents::of_slider) fired.sudden.sliders.push_back(branch);
+      if (which == NetworkEvents::of_limit) fired.limits.push_back(branch);
       fired.elements.push_back(system.events.element(k));
       continue;
     }

@@ -49,6 +49,13 @@ NetworkEvents::NetworkEvents(Dae& dae, Consistency& consistency, const Tolerance
   const std::size_t limits = dae.inputs().blocks().limits().size();
   limit_margin_.assign(limits, 0);
   for (std::size_t k = 0; k < limits; ++k) events_.push_back({static_cast<int>(k), of_limit});
+  for (std::size_t k = 0; k < dae.network().trains.size(); ++k) {
+    const int friction = dae.network().trains[k].friction;
+    if (friction < 0 || structure.stuck[at(friction)]) continue;
+    losses_.push_back(static_cast<int>(k));
+    events_.push_back({static_cast<int>(k), of_loss});
+  }
+  loss_margin_.assign(losses_.size(), 0);
 }
 
 void NetworkEvents::find_pseudoplastic() {
@@ -87,6 +94,7 @@ int NetworkEvents::element(std::size_t k) const {
   const auto [branch, which] = events_[k];
   const Network& network = dae_.network();
   if (which == of_slider) return network.sliders[at(branch)].branch.element;
+  if (which == of_loss) return network.trains[at(branch)].element;
   if (which == of_limit) return network.blocks.blocks[at(dae_.inputs().blocks().limits()[at(branch)].block)].element;
   return network.deflections[at(branch)].element;
 }
@@ -96,8 +104,18 @@ double NetworkEvents::limit_function(std::size_t k) const {
   return dae_.inputs().blocks().event_function(k) + limit_margin_[k] + std::numeric_limits<double>::min();
 }
 
+/// By how much the side that drives leads [N].
+double NetworkEvents::loss_function(std::size_t k, const Dae::View& view) const {
+  const std::size_t train = at(losses_[k]);
+  const Network::Train& of = dae_.network().trains[train];
+  const double force = view.train_force[train], lead = of.loss->lead_of_a(modes_.slider[at(of.friction)], force);
+  return (modes_.b_drives[train] ? -lead : lead) + numerics::balance_roundoff * std::abs(force) + tolerances_.slip_noise(of.friction) + loss_margin_[k];
+}
+
 double NetworkEvents::sudden_function(std::size_t k, const Dae::View& view) const {
-  return k < sliders_.size() ? slider_function(sliders_[k], view) : limit_function(k - sliders_.size());
+  if (k < sliders_.size()) return slider_function(sliders_[k], view);
+  k -= sliders_.size();
+  return k < limit_margin_.size() ? limit_function(k) : loss_function(k - limit_margin_.size(), view);
 }
 
 /// True for a sticking slider between prescribed motions, of blocks in part: it slips as soon as they move its ends apart.
@@ -144,6 +162,7 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
   std::fill(margin_.begin(), margin_.end(), 0.0);
   std::fill(law_margin_.begin(), law_margin_.end(), 0.0);
   std::fill(limit_margin_.begin(), limit_margin_.end(), 0.0);
+  std::fill(loss_margin_.begin(), loss_margin_.end(), 0.0);
   at_begin_.resize(events_.size());
   evaluate(t, y, yp, at_begin_.data());
   if (!slipping_.empty()) {
@@ -162,8 +181,9 @@ void NetworkEvents::begin(double t, const double* y, const double* yp) {
     if (!dae_.structure().stuck[at(k)] && g < -numerics::slip_against_force * tolerances_.largest_velocity()) report_against_force(t, k);
     margin_[at(k)] = margin(g);
   }
-  const std::size_t first = events_.size() - limit_margin_.size();
-  for (std::size_t k = 0; k < limit_margin_.size(); ++k) limit_margin_[k] = margin(at_begin_[first + k]);
+  const std::size_t losses = events_.size() - loss_margin_.size(), limits = losses - limit_margin_.size();
+  for (std::size_t k = 0; k < limit_margin_.size(); ++k) limit_margin_[k] = margin(at_begin_[limits + k]);
+  for (std::size_t k = 0; k < loss_margin_.size(); ++k) loss_margin_[k] = margin(at_begin_[losses + k]);
 }
 
 std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::vector<double>& y,
@@ -211,7 +231,7 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
 }
 
 bool NetworkEvents::sticks() const {
-  return !limit_margin_.empty() || !returning_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
+  return !limit_margin_.empty() || !losses_.empty() || !returning_.empty() || std::any_of(sliders_.begin(), sliders_.end(), [&](int k) { return dae_.structure().stuck[at(k)] != 0; });
 }
 
 double NetworkEvents::at_time(const Integrator& integrator, double t, std::size_t k) {

@@ -16,9 +16,9 @@ class NetworkEvents final : public EventFunctions {
  public:
   struct Which {
     int branch;  ///< deflection branch, slider, or limit of a block (BlockSignals::limits)
-    int which;   ///< event of a deflection law, `of_slider` or `of_limit`
+    int which;   ///< event of a deflection law, `of_slider`, `of_limit` or `of_loss`
   };
-  static constexpr int of_slider = -1, of_limit = -2;
+  static constexpr int of_slider = -1, of_limit = -2, of_loss = -3;
 
   /// `modes` are the present ones; all must outlive this.
   NetworkEvents(Dae& dae, Consistency& consistency, const Tolerances& tolerances, const Modes& modes);
@@ -87,8 +87,9 @@ class NetworkEvents final : public EventFunctions {
   double force_band(int slider) const;
   [[noreturn]] void report_against_force(double t, int slider) const;
   double limit_function(std::size_t limit) const;
+  double loss_function(std::size_t loss, const Dae::View& view) const;
   /// Guard k of the sliders, then of the limits, in the state of the view.
-  std::size_t suddens() const { return sliders_.size() + limit_margin_.size(); }
+  std::size_t suddens() const { return sliders_.size() + limit_margin_.size() + losses_.size(); }
   double sudden_function(std::size_t k, const Dae::View& view) const;
 
   Dae& dae_;
@@ -108,6 +109,8 @@ class NetworkEvents final : public EventFunctions {
   double right_time_ = not_looked;  ///< time of right_, since the last `begin`
   std::vector<double> margin_;  ///< of each slider
   std::vector<double> limit_margin_;  ///< of each limit
+  std::vector<int> losses_;           ///< trains whose losses slip: the side that drives them may change
+  std::vector<double> loss_margin_;   ///< of each of them
   std::vector<double> law_margin_, at_begin_;  ///< of each event of the laws; event functions at `begin`
   std::vector<Which> events_;
 };

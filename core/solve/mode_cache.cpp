@@ -28,6 +28,11 @@ ModeCache::ModeCache(const Network& network, const Structure& classified, Inputs
 const std::shared_ptr<System>& ModeCache::of_modes() {
   std::vector<char> key;
   for (signed char mode : modes_.slider) key.push_back(mode == Modes::stuck);
+  for (std::size_t k = 0; k < network_.trains.size(); ++k) {
+    if (!network_.trains[k].loss) continue;
+    key.push_back(modes_.slider[at(network_.trains[k].friction)]);
+    key.push_back(modes_.b_drives[k]);
+  }
   for (const auto& [batch, i] : may_tie_) key.push_back(batch->constant(i));
   auto found = mode_cache_.find(key);
   if (found == mode_cache_.end()) {

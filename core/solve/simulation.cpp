@@ -47,6 +47,7 @@ class Run {
         chatter_(network.scene->elements.size() + 1, settings.accuracy),
         regularisation_(network) {
     modes_.slider.assign(network.sliders.size(), Modes::stuck);
+    modes_.b_drives.assign(network.trains.size(), 0);
     slider_force_.assign(network.sliders.size(), 0);
     inputs_.history().disregard(numerics::continuous_jump * settings.accuracy);
   }
@@ -96,7 +97,7 @@ class Run {
       cross(0, true, {});
     } catch (const SimulationError&) {
       // If the motion of a node is undetermined even when all sliders stick, `analyse` throws the better error.
-      analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck)});
+      analyse(network_, Modes{std::vector<signed char>(modes_.slider.size(), Modes::stuck), modes_.b_drives});
       throw;
     }
     if (ended_) refuse_condition();

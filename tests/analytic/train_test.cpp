@@ -365,7 +365,7 @@ TEST_CASE("trains: what cannot be is refused by name") {
   const std::string p = "p = { type = \"planetary\", between = [\"s\", \"c\", \"r\"], ratio = 2 }\n";
   const std::string Js = "Js = { type = \"inertia\", at = \"s\", inertia = 1 }\n", Jc = "Jc = { type = \"inertia\", at = \"c\", inertia = 1 }\n";
   CHECK(message(p + Js) ==
-        "too few nodes at transmission `p` have a mass: where its support moves, or where it is in a loop with other elements, a transmission determines the "
+        "too few nodes at transmission `p` have a mass: with losses, with a support that moves, or in a loop with other elements a transmission determines the "
         "motion of one massless node, but here are `r`, `c`; give one of them a mass");
   const auto moves = [](const std::string& node) { return fmt::format("m{0} = {{ type = \"motion\", at = \"{0}\", velocity = 1 }}\n", node); };
   CHECK(message(p + moves("s") + moves("c") + moves("r")) ==
@@ -375,6 +375,6 @@ TEST_CASE("trains: what cannot be is refused by name") {
   CHECK(message(p + Js + Jc + "m = { type = \"motion\", at = \"r\", position = { step = \"0.1 rad\", time = 0.5 } }\n") ==
         "at t = 0.5 s a step in position turns transmission `p` in no time, which takes a force beyond any bound; give the step a time to rise in");
   CHECK(refusal("domain = \"rotation\"\n[elements]\n" + p + Js + Jc + "[simulate]\nstart_from = \"rest\"\nstop = 1\n") ==
-        "with transmission `p`, whose support moves or which is in a loop with other elements, a start from rest or in steady motion is not available; start "
+        "with transmission `p`, which has losses, a support that moves, or a loop with other elements, a start from rest or in steady motion is not available; start "
         "from given values, and give it time to settle");
 }
