@@ -96,8 +96,8 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
   };
   scene.start = value(reader.find("start"), Quantity::time, 0);
   read_start_from(reader.find("start_from"), diagnostics, scene);
-  reader.find("stop_when");  // see StopCondition
   const TomlEntry* stop = reader.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
+  reader.find("stop_when");  // see StopCondition
   scene.stop = value(stop, Quantity::time, not_given);
   if (scene.stop <= scene.start) {
     diagnostics.error(stop->value.spot, "`stop` must be later than `start`, " + number_text(scene.start) + " s, but is " +
