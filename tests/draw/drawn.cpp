@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string>
 
 #include "core/netlist/read.hpp"
 #include "core/network/component.hpp"
@@ -108,6 +110,8 @@ class Inspection {
       if (expected.size() == 2 && (mark.ends.front().node == of.a) == mark.mirrored)
         say("{} is the wrong way round", of.name);
     }
+    for (std::size_t i = 0; i < marks.size(); ++i)
+      if (scene_.elements[i].part != SceneElement::Part::none) marks[i] = 1 - marks[i];  // none is drawn
     if (static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 0)) == picture_.omitted)
       std::replace(marks.begin(), marks.end(), 0, 1);
     for (std::size_t i = 0; i < marks.size(); ++i)
@@ -203,8 +207,18 @@ class Inspection {
   };
 
   void signals() {
-    std::size_t expected = scene_.feeds.size();
-    for (const SceneBlock& block : scene_.blocks) expected += block.inputs.size();
+    // Of the parts of an element by a law only the signals that come from other blocks are drawn, each once.
+    const auto of = [&](int block) -> const SceneElement& { return scene_.elements[static_cast<std::size_t>(scene_.blocks[static_cast<std::size_t>(block)].element)]; };
+    std::size_t expected = 0;
+    std::set<std::pair<int, std::string>> taken;
+    for (const SceneFeed& feed : scene_.feeds) expected += of(feed.block).part == SceneElement::Part::none;
+    for (std::size_t b = 0; b < scene_.blocks.size(); ++b) {
+      const SceneElement& taker = of(static_cast<int>(b));
+      if (taker.part == SceneElement::Part::none) expected += scene_.blocks[b].inputs.size();
+      for (const SceneBlock::Input& input : scene_.blocks[b].inputs)
+        if (taker.part != SceneElement::Part::none && input.from_block && of(input.index).part == SceneElement::Part::none) taken.emplace(input.index, taker.name.substr(0, taker.name.rfind('.')));
+    }
+    expected += taken.size();
     if (picture_.signals.size() != expected) say("{} signals instead of {}", picture_.signals.size(), expected);
     std::vector<SignalPiece> pieces;
     for (std::size_t k = 0; k < picture_.signals.size(); ++k) {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "core/network/component.hpp"
 #include "tools/draw/caption.hpp"
@@ -44,12 +47,20 @@ class Diagram {
       : scene_(scene), detail_(detail), size_(0.75 * detail.symbol) {
     for (const int block : blocks) add_block(block);
     for (const int block : blocks) add_inputs(block);
-    for (const SceneFeed& feed : scene.feeds) {
-      const auto from = item_of_.find(feed.block);
-      if (from == item_of_.end()) continue;
-      const int sink = add_text(scene.elements[static_cast<std::size_t>(feed.element)].name);
-      graph_.lines.push_back({from->second, sink, 0, false, {}});
-      signs_.push_back(feed.sign);
+    const auto lead_to = [&](int block, const std::string& name, double sign) {
+      const auto from = item_of_.find(block);
+      if (from == item_of_.end()) return;
+      graph_.lines.push_back({from->second, add_text(name), 0, false, {}});
+      signs_.push_back(sign);
+    };
+    for (const SceneFeed& feed : scene.feeds) lead_to(feed.block, scene.elements[static_cast<std::size_t>(feed.element)].name, feed.sign);
+    // A law takes a signal in once, whichever of its parts do.
+    std::set<std::pair<int, std::string>> taken;
+    for (const SceneBlock& part : scene.blocks) {
+      const SceneElement& of = scene.elements[static_cast<std::size_t>(part.element)];
+      const std::string owner = of.name.substr(0, of.name.rfind('.'));
+      for (const SceneBlock::Input& input : part.inputs)
+        if (of.part != SceneElement::Part::none && input.from_block && taken.emplace(input.index, owner).second) lead_to(input.index, owner, input.sign);
     }
     graph_.arrange();
     sort_ports();
