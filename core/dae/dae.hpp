@@ -172,7 +172,7 @@ class Dae {
   double inerter_force(std::size_t index) const;
   /// Energy that an inerter stores [J], likewise.
   double inerter_energy(std::size_t index) const;
-  /// Rate of the output of a block in the state last viewed, which depends on states, positions and velocities alone [unit/s].
+  /// Rate of the output of a block in the state last viewed, which depends on time, states, positions and velocities alone [unit/s].
   double output_rate(int block) const;
   /// Output of a block in the state last viewed.
   double output(int block) const { return inputs_->blocks().out(block).value; }

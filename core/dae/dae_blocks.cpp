@@ -136,7 +136,7 @@ double Dae::acceleration_by(const Network::Motion& motion) const {
 
 double Dae::output_rate(int block) const {
   const BlockSignals& blocks = inputs_->blocks();
-  double sum = 0;
+  double sum = blocks.out(block).derivative;  // by time, and by prescribed motions
   for (std::size_t k = 0; k < blocks.states(); ++k) sum += blocks.slope(block, k) * blocks.rate(k);
   for (std::size_t k = 0; k < blocks.sensed.size(); ++k) {
     const Blocks::Sensor& sensor = network_->blocks.sensors[k];

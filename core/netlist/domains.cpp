@@ -43,10 +43,15 @@ class Spread {
   Domain of(std::size_t e) const {
     const SceneElement& element = scene_.elements[e];
     if (!declaration(e).domains.empty()) return declaration(e).domains.front();
-    for (const NodeId node : {element.a, element.b, element.support}) {
+    return at({element.a, element.b, element.support}, element.domain.value_or(context_.domain));
+  }
+
+  /// The domain of the first of these nodes that has one; otherwise `usual`.
+  Domain at(std::initializer_list<NodeId> nodes, Domain usual) const {
+    for (const NodeId node : nodes) {
       if (node != ground && places_[at_index(node)].domain) return *places_[at_index(node)].domain;
     }
-    return element.domain.value_or(context_.domain);
+    return usual;
   }
 
  private:
@@ -142,6 +147,7 @@ DomainOfElement find_domains(const Scene& scene, Context& context) {
   if (spread.contradicts()) throw TooManyDiagnostics{};  // units that do not fit would only repeat it
   DomainOfElement result;
   for (std::size_t e = 0; e < scene.elements.size(); ++e) result.emplace(scene.elements[e].name, spread.of(e));
+  for (const SceneAssembly& assembly : scene.assemblies) result.emplace(assembly.name, spread.at({assembly.a, assembly.b}, context.domain));
   return result;
 }
 

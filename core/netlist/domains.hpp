@@ -13,7 +13,7 @@ namespace rheonet {
 /// a type that is of one domain. If not, all elements are in the domain of the scene, and need not be looked at.
 bool names_other_domain(const TomlValue& part, const Context& context);
 
-/// The domain of each element, by its path.
+/// The domain of each element, and that of the first node of each assembly, by its path.
 using DomainOfElement = std::unordered_map<std::string, Domain>;
 
 /// Finds the domain of each element of a scene whose elements have a `domain` where the file gives one. From these, and from

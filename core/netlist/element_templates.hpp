@@ -104,6 +104,7 @@ struct Model {
   std::vector<Number> defaults;              ///< of the parameters; NaN if absent or invalid
   const Environment* environment = nullptr;  ///< the [parameters] of its file
   double least_elements = 0;                 ///< lower bound of the elements of an instance: each `repeat` counts once
+  bool both_domains = false;                 ///< its defaults, of translation, count in rotation as their counterparts
   bool sound = false;
 };
 

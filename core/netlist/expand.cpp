@@ -141,10 +141,7 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   SceneElement element;
   if (without_values_) element.domain = domain_;
   const Domain usual = context_.domain;
-  if (domains_) {
-    const auto found = domains_->find(path);
-    element.domain = found == domains_->end() ? usual : found->second;
-  }
+  if (domains_) element.domain = domain_at(path);
   const Instead in_its_domain(context_.domain, element.domain.value_or(usual));
   if (!without_values_ && !(fits_domain(plan) && element_values(plan, around.environment, element))) return false;
   element.name = path;
@@ -160,6 +157,12 @@ bool Expander::element(const ElementTemplate& plan, Ends ends, const std::string
   scene_.elements.push_back(std::move(element));
   if (!without_values_) connection(plan, around.environment, static_cast<int>(scene_.elements.size()) - 1);
   return true;
+}
+
+Domain Expander::domain_at(const std::string& path) const {
+  if (!domains_) return context_.domain;
+  const auto found = domains_->find(path);
+  return found == domains_->end() ? context_.domain : found->second;
 }
 
 /// Whether the names of the parameters are those of the element's domain. A model may use the names of translation in both.

@@ -67,6 +67,8 @@ class Expander {
   bool instance(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
   bool repeat(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around);
 
+  /// The domain of an element or an assembly, by its path.
+  Domain domain_at(const std::string& path) const;
   bool fits_domain(const ElementTemplate& plan);
   bool element_value(const ElementTemplate& plan, const Environment& environment, std::size_t i, double flow_index, SceneElement& element);
   bool element_values(const ElementTemplate& plan, const Environment& environment, SceneElement& element);
@@ -75,7 +77,7 @@ class Expander {
   /// Records the wires of the element made last: inputs and units of a block, the feed of a source.
   void connection(const ElementTemplate& plan, const Environment& environment, int element);
   std::string path_of(const SignalConnection& connection) const;
-  bool instance_parameters(const ElementTemplate& plan, const Environment& around, Environment& inside);
+  bool instance_parameters(const ElementTemplate& plan, const std::string& path, const Environment& around, Environment& inside);
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);
   std::size_t begin_assembly(const ElementTemplate& plan, Ends ends, const std::string& path);
   void end_assembly(std::size_t assembly, Terms force, const Surroundings& around);

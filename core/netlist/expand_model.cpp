@@ -66,6 +66,15 @@ bool is_lost(const ElementTemplate& plan, const ActiveOverride& active, bool is_
   return true;
 }
 
+/// A quantity of translation as its counterpart in rotation: N as N*m, m as rad, kg as kg*m^2. Any other quantity stays as it is.
+Number turned(Number number) {
+  Dimension& dimension = number.dimension;
+  if (dimension.metre == 2 * dimension.kilogram) return number;
+  number.radian += dimension.metre - dimension.kilogram;
+  dimension.metre = 2 * dimension.kilogram;
+  return number;
+}
+
 }  // namespace
 
 const ElementTemplate& Expander::overridden(const ElementTemplate& plan, Scope* scope, const ActiveOverrides& overrides, bool is_member,
@@ -87,21 +96,24 @@ const ElementTemplate& Expander::overridden(const ElementTemplate& plan, Scope* 
   return patched_plans_.emplace_back(planner_.read_entry(plan.name, plan.spot, value, scope, plan.in_model));
 }
 
-bool Expander::instance_parameters(const ElementTemplate& plan, const Environment& around, Environment& inside) {
+bool Expander::instance_parameters(const ElementTemplate& plan, const std::string& path, const Environment& around, Environment& inside) {
   const Model& model = *plan.model;
+  const bool turns = model.both_domains && domain_at(path) == Domain::rotation;
   DiagnosticList& diagnostics = context_.diagnostics;
   bool good = true;
   for (const NamedFormula& parameter : model.parameters) inside.names[parameter.name] = mistaken_number();
   for (const std::size_t i : model.order) {
     const NamedFormula& parameter = model.parameters[i];
     const Formula& given = plan.values[i];
-    const auto number = given.given() ? given.evaluate(around, diagnostics) : parameter.formula.evaluate(inside, diagnostics);
+    auto number = given.given() ? given.evaluate(around, diagnostics) : parameter.formula.evaluate(inside, diagnostics);
     if (!number) {
       good = false;
       continue;
     }
-    const Number& usual = model.defaults[i];
-    if (given.given() && !std::isnan(usual.value) && !fits(*number, usual)) {
+    if (turns && !given.given()) number = turned(*number);
+    const Number usual = turns ? turned(model.defaults[i]) : model.defaults[i];
+    const bool known = !(without_values_ && model.both_domains);  // the domain, which decides about the dimension
+    if (given.given() && known && !std::isnan(usual.value) && !fits(*number, usual)) {
       diagnostics.error(given.source().spot, given.name() + " of `" + model.name + "`: expected " +
                                               describe(usual) + ", as its default is, found " +
                                               describe(*number));
@@ -123,7 +135,7 @@ bool Expander::instance(const ElementTemplate& plan, Ends ends, const std::strin
   if (static_cast<double>(scene_.elements.size()) + model.least_elements > static_cast<double>(most_elements))
     return refuse_number(plan.spot);
   Environment environment{.names = {}, .outer = model.environment};
-  if (!instance_parameters(plan, around.environment, environment)) return false;
+  if (!instance_parameters(plan, path, around.environment, environment)) return false;
 
   const bool assembled = model.ports.size() == 2;
   const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;

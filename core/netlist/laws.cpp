@@ -48,6 +48,7 @@ class LawReader {
     const TomlEntry* states = reader.find("states");
     const TomlEntry* force = reader.require("force", law_.spot, "force = \"k*d + c*w\", an expression over the displacement d and the velocity w");
     const TomlEntry* stores = reader.find("stores");
+    const TomlEntry* domain = reader.find("domain");
     if (const TomlEntry* inputs = reader.find_quietly("inputs"))
       diagnostics_.error(inputs->spot, "a law has no `inputs`", "what it depends on besides d, w, t and its states is a parameter");
     reader.find("inputs");
@@ -58,8 +59,7 @@ class LawReader {
       for (const TomlEntry& entry : where->value.entries) name(entry, "a name in `where`");
     if (states && expect_table(states->value, "`states`", diagnostics_, state_example))
       for (const TomlEntry& entry : states->value.entries) name(entry, "a state");
-    if (parameters && parameters->value.is_table())
-      for (const TomlEntry& entry : parameters->value.entries) check_parameter(entry);
+    if (parameters) check_parameters(parameters->value);
     if (diagnostics_.errors() > before) return {};
 
     if (where)
@@ -76,7 +76,8 @@ class LawReader {
     }
     elements_.push_back({"law", law_.spot, table_at(law_.spot, std::move(element))});
     std::vector<TomlEntry> model{{"ports", law_.spot, ports()}};
-    if (parameters) model.push_back(*parameters);
+    for (const TomlEntry* entry : {parameters, domain})
+      if (entry) model.push_back(*entry);
     model.push_back({"elements", law_.spot, table_at(law_.spot, std::move(elements_))});
     if (diagnostics_.errors() > before) return {};
     return TomlEntry{law_.key, law_.spot, table_at(law_.value.spot, std::move(model))};
@@ -93,12 +94,19 @@ class LawReader {
 
   static TomlValue from(const std::string& block, Spot spot) { return table_at(spot, {{"block", spot, text_at(spot, block)}}); }
 
-  void check_parameter(const TomlEntry& entry) {
+  /// A table of defaults, or an array of names and of such tables.
+  void check_parameters(const TomlValue& parameters) {
+    if (parameters.is_string()) check_parameter(parameters.text, parameters.spot);
+    for (const TomlValue& item : parameters.items) check_parameters(item);
+    for (const TomlEntry& entry : parameters.entries) check_parameter(entry.key, entry.spot);
+  }
+
+  void check_parameter(const std::string& name, Spot spot) {
     for (const char* taken : {"d", "w", "t"}) {
-      if (entry.key == taken) diagnostics_.error(entry.spot, fmt::format("a parameter of a law cannot be called `{}`", taken), "d, w and t are its displacement, its velocity and the time");
+      if (name == taken) diagnostics_.error(spot, fmt::format("a parameter of a law cannot be called `{}`", taken), "d, w and t are its displacement, its velocity and the time");
     }
-    if (std::find(names_.begin(), names_.end(), entry.key) != names_.end())
-      diagnostics_.error(entry.spot, fmt::format("`{}` is a parameter of law `{}`, and a state or a name in `where` too", entry.key, law_.key), "rename one of them");
+    if (std::find(names_.begin(), names_.end(), name) != names_.end())
+      diagnostics_.error(spot, fmt::format("`{}` is a parameter of law `{}`, and a state or a name in `where` too", name, law_.key), "rename one of them");
   }
 
   /// Takes the name of a state or of an entry of `where`.

@@ -33,17 +33,24 @@ void read_ports(const TomlEntry& entry, Model& model, DiagnosticList& diagnostic
   }
 }
 
+void add_parameter(NamedFormula parameter, Model& model, DiagnosticList& diagnostics) {
+  const bool twice = std::any_of(model.parameters.begin(), model.parameters.end(),
+                                 [&](const NamedFormula& p) { return p.name == parameter.name; });
+  if (twice)
+    diagnostics.error(parameter.spot, "parameter `" + parameter.name + "` is named twice");
+  else
+    model.parameters.push_back(std::move(parameter));
+}
+
 void read_parameters(const TomlEntry& entry, Model& model, DiagnosticList& diagnostics) {
   if (entry.value.is_array()) {
     for (const TomlValue& item : entry.value.items) {
-      if (!expect_string(item, "the name of a parameter", diagnostics)) continue;
-      if (!expect_identifier(item.text, item.spot, "a parameter", diagnostics)) continue;
-      const bool twice = std::any_of(model.parameters.begin(), model.parameters.end(),
-                                     [&](const NamedFormula& p) { return p.name == item.text; });
-      if (twice)
-        diagnostics.error(item.spot, "parameter `" + item.text + "` is named twice");
-      else
-        model.parameters.push_back({item.text, item.spot, Formula()});
+      if (item.is_table()) {
+        for (NamedFormula& parameter : read_named_formulas(item, diagnostics)) add_parameter(std::move(parameter), model, diagnostics);
+      } else if (expect_string(item, "the name of a parameter", diagnostics, "[\"k\", \"B\", { n = 1 }]: names, and tables of defaults") &&
+                 expect_identifier(item.text, item.spot, "a parameter", diagnostics)) {
+        add_parameter({item.text, item.spot, Formula()}, model, diagnostics);
+      }
     }
   } else if (expect_table(entry.value, "`parameters`", diagnostics,
                           "parameters with defaults, { k = \"100 N/m\" }, or names without, [\"k\"]")) {
@@ -54,6 +61,16 @@ void read_parameters(const TomlEntry& entry, Model& model, DiagnosticList& diagn
       diagnostics.error(parameter.spot, "a parameter cannot be called `" + parameter.name + "`",
                      "an element has a key of that name already");
   model.order = evaluation_order(model.parameters, diagnostics);
+}
+
+void read_domain_of(const TomlEntry& entry, Model& model, DiagnosticList& diagnostics) {
+  if (!expect_string(entry.value, "`domain`", diagnostics, "domain = \"both\"")) return;
+  model.both_domains = entry.value.text == "both";
+  if (!model.both_domains)
+    diagnostics.error(entry.value.spot, "the `domain` of a model or a law can only be `both`, but is `" + entry.value.text + "`",
+                      "its elements, or its instances, may belong to one domain");
+  else if (model.ports.size() != 2)
+    diagnostics.error(entry.value.spot, "only a model with two ports can be for both domains");
 }
 
 void evaluate_defaults(Model& model, DiagnosticList& diagnostics) {
@@ -135,6 +152,7 @@ void declare_models(const TomlValue& table, const Environment& environment, Cont
     if (const TomlEntry* ports = reader.require("ports", entry.spot, "ports = [\"a\", \"b\"]"))
       read_ports(*ports, *model, diagnostics);
     if (const TomlEntry* parameters = reader.find("parameters")) read_parameters(*parameters, *model, diagnostics);
+    if (const TomlEntry* domain = reader.find("domain")) read_domain_of(*domain, *model, diagnostics);
     const TomlEntry* elements =
         reader.require("elements", entry.spot, "[models." + entry.key + ".elements] with a line for each");
     if (elements && elements->value.is_table() && elements->value.entries.empty())

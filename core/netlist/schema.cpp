@@ -260,12 +260,21 @@ Json repeat_schema() {
   return described(std::move(schema), "a chain or a bundle of this element: its members are NAME.0, NAME.1, ...");
 }
 
+Json own_parameters() {
+  const Json defaults = named(reference("value"));
+  return described({{"anyOf", {defaults, list_of({{"anyOf", {text("a parameter without a default"), defaults}}})}}},
+                   "parameters with their defaults, or a list of names without and of tables with defaults");
+}
+
+Json both_domains() {
+  return {{"enum", {"both"}}, {"description", "its defaults, of translation, count in rotation as their counterparts: N as N*m, m as rad, kg as kg*m^2"}};
+}
+
 Json model_schema() {
   Json schema = object(
       {{"ports", described(list_of(text("name of a node inside"), 1), "nodes by which it is connected, in this order")},
-       {"parameters",
-        {{"anyOf", {named(reference("value")), list_of(text("a parameter without a default"))}},
-         {"description", "parameters with their defaults, or their names"}}},
+       {"parameters", own_parameters()},
+       {"domain", both_domains()},
        {"elements", reference("elements")}});
   schema["required"] = {"ports", "elements"};
   return described(std::move(schema), "a network with ports, used as an element type");
@@ -275,7 +284,8 @@ Json law_schema() {
   Json state = object({{"start", described(reference("value"), "its value at the start, with its unit")}, {"rate", text("an expression")}});
   state["required"] = {"start", "rate"};
   Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states and names in `where`")},
-                        {"parameters", described(named(reference("value")), "parameters with their defaults")},
+                        {"parameters", own_parameters()},
+                        {"domain", both_domains()},
                         {"where", described(named(text("an expression")), "names for parts of the expressions")},
                         {"states", described(named(std::move(state)), "rate(z) is the rate of the state z in other expressions")},
                         {"stores", text("the energy stored in it, an expression")},

@@ -92,6 +92,30 @@ push  = { type = "force", at = "y", force = { sine = 3, frequency = 1.7 } }
                                     "b = { type = \"spring\", between = [\"x\", \"ground\"], stiffness = 40 }\n"), wired), 1e-7);
 }
 
+// The energy that it stores grows with the given motion, with its state, and with the time.
+TEST_CASE("laws: the heat of one whose ends follow given motions") {
+  const double k = 3.1, c = 0.7, A = 0.4, b = 0.9;
+  const auto d = [=](double t) { return A * std::sin(b * t); };
+  const auto w = [=](double t) { return A * b * std::cos(b * t); };
+  const auto energy = [=](double t) { return k * d(t) * d(t) / 2 * (1 + t) + k * d(t) * d(t); };
+  const Expectations expected = {
+      {"e.energy", energy},
+      {"e.power", [=](double t) { return (3 * k * d(t) + c * w(t)) * w(t); }},
+      {"e.dissipated", [=](double t) { return c * w(t) * w(t) - k * d(t) * w(t) * t - k * d(t) * d(t) / 2; }}};
+  for (const char* motion : {"position = { sine = \"A\", frequency = \"b/(2*pi)\" }", "velocity = { cosine = \"A*b\", frequency = \"b/(2*pi)\" }"}) {
+    const std::string toml = netlist({{"k", k}, {"c", c}, {"A", A}, {"b", b}}, std::string(R"(
+[laws.growing]
+parameters = { k = "1 N/m", c = "1 N*s/m", T = "1 s" }
+states     = { z = { start = "0 m", rate = "w" } }
+force      = "k*d + 2*k*z + c*w"
+stores     = "k*d^2/2*(1 + t/T) + k*z^2"
+[elements]
+e = { type = "growing", between = ["x", "ground"], k = "k", c = "c" }
+m = { type = "motion", at = "x", )") + motion + " }\n", 2.9);
+    check_at_all_accuracies(toml + record(expected), expected);
+  }
+}
+
 TEST_CASE("laws: mistakes are told where they stand") {
   const auto says = [](const std::string& law, const std::string& words) {
     const std::string text = refusal(law + "\n[elements]\nm = { type = \"motion\", at = \"x\", velocity = \"1 m/s\" }\nh = { type = \"a\", between = [\"x\", \"ground\"] }\n[simulate]\nstop = 1\n");
@@ -103,6 +127,10 @@ TEST_CASE("laws: mistakes are told where they stand") {
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { z = { start = \"0 m\" } }\nforce = \"k*z\"", "a state needs `rate`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nstates = { w = { start = \"0 m\", rate = \"w\" } }\nforce = \"k*d\"", "a state cannot be called `w`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\nstores = \"k*d\"", "energy");
+  says("[laws.a]\nparameters = [\"k\", { d = 1 }]\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
+  says("[laws.a]\nparameters = [\"w\"]\nforce = \"w*d\"", "a parameter of a law cannot be called `w`");
+  says("[laws.a]\nparameters = [\"k\"]\nforce = \"k*d\"", "a `a` needs `k`");
+  says("[laws.a]\ndomain = \"rotation\"\nforce = \"d\"", "scene.toml:2:10: error: the `domain` of a model or a law can only be `both`, but is `rotation`");
   says("[laws.a]\nparameters = { k = \"1 N/m\", d = 1 }\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nwhere = { k = \"2*d\" }\nforce = \"k*d\"", "`k` is a parameter of law `a`");
   says("[laws.a]\nforce = \"0*d\"\n[laws.unused]\nforce = \"this is ( nonsense\"", "`f` of law `unused`");

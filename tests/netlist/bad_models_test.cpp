@@ -172,6 +172,46 @@ scene.toml:6:1: error: a `m` needs `k`
       | ^
   the model gives it no default
 )~"},
+      {"parameters that are neither names nor tables, and one named twice",
+       R"~(
+[models.m]
+ports = ["a"]
+parameters = ["k", 3, { B = 1, k = 2 }]
+elements = { k = { type = "spring", between = ["a", "ground"], stiffness = "k" } }
+[elements]
+k1 = { type = "m", at = "x" }
+)~",
+       R"~(
+scene.toml:3:20: error: the name of a parameter must be a string, but is an integer
+    3 | parameters = ["k", 3, { B = 1, k = 2 }]
+      |                    ^
+  ["k", "B", { n = 1 }]: names, and tables of defaults
+scene.toml:3:32: error: parameter `k` is named twice
+    3 | parameters = ["k", 3, { B = 1, k = 2 }]
+      |                                ^
+)~"},
+      {"a model of one domain, and one for both with three ports",
+       R"~(
+[models.m]
+ports = ["a", "b"]
+domain = "rotation"
+elements = { k = { type = "spring", between = ["a", "b"], stiffness = 1 } }
+[models.n]
+ports = ["a", "b", "c"]
+domain = "both"
+elements = { k = { type = "spring", between = ["a", "b"], stiffness = 1 }, l = { type = "spring", between = ["c", "b"], stiffness = 1 } }
+[elements]
+k1 = { type = "m", between = ["x", "ground"] }
+)~",
+       R"~(
+scene.toml:3:10: error: the `domain` of a model or a law can only be `both`, but is `rotation`
+    3 | domain = "rotation"
+      |          ^
+  its elements, or its instances, may belong to one domain
+scene.toml:7:10: error: only a model with two ports can be for both domains
+    7 | domain = "both"
+      |          ^
+)~"},
       {"a mistyped parameter of an instance",
        R"~(
 [models.m]

@@ -134,3 +134,38 @@ stop = 1
 record = ["r.velocity"]
 )~").find("`r` has no `velocity`: one of its ends turns, the other moves along a line") != std::string::npos);
 }
+
+TEST_CASE("domains: the defaults of a model for both domains have the units of the domain that it is in") {
+  const std::string models = R"~(
+[models.m]
+domain     = "both"
+ports      = ["a", "b"]
+parameters = { k = "2 N/m", half = "k/2", B = "3 N*s/m", v = "5 mm/s", F = "7 N", T = "1 s", J = "1 kg", n = 1 }
+[models.m.elements]
+k = { type = "spring", between = ["a", "b"], stiffness = "half + B/T + F/v/T + J/T^2*n" }
+)~";
+  // The same in translation, in rotation, and in rotation behind other elements of a scene of translation.
+  const double k = 1 + 3 + 7 / 0.005 + 1;
+  for (const char* scene : {"[elements]\nx = { type = \"m\", between = [\"p\", \"ground\"] }\nM = { type = \"mass\", at = \"p\", mass = 1 }\n",
+                            "domain = \"rotation\"\n[elements]\nx = { type = \"m\", between = [\"p\", \"ground\"] }\nM = { type = \"inertia\", at = \"p\", inertia = 1 }\n",
+                            "[elements]\nx = { type = \"m\", between = [\"p\", \"q\"] }\nM = { type = \"inertia\", at = \"r\", inertia = 1 }\n"
+                            "two = { type = \"m\", between = [\"ground\", \"q\"], repeat = { count = 2 } }\nM2 = { type = \"mass\", at = \"q\", inertia = 1 }\n"
+                            "s = { type = \"m\", between = [\"q\", \"r\"], k = \"2 N*m/rad\" }\n"}) {
+    std::string text = scene;
+    if (text[0] == 'd') text = text.substr(0, 20) + "\n" + models + text.substr(20);
+    else text = models + text;
+    const Scene read = scene_of(text + run_it);
+    int springs = 0;
+    for (const SceneElement& element : read.elements) {
+      if (!element.name.ends_with(".k")) continue;
+      ++springs;
+      CHECK(element.values[0] == doctest::Approx(k));
+    }
+    CHECK(springs >= 1);
+  }
+  const std::string rotation = "domain = \"rotation\"\n" + models + "[elements]\n";
+  CHECK(refusal(rotation + "x = { type = \"m\", between = [\"p\", \"ground\"], k = \"2 N/m\" }\n" + run_it)
+            .find("`k` of `m`: expected a torsional stiffness (N*m/rad), as its default is, found a stiffness (N/m)") != std::string::npos);
+  CHECK(refusal(rotation + "x = { type = \"m\", between = [\"p\", \"ground\"], v = \"2 m/s\" }\n" + run_it)
+            .find("`v` of `m`: expected an angular velocity (rad/s), as its default is, found a velocity (m/s)") != std::string::npos);
+}

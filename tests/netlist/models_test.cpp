@@ -197,4 +197,19 @@ T = "5 N*m"
   CHECK_FALSE(read(models + instance, options).scene);  // kg*m^2 is no mass
 }
 
+TEST_CASE("a model with some parameters that have defaults, and some that have none") {
+  const Scene scene = scene_of(R"~(
+[models.m]
+ports = ["a", "b"]
+parameters = ["k", { factor = 3, more = "factor*k" }, "B", { again = "2*more" }]
+[models.m.elements]
+k = { type = "spring", between = ["a", "b"], stiffness = "again" }
+c = { type = "dashpot", between = ["a", "b"], damping = "B" }
+[elements]
+x = { type = "m", between = ["p", "ground"], k = "2 N/m", B = "5 N*s/m" }
+y = { type = "m", between = ["p", "ground"], k = "2 N/m", B = "5 N*s/m", factor = 1, more = "7 N/m" }
+)~");
+  CHECK(elements_of(scene) == "x.k: spring p-ground 12 0\nx.c: dashpot p-ground 5 1\ny.k: spring p-ground 14 0\ny.c: dashpot p-ground 5 1\n");
+}
+
 }  // namespace rheonet::test

@@ -1,10 +1,13 @@
-// The models of netlists/library/rheology.toml against the same networks composed in the scene, in translation and
+// The library. Models of netlists/library/rheology.toml against the same networks composed in the scene, in translation and
 // rotation. The composed ones are tested against closed forms in tests/analytic.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
 
 #include "tests/support/simulate.hpp"
 
@@ -106,4 +109,81 @@ include = ["library/rheology.toml"]
 k = "137.3 N*m/rad"
 B = "21.7 N*m*s/rad"
 )");
+}
+
+// Numbers of translation, in SI, have the same result in rotation: N count as N m, m as rad.
+TEST_CASE("laws of the library, in rotation") {
+  struct Use {
+    std::string type, swing, given;  ///< `given`: a value, in the unit of translation and in that of rotation
+    std::string in_rotation;
+  };
+  for (const Use& use : {Use{"lugre", "50e-6", "sigma0 = \"2e5 N/m\"", "sigma0 = \"2e5 N*m/rad\""},
+                         Use{"elasto-plastic", "50e-6", "Fc = \"0.7 N\"", "Fc = \"0.7 N*m\""},
+                         Use{"gms-element", "50e-6", "C = \"30 N/s\"", "C = \"30 N*m/s\""},
+                         Use{"gms", "50e-6", "D = \"30 um\"", "D = \"30 urad\""},
+                         Use{"bouc-wen", "3e-3", "k = \"2 kN/m\"", "k = \"2 kN*m/rad\""},
+                         Use{"hunt-crossley", "1e-3", "gap = \"0.5 mm\"", "gap = \"0.5 mrad\""},
+                         Use{"superelastic", "60e-3", "D = \"30 mm\"", "D = \"30 mrad\""}}) {
+    CAPTURE(use.type);
+    const auto rows = [&](const std::string& domain, const std::string& given) {
+      return simulate("domain = \"" + domain + "\"\ninclude = [\"library/friction.toml\", \"library/contact.toml\", \"library/rheology.toml\"]\n" +
+                          "[elements]\ndrive = { type = \"motion\", at = \"x\", position = { sine = " + use.swing + ", frequency = 0.7 } }\n" +
+                          "usual = { type = \"" + use.type + "\", between = [\"x\", \"ground\"] }\n" +
+                          "other = { type = \"" + use.type + "\", between = [\"x\", \"ground\"], " + given + " }\n" +
+                          "[simulate]\nstop = 1.9\noutput = { points = 50 }\nrecord = [\"usual.force\", \"other.force\"]\n", 1e-6);
+    };
+    const RunTable along = rows("translation", use.given), around = rows("rotation", use.in_rotation);
+    for (const char* record : {"usual.force", "other.force"}) {
+      CHECK(along.scale(record) > 0.1);
+      for (std::size_t row = 0; row < along.time().size(); ++row)
+        CHECK(std::abs(along[record][row] - around[record][row]) <= 1e-11 * along.scale(record));
+    }
+    CHECK(std::abs(along.scale("usual.force") - along.scale("other.force")) > 1e-3 * along.scale("usual.force"));
+  }
+}
+
+// The error that rheology.toml states, of the springs and dashpots themselves: relaxation t^-beta/Gamma(1 - beta), complex
+// stiffness (i w)^beta.
+TEST_CASE("a springpot is one within its band") {
+  struct Error {
+    double relaxation = 0, stiffness = 0;
+  };
+  const auto error_of = [](double beta, int dense, int margin) {
+    const Scene scene = scene_of(fmt::format("include = [\"library/rheology.toml\"]\n[elements]\nm = {{ type = \"motion\", at = \"x\", velocity = 1 }}\n"
+                                             "s = {{ type = \"springpot\", between = [\"x\", \"ground\"], K = \"3 N*s^{0}/m\", beta = {0}, fast = \"1 ms\", slow = "
+                                             "\"10 s\", dense = {1}, margin = {2} }}\n[simulate]\nstop = 1\n",
+                                             beta, dense, margin));
+    double spring = 0, dashpot = 0;
+    std::vector<double> k, tau;
+    for (const SceneElement& element : scene.elements) {
+      if (element.name == "s.slower") spring = element.values[0];
+      if (element.name == "s.faster") dashpot = element.values[0];
+      if (element.name.ends_with(".spring")) k.push_back(element.values[0]);
+      if (element.name.ends_with(".dashpot")) tau.push_back(element.values[0] / k.back());
+    }
+    REQUIRE(k.size() == static_cast<std::size_t>(2 * margin * dense + 4 * dense + 1));
+    Error error;
+    for (int i = 0; i <= 100; ++i) {
+      const double t = 1e-3 * std::pow(10, 0.04 * i), relaxation = 3 * std::pow(t, -beta) / std::tgamma(1 - beta);
+      const std::complex<double> iw(0, 1 / t), stiffness = 3.0 * std::pow(iw, beta);
+      double sum = spring;
+      std::complex<double> complex_sum = spring + iw * dashpot;
+      for (std::size_t j = 0; j < k.size(); ++j) {
+        sum += k[j] * std::exp(-t / tau[j]);
+        complex_sum += k[j] * iw * tau[j] / (1.0 + iw * tau[j]);
+      }
+      error.relaxation = std::max(error.relaxation, std::abs(sum / relaxation - 1));
+      error.stiffness = std::max(error.stiffness, std::abs(complex_sum / stiffness - 1.0));
+    }
+    return error;
+  };
+  for (const double beta : {0.2, 0.5, 0.8}) {
+    CAPTURE(beta);
+    CHECK(error_of(beta, 3, 3).relaxation < 3e-5);
+    CHECK(error_of(beta, 3, 3).stiffness < 3e-5);
+    CHECK(error_of(beta, 3, 1).stiffness > 1e-3);  // the margin is needed
+  }
+  CHECK(error_of(0.5, 2, 4).relaxation == doctest::Approx(5.3e-4).epsilon(0.05));
+  CHECK(error_of(0.5, 3, 4).relaxation == doctest::Approx(7.3e-6).epsilon(0.05));
+  CHECK(error_of(0.5, 4, 5).relaxation == doctest::Approx(9.7e-8).epsilon(0.05));
 }

@@ -15,6 +15,7 @@
 #include "core/netlist/read.hpp"
 #include "core/network/advice.hpp"
 #include "core/network/component.hpp"
+#include "core/result/certify.hpp"
 #include "core/result/trajectory.hpp"
 
 using namespace rheonet;
@@ -71,11 +72,13 @@ void check_run(const Scene& scene) {
   CHECK_LE(std::abs(summary.missing), 10 * scene.accuracy * summary.largest);
 }
 
-std::vector<std::filesystem::path> demos() {
+std::vector<std::filesystem::path> scenes_in(const char* place) {
   std::vector<std::filesystem::path> files = scenes();
-  std::erase_if(files, [](const auto& file) { return file.parent_path() != folder / "teaching"; });
+  std::erase_if(files, [place](const auto& file) { return file.parent_path() != folder / place; });
   return files;
 }
+
+std::vector<std::filesystem::path> demos() { return scenes_in("teaching"); }
 
 }  // namespace
 
@@ -167,6 +170,23 @@ TEST_CASE("what the demos claim holds at every accuracy that is asked for") {
   for (const double accuracy : {1e-2, 1e-4, 1e-8, 1e-10}) {
     for (const std::filesystem::path& file : demos()) {
       CAPTURE(file.string());
+      CAPTURE(accuracy);
+      ReadOptions options;
+      options.accuracy = accuracy;
+      check_run(*read_sound(file, options).scene);
+    }
+  }
+}
+
+TEST_CASE("the closed forms of the laws of the library hold at every accuracy, and certified") {
+  CHECK_GE(scenes_in("laws").size(), 10);
+  for (const std::filesystem::path& file : scenes_in("laws")) {
+    CAPTURE(file.string());
+    const ReadResult plain = read_sound(file);
+    CHECK_FALSE(plain.scene->claims.empty());
+    CHECK_FALSE(plain.presentation.plot.curves.empty());
+    CHECK(certify(*plain.scene, {}).holds);
+    for (const double accuracy : {1e-4, 1e-8}) {
       CAPTURE(accuracy);
       ReadOptions options;
       options.accuracy = accuracy;
