@@ -11,6 +11,7 @@ namespace rheonet {
 /// Scales from blocks. A gain turns a small error of its input into a large error of its output: the quantities behind a
 /// recorded output share its allowed error equally. A position behind a force may be off by the allowed error of the force
 /// over its slope: a stop in the way of a far-travelling mass deflects little. Contact at speed v causes a force v sqrt(k m).
+/// A state that acts by the force of its law alone need not be resolved finer than the smallest forces are.
 void Tolerances::find_block_scales(double largest_force, const Dae::View& view) {
   if (network_.blocks.blocks.empty()) return;
   for (std::size_t k = 0; k < sorts; ++k) block_scale_[k].assign(seen_[k].size(), std::numeric_limits<double>::infinity());
@@ -31,6 +32,12 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
   });
   if (network_.blocks.sensors.empty()) return;
   blocks.update_slopes(dae_->inputs().history());
+  if (!states_of_laws_) find_states_of_laws();
+  least_state_.assign(blocks.states(), 0);
+  for (const auto& [block, state] : *states_of_laws_) {
+    const double slope = std::abs(blocks.slope(block, state));
+    if (slope > 0) least_state_[state] = numerics::scale_floor * largest_force / slope;
+  }
   for (std::size_t f = 0; f < network_.forces.size(); ++f) {
     const int block = network_.forces[f].block;
     if (block < 0) continue;
@@ -45,6 +52,28 @@ void Tolerances::find_block_scales(double largest_force, const Dae::View& view) 
       if (block_scale_[static_cast<std::size_t>(Sort::position)].empty()) continue;
       double& scale = block_scale_[static_cast<std::size_t>(Sort::position)][at(sensor.index)];
       if (stiffness > 0 && force > 0) scale = std::min(scale, force / stiffness);
+    }
+  }
+}
+
+void Tolerances::find_states_of_laws() {
+  const BlockSignals& blocks = dae_->inputs().blocks();
+  std::vector<char> elsewhere(blocks.states(), 0);  // acts on more than the force of a law
+  const auto acts = [&](int block) {
+    for (std::size_t s = 0; block >= 0 && s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || blocks.couples(block, s);
+  };
+  for (const Network::Motion& motion : network_.motions) acts(motion.block);
+  for (const Network::Slider& slider : network_.sliders) {
+    for (const Network::VaryingParameter& varying : slider.varying) acts(varying.block);
+  }
+  for (const Network::Force& force : network_.forces) acts(force.resists ? -1 : force.block);
+  for (std::size_t k = 0; k < elsewhere.size(); ++k) {
+    for (std::size_t s = 0; s < elsewhere.size(); ++s) elsewhere[s] = elsewhere[s] || (s != k && blocks.rate_couples(k, s));
+  }
+  states_of_laws_.emplace();
+  for (const Network::Force& force : network_.forces) {
+    for (std::size_t s = 0; force.resists && force.block >= 0 && s < elsewhere.size(); ++s) {
+      if (!elsewhere[s] && blocks.couples(force.block, s)) states_of_laws_->emplace_back(force.block, s);
     }
   }
 }

@@ -290,6 +290,7 @@ double Tolerances::scale_of(const Quantity& q, const Scales& largest, const Leas
   if (q.sort == Sort::velocity) resolve(std::min(relative_seen_[q.index], least_slide_[q.index]), least.velocity);
   scale = std::max(scale, foreseen_of(q));
   if (!network_.blocks.blocks.empty()) scale = std::min(scale, block_scale_[static_cast<std::size_t>(q.sort)][q.index]);
+  if (q.sort == Sort::block && !least_state_.empty()) scale = std::max(scale, least_state_[q.index]);
   if (!stands_alone(q)) scale = std::max(scale, numerics::scale_floor * largest[static_cast<std::size_t>(q.sort)]);
   if (q.sort != Sort::deflection) return scale;
   // Limited by the scale of the force: near a reversal a nanometre may matter, in sliding a metre does not.

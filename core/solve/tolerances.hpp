@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/dae/dae.hpp"
@@ -83,6 +85,7 @@ class Tolerances {
   void see_positions();
   void find_gaps();
   void find_block_scales(double largest_force, const Dae::View& view);
+  void find_states_of_laws();
   void see_rest(std::size_t slider, double velocity);
   void find_slider_shares();
   double slider_share(const Quantity& q) const;
@@ -155,6 +158,8 @@ class Tolerances {
   std::vector<double> slider_share_;                  ///< of each part: factor by which its sliders tighten tolerances
   BlockGains block_gains_;
   std::array<std::vector<double>, sorts> block_scale_;  ///< largest scale that blocks allow to anything that can be an unknown
+  std::vector<double> least_state_;                   ///< of each state of a block: its least scale
+  std::optional<std::vector<std::pair<int, std::size_t>>> states_of_laws_;  ///< block of a force, state: those that act by that force alone
   std::vector<double> block_output_seen_;             ///< of each block: largest magnitude of its output
   /// Of each node, if there are sensors: velocity caused by the round-off of what blocks sense [m/s]; stiffness and damping
   /// around the node, without blocks, at the last restart [N/m, N s/m].

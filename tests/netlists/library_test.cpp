@@ -11,6 +11,7 @@
 
 #include "tests/support/simulate.hpp"
 
+using namespace rheonet;
 using namespace rheonet::test;
 
 namespace {
