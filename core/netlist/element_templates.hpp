@@ -97,6 +97,7 @@ struct Model {
   std::string name;
   Spot spot;
   const TomlValue* source = nullptr;
+  const TomlValue* check = nullptr;  ///< conditions on the parameters of each instance
   std::vector<std::string> ports;
   std::vector<NamedFormula> parameters;
   std::vector<std::size_t> order;  ///< order in which the parameters can be evaluated

@@ -77,6 +77,7 @@ class Expander {
   /// Records the wires of the element made last: inputs and units of a block, the feed of a source.
   void connection(const ElementTemplate& plan, const Environment& environment, int element);
   std::string path_of(const SignalConnection& connection) const;
+  bool checked(const Model& model, const std::string& path, const Environment& environment);
   bool instance_parameters(const ElementTemplate& plan, const std::string& path, const Environment& around, Environment& inside);
   Terms take_port_forces(NodeId port, NodeId actual, std::size_t first_element, std::size_t first_assembly);
   std::size_t begin_assembly(const ElementTemplate& plan, Ends ends, const std::string& path);

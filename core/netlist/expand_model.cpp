@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/netlist/checks.hpp"
 #include "core/netlist/counting.hpp"
 #include "core/netlist/expand.hpp"
 #include "core/netlist/group_names.hpp"
@@ -129,13 +130,22 @@ bool Expander::instance_parameters(const ElementTemplate& plan, const std::strin
   return good;
 }
 
+/// Whether the conditions of a model hold for an instance; reports those that do not.
+bool Expander::checked(const Model& model, const std::string& path, const Environment& environment) {
+  if (!model.check) return true;
+  const std::size_t before = context_.diagnostics.errors();
+  const DiagnosticList::Within within(context_.diagnostics, path);
+  evaluate_checks(*model.check, environment, context_.diagnostics);
+  return context_.diagnostics.errors() == before;
+}
+
 bool Expander::instance(const ElementTemplate& plan, Ends ends, const std::string& path, const Surroundings& around) {
   Model& model = *plan.model;
   if (!model.sound) return false;
   if (static_cast<double>(scene_.elements.size()) + model.least_elements > static_cast<double>(most_elements))
     return refuse_number(plan.spot);
   Environment environment{.names = {}, .outer = model.environment};
-  if (!instance_parameters(plan, path, around.environment, environment)) return false;
+  if (!instance_parameters(plan, path, around.environment, environment) || !(without_values_ || checked(model, path, environment))) return false;
 
   const bool assembled = model.ports.size() == 2;
   const std::size_t assembly = assembled ? begin_assembly(plan, ends, path) : 0;

@@ -49,6 +49,7 @@ class LawReader {
     const TomlEntry* force = reader.require("force", law_.spot, "force = \"k*d + c*w\", an expression over the displacement d and the velocity w");
     const TomlEntry* stores = reader.find("stores");
     const TomlEntry* domain = reader.find("domain");
+    const TomlEntry* check = reader.find("check");
     if (const TomlEntry* inputs = reader.find_quietly("inputs"))
       diagnostics_.error(inputs->spot, "a law has no `inputs`", "what it depends on besides d, w, t and its states is a parameter");
     reader.find("inputs");
@@ -76,7 +77,7 @@ class LawReader {
     }
     elements_.push_back({"law", law_.spot, table_at(law_.spot, std::move(element))});
     std::vector<TomlEntry> model{{"ports", law_.spot, ports()}};
-    for (const TomlEntry* entry : {parameters, domain})
+    for (const TomlEntry* entry : {parameters, domain, check})
       if (entry) model.push_back(*entry);
     model.push_back({"elements", law_.spot, table_at(law_.spot, std::move(elements_))});
     if (diagnostics_.errors() > before) return {};

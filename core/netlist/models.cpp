@@ -152,6 +152,7 @@ void declare_models(const TomlValue& table, const Environment& environment, Cont
     if (const TomlEntry* ports = reader.require("ports", entry.spot, "ports = [\"a\", \"b\"]"))
       read_ports(*ports, *model, diagnostics);
     if (const TomlEntry* parameters = reader.find("parameters")) read_parameters(*parameters, *model, diagnostics);
+    if (const TomlEntry* check = reader.find("check")) model->check = &check->value;
     if (const TomlEntry* domain = reader.find("domain")) read_domain_of(*domain, *model, diagnostics);
     const TomlEntry* elements =
         reader.require("elements", entry.spot, "[models." + entry.key + ".elements] with a line for each");

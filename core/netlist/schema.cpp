@@ -260,6 +260,16 @@ Json repeat_schema() {
   return described(std::move(schema), "a chain or a bundle of this element: its members are NAME.0, NAME.1, ...");
 }
 
+Json check_schema() {
+  const Json that = text("a comparison between parameters: \"speed < critical_speed\"");
+  Json schema = object({{"that", that},
+                        {"warn", text("shown where it does not hold; the run goes on")},
+                        {"error", text("shown where it does not hold; the scene is refused")}});
+  schema["required"] = {"that"};
+  schema["not"] = {{"required", {"warn", "error"}}};
+  return described(named({{"anyOf", {that, std::move(schema)}}}), "what should hold between the parameters");
+}
+
 Json own_parameters() {
   const Json defaults = named(reference("value"));
   return described({{"anyOf", {defaults, list_of({{"anyOf", {text("a parameter without a default"), defaults}}})}}},
@@ -275,6 +285,7 @@ Json model_schema() {
       {{"ports", described(list_of(text("name of a node inside"), 1), "nodes by which it is connected, in this order")},
        {"parameters", own_parameters()},
        {"domain", both_domains()},
+       {"check", check_schema()},
        {"elements", reference("elements")}});
   schema["required"] = {"ports", "elements"};
   return described(std::move(schema), "a network with ports, used as an element type");
@@ -286,6 +297,7 @@ Json law_schema() {
   Json schema = object({{"force", text("an expression over the displacement d, the velocity w, the time t, parameters, states and names in `where`")},
                         {"parameters", own_parameters()},
                         {"domain", both_domains()},
+                        {"check", check_schema()},
                         {"where", described(named(text("an expression")), "names for parts of the expressions")},
                         {"states", described(named(std::move(state)), "rate(z) is the rate of the state z in other expressions")},
                         {"stores", text("the energy stored in it, an expression")},
@@ -293,16 +305,6 @@ Json law_schema() {
                         {"source", text("where it comes from")}});
   schema["required"] = {"force"};
   return described(std::move(schema), "an element type of the file's own, between two nodes");
-}
-
-Json check_schema() {
-  const Json that = text("a comparison between parameters: \"speed < critical_speed\"");
-  Json schema = object({{"that", that},
-                        {"warn", text("shown where it does not hold; the run goes on")},
-                        {"error", text("shown where it does not hold; the scene is refused")}});
-  schema["required"] = {"that"};
-  schema["not"] = {{"required", {"warn", "error"}}};
-  return described(named({{"anyOf", {that, std::move(schema)}}}), "what should hold between the parameters");
 }
 
 Json expect_schema() {

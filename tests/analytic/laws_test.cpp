@@ -92,6 +92,28 @@ push  = { type = "force", at = "y", force = { sine = 3, frequency = 1.7 } }
                                     "b = { type = \"spring\", between = [\"x\", \"ground\"], stiffness = 40 }\n"), wired), 1e-7);
 }
 
+// The last blocks of the chain begin to move by much less than round-off of the first: their bristles need not be resolved then.
+TEST_CASE("laws: a chain of blocks on LuGre, pulled at one end") {
+  const std::string toml = std::string(lugre) + R"(
+[models.link]
+ports = ["a", "b"]
+[models.link.elements]
+k     = { type = "spring", between = ["a", "b"], stiffness = "2000 N/m" }
+block = { type = "mass", at = "b", mass = "0.1 kg" }
+rub   = { type = "lugre", between = ["b", "ground"], Fc = "0.01 N", Fs = "0.015 N", sigma0 = "1e3 N/m", sigma1 = "3 N*s/m" }
+[elements]
+pull  = { type = "motion", at = "hand", velocity = "0.1 m/s" }
+chain = { type = "link", between = ["hand", "end"], repeat = { count = 30 } }
+[simulate]
+stop   = 0.5
+output = { points = 6 }
+record = ["chain.node1.position", "chain.node15.position", "end.position", "chain.29.rub.force", "chain.0.rub.force"]
+)";
+  const RunTable fine = simulate(toml, 1e-9);
+  CHECK(fine["end.position"].back() == doctest::Approx(0.0358763716).epsilon(1e-8));
+  for (const double accuracy : {1e-4, 1e-6}) CHECK_LE(largest_error(simulate(toml, accuracy), fine), 3 * accuracy);
+}
+
 // The energy that it stores grows with the given motion, with its state, and with the time.
 TEST_CASE("laws: the heat of one whose ends follow given motions") {
   const double k = 3.1, c = 0.7, A = 0.4, b = 0.9;

@@ -190,6 +190,24 @@ scene.toml:3:32: error: parameter `k` is named twice
     3 | parameters = ["k", 3, { B = 1, k = 2 }]
       |                                ^
 )~"},
+      {"conditions on the parameters of a model, in an instance and in a repeated one",
+       R"~(
+[models.m]
+ports = ["a"]
+parameters = ["k", { limit = "3 N/m" }]
+check = { soft = { that = "k < limit", error = "k must be below the limit" } }
+elements = { k = { type = "spring", between = ["a", "ground"], stiffness = "k" } }
+[elements]
+fine = { type = "m", at = "x", k = "2 N/m" }
+hard = { type = "m", at = "x", k = "4 N/m" }
+many = { type = "m", at = "x", k = "4.5 N/m", repeat = { count = 3, arrange = "parallel" } }
+)~",
+       R"~(
+scene.toml:4:27: error: check `soft`: k must be below the limit (in `hard`)
+    4 | check = { soft = { that = "k < limit", error = "k must be below the limit" } }
+      |                           ^
+  `k < limit` does not hold: k = 4 kg*s^-2, limit = 3 kg*s^-2
+)~"},
       {"a model of one domain, and one for both with three ports",
        R"~(
 [models.m]
