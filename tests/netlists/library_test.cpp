@@ -120,7 +120,7 @@ TEST_CASE("laws of the library, in rotation") {
   };
   for (const Use& use : {Use{"lugre", "50e-6", "sigma0 = \"2e5 N/m\"", "sigma0 = \"2e5 N*m/rad\""},
                          Use{"elasto-plastic", "50e-6", "Fc = \"0.7 N\"", "Fc = \"0.7 N*m\""},
-                         Use{"gms-element", "50e-6", "C = \"30 N/s\"", "C = \"30 N*m/s\""},
+                         Use{"gms-element", "50e-6", "k = \"2e5 N/m\"", "k = \"2e5 N*m/rad\""},
                          Use{"gms", "50e-6", "D = \"30 um\"", "D = \"30 urad\""},
                          Use{"bouc-wen", "3e-3", "k = \"2 kN/m\"", "k = \"2 kN*m/rad\""},
                          Use{"hunt-crossley", "1e-3", "gap = \"0.5 mm\"", "gap = \"0.5 mrad\""},
@@ -139,7 +139,9 @@ TEST_CASE("laws of the library, in rotation") {
       for (std::size_t row = 0; row < along.time().size(); ++row)
         CHECK(std::abs(along[record][row] - around[record][row]) <= 1e-11 * along.scale(record));
     }
-    CHECK(std::abs(along.scale("usual.force") - along.scale("other.force")) > 1e-3 * along.scale("usual.force"));
+    double apart = 0;
+    for (std::size_t row = 0; row < along.time().size(); ++row) apart = std::max(apart, std::abs(along["usual.force"][row] - along["other.force"][row]));
+    CHECK(apart > 1e-3 * along.scale("usual.force"));
   }
 }
 
