@@ -44,11 +44,12 @@ void warn(const std::string& name, Spot spot, const std::set<std::string>& used,
                    "use it, as in stiffness = \"" + name + "\", or leave it out");
 }
 
-/// Warns of unused parameters; `parameters` is a table, or in a model a list of names. Its mistakes have been reported.
+/// Warns of unused parameters; `parameters` is a table, or in a model a list of names and tables. Its mistakes have been reported.
 void warn_of_unused(const TomlValue& parameters, const std::set<std::string>& used, const std::string& of, DiagnosticList& diagnostics) {
   for (const TomlEntry& entry : parameters.entries) warn(entry.key, entry.spot, used, of, diagnostics);
   for (const TomlValue& item : parameters.items) {
     if (item.is_string()) warn(item.text, item.spot, used, of, diagnostics);
+    else warn_of_unused(item, used, of, diagnostics);
   }
 }
 
@@ -72,7 +73,12 @@ void warn_of_unused_parameters(const TomlValue& document, std::set<std::string> 
     if (!parameters) continue;
     std::set<std::string> inside;
     for (const TomlEntry& entry : model.value.entries) {
-      if (entry.key == "elements" || parameters->value.is_table()) inside.merge(identifiers_below(entry.value));
+      // Names in a list are parameters, the tables in it have expressions.
+      const bool list = entry.key == "parameters" && entry.value.is_array();
+      for (const TomlValue& item : entry.value.items) {
+        if (list && item.is_table()) inside.merge(identifiers_below(item));
+      }
+      if (!list && entry.key != "ports") inside.merge(identifiers_below(entry.value));
     }
     warn_of_unused(parameters->value, inside, " of model `" + model.key + "`", diagnostics);
   }

@@ -151,7 +151,7 @@ TEST_CASE("laws: mistakes are told where they stand") {
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nforce = \"k*d\"\nstores = \"k*d\"", "energy");
   says("[laws.a]\nparameters = [\"k\", { d = 1 }]\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
   says("[laws.a]\nparameters = [\"w\"]\nforce = \"w*d\"", "a parameter of a law cannot be called `w`");
-  says("[laws.a]\nparameters = [\"k\"]\nforce = \"k*d\"", "a `a` needs `k`");
+  says("[laws.a]\nparameters = [\"k\"]\nforce = \"k*d\"", "an `a` needs `k`");
   says("[laws.a]\ndomain = \"rotation\"\nforce = \"d\"", "scene.toml:2:10: error: the `domain` of a model or a law can only be `both`, but is `rotation`");
   says("[laws.a]\nparameters = { k = \"1 N/m\", d = 1 }\nforce = \"k*d\"", "a parameter of a law cannot be called `d`");
   says("[laws.a]\nparameters = { k = \"1 N/m\" }\nwhere = { k = \"2*d\" }\nforce = \"k*d\"", "`k` is a parameter of law `a`");

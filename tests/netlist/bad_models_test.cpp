@@ -179,10 +179,10 @@ ports = ["a"]
 parameters = ["k", 3, { B = 1, k = 2 }]
 elements = { k = { type = "spring", between = ["a", "ground"], stiffness = "k" } }
 [elements]
-k1 = { type = "m", at = "x" }
+k1 = { type = "m", at = "x", k = 1 }
 )~",
        R"~(
-scene.toml:3:20: error: the name of a parameter must be a string, but is an integer
+scene.toml:3:20: error: the name of a parameter must be a string, but is the number 3
     3 | parameters = ["k", 3, { B = 1, k = 2 }]
       |                    ^
   ["k", "B", { n = 1 }]: names, and tables of defaults

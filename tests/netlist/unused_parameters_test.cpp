@@ -55,6 +55,8 @@ TEST_CASE("a warning names each parameter of a model that its elements do not us
   };
   CHECK_EQ(told("k = 5", "k", model("{ s = 1, r = 2 }", "s")), "9: no expression of model `post` uses parameter `r`: its value changes nothing\n");
   CHECK_EQ(told("k = 5", "k", model("[\"s\", \"r\"]", "s")), "9: no expression of model `post` uses parameter `r`: its value changes nothing\n");
+  CHECK_EQ(told("k = 5", "k", model("[\"s\", { r = 2 }]", "s")), "9: no expression of model `post` uses parameter `r`: its value changes nothing\n");
+  CHECK_EQ(told("k = 5", "k", model("[\"s\", { r = \"2*s\" }]", "r")), "");
   CHECK_EQ(told("k = 5", "k", model("{ s = 1, r = 2 }", "s*r")), "");
   CHECK_EQ(told("k = 5", "k", model("{ s = \"2*r\", r = 2 }", "s")), "");
 }
