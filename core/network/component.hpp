@@ -262,7 +262,7 @@ struct MotionExpression {
 struct Component {
   Declaration declaration = {};
   Role role = Role::deflection;
-  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic
+  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic or of a limit
   std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
   std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection; and the gauge of a contact
