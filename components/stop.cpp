@@ -165,7 +165,7 @@ const RegisterComponent register_stop({
             .check = without_room,
             .effects = {{Effect::contact, "stiffness", 0}, {Effect::viscosity, "damping", 0}},
             .summary = "end stops: free play between two displacements; elastic beyond them, or rigid",
-            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0; rigid: w after = -e w before",
+            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0",
             .equation = R"(f = \begin{cases} k\,x + \min(\max(c\,w, -k|x|), k|x|) & \text{beyond a bound by } x \\ 0 & \text{else} \end{cases})",
             .source = "definition; with damping, the contact of Modelica.Mechanics.Translational.Components.ElastoGap",
             .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\n"
