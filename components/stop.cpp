@@ -165,12 +165,12 @@ const RegisterComponent register_stop({
             .check = without_room,
             .effects = {{Effect::contact, "stiffness", 0}, {Effect::viscosity, "damping", 0}},
             .summary = "end stops: free play between two displacements; elastic beyond them, or rigid",
-            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0; rigid: w after = -e w before",
+            .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0",
             .equation = R"(f = \begin{cases} k\,x + \min(\max(c\,w, -k|x|), k|x|) & \text{beyond a bound by } x \\ 0 & \text{else} \end{cases})",
             .source = "definition; with damping, the contact of Modelica.Mechanics.Translational.Components.ElastoGap",
             .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\n"
                      "With `stiffness = \"inf\"` the displacement stays within the bounds. Between masses or prescribed motions an impact ends the approach: "
-                     "w after = -e w before, with the momentum kept. It dissipates what e^2 leaves. A node without mass just comes into contact.\n"
+                     "w after = -e w before, with the momentum kept. It turns 1 - e^2 of the energy of the approach into heat. A node without mass just comes into contact.\n"
                      "Contacts that are hit at one time share the impulses: each takes what ends the approach of all, and gives back its e times that. With one e "
                      "this is w after = -e w before at each of them. A contact that only touches gives nothing back.\n"
                      "Hops that grow ever shorter end in rest, once all that remain are within a quarter of `accuracy`: in velocity, and in time.\n"

@@ -9,6 +9,7 @@
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/dae/contacts.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/network/overload_report.hpp"
 #include "core/network/rigid_links.hpp"
@@ -66,6 +67,16 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, c
   const auto in_contact = [&](int k) { return network_.sliders[at(k)].contact.has_value(); };
   std::copy_if(backwards.begin(), backwards.end(), std::back_inserter(hit_), in_contact);
   std::erase_if(backwards, in_contact);
+  // Thrown back, they are apart, however short the hop is: mode selection looks further ahead.
+  const std::vector<double> w = slider_velocities(state);
+  for (const int k : hit_) {
+    const Network::Slider& slider = network_.sliders[at(k)];
+    const int side = network_.contact_of(slider);
+    if (slider.contact->restitution == 0 || contains(settles, k) || !(side * w[at(k)] < 0)) continue;
+    count_from_contact(network_, slider, state);
+    open_contact(network_, slider);
+    change.impacts.push_back({slider.branch.element, -side});
+  }
   // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
   const bool impact = lost > numerics::equal_energies * before;
   if (t == 0 && impact && !hit_.empty()) {

@@ -300,7 +300,7 @@ struct VaryingLaw {
 struct Component {
   Declaration declaration = {};
   Role role = Role::deflection;
-  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic, or of a transmission with a row
+  bool hidden = false;                   ///< no netlist names it: it is that of a characteristic, of a limit, or of a transmission with a row
   std::vector<Limit> limits = {};  ///< tried in order; the first one that applies replaces the element
   std::string with_characteristic = {};  ///< the component that an element with a characteristic has instead
   std::string with_row = {};             ///< the component that a transmission has instead if it is an equation of its own

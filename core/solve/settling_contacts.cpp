@@ -22,13 +22,17 @@ std::vector<double> pressing(const Network& network, const std::vector<int>& con
 
 }  // namespace
 
-/// An error of its deflection shifts the next contact by that error over the velocity. Small hops are resolved as well in time as the
-/// largest one.
-double Tolerances::hop_share(std::size_t branch) const { return hop_[branch] > 0 ? hop_[branch] / flow_seen_[branch] : 1; }
+/// Each hop is resolved relative to its own height, which goes with the square of its velocity: so an error shifts the next contact, and
+/// all that follow, by the same share of their times, however small the hop is.
+double Tolerances::hop_share(std::size_t branch) const {
+  if (!(hop_[branch] > 0)) return 1;
+  const double share = hop_[branch] / flow_seen_[branch];
+  return numerics::hop_resolution * share * share;
+}
 
 void Tolerances::see_hops(const Dae::View& view, bool restarts) {
   for (const Network::Slider& slider : network_.sliders) {
-    if (!slider.contact) continue;
+    if (!slider.contact || slider.contact->restitution == 0) continue;
     const std::size_t j = at(slider.gauge);
     const bool begins = restarts && view.p[j] == 0;  // at a bound
     hop_[j] = std::max(begins ? 0 : hop_[j], std::abs(view.flow[j]));

@@ -197,6 +197,7 @@ class Run {
     for (const Event& event : mode_changes_.follow(t, modes_, dae.view(t, y_.data(), yp_.data()).p)) {
       if (t > 0) tell(event);
     }
+    if (!change.impacts.empty()) impact_ = t;
     for (const EventTransition::Change::Impact& impact : change.impacts) {
       if (t > 0) tell({t, impact.element, "impact", impact.side});
     }
@@ -314,7 +315,10 @@ class Run {
       switch_memories(t);
       if (settings_.profile) settings_.profile->blame(fired_);
       if (ended_) return t;
-      if (gets_nowhere(t, fired_)) report_chatter(t);
+      // Hops that end in rest are no chattering, as long as time resolves them.
+      const bool hops = impact_ == t && t - hopped_ > time_roundoff(t);
+      if (impact_ == t) hopped_ = t;
+      if (!hops && gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
       restart(t, until, shrink);
@@ -441,6 +445,7 @@ class Run {
   std::vector<double> slider_force_;
   double left_ = 0;  ///< time of `state_` [s]
   bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
+  double impact_ = -1, hopped_ = 0;  ///< time of the last impact after which a contact was thrown back, and of the one before [s]
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
   long steps_ = 0;       ///< in the last interval
   bool smooth_ = false;  ///< the last discontinuity was negligible

@@ -104,6 +104,25 @@ stop   = {{ type = "stop", between = [{}], {} = 0, stiffness = "inf", restitutio
   }
 }
 
+// The last hops follow each other faster than anything else here changes: no chattering, but rest at the accumulation point.
+TEST_CASE("rigid stop: almost elastic, thousands of impacts end in rest") {
+  const Ball ball{0.83, 9.81, 0.997};
+  const double stop = 1.1 * ball.rest();
+  const RunTable rows = simulate(with_events(netlist({{"h", ball.h}}, R"(
+[nodes]
+ball = { position = "h" }
+[elements]
+mass   = { type = "mass", at = "ball", mass = 1 }
+weight = { type = "force", at = "ball", force = -9.81 }
+stop   = { type = "stop", between = ["ball", "ground"], lower = 0, stiffness = "inf", restitution = 0.997 }
+)", stop)) + "record = [\"ball.position\", \"stop.force\"]\n", 1e-6);
+  const std::vector<double> found = event_times(rows);
+  REQUIRE_FALSE(found.empty());
+  CHECK_LE(std::abs(found.back() - ball.rest()), 1e-6 * stop);
+  CHECK_EQ(rows["ball.position"].back(), 0);
+  CHECK_EQ(rows["stop.force"].back(), -9.81);
+}
+
 // m v1' + M v2' is kept, and v2' - v1' = e (v1 - v2).
 TEST_CASE("rigid stop: two bodies collide") {
   const double m = 0.7, M = 2.3, v = 1.9, u = -0.4, gap = 0.31, stop = 0.4, hit = gap / (v - u);
