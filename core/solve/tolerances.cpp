@@ -315,19 +315,6 @@ void Tolerances::find_tied_rounding(const Dae::View& view) {
   }
 }
 
-/// Velocities at a train follow from each other: the slowest is known to the round-off of the fastest.
-void Tolerances::find_tied_rounding(const Dae::View& view) {
-  tied_rounding_.assign(network_.trains.empty() ? 0 : network_.nodes(), 0);
-  for (const Structure::Tied& tied : dae_->structure().tied) {
-    double sum = std::abs(view.velocity[at(tied.pivot)]);
-    for (const auto& [node, factor] : tied.terms) sum += std::abs(factor * view.velocity[at(node)]);
-    sum *= numerics::sum_ulps * std::numeric_limits<double>::epsilon();
-    const auto round = [&](NodeId node, double factor) { tied_rounding_[at(node)] = std::max(tied_rounding_[at(node)], sum / std::abs(factor)); };
-    round(tied.pivot, 1);
-    for (const auto& [node, factor] : tied.terms) round(node, factor);
-  }
-}
-
 /// Raises the tolerance of unknown i to its round-off. `jitter`: change of the unknown within the round-off of time.
 void Tolerances::bear_noise(std::size_t i, double t, double jitter, double largest_velocity) {
   const Quantity& q = quantity_[i];
