@@ -152,6 +152,10 @@ Json element_schema(const Declaration& declaration) {
   std::vector<std::string> one_of;
   for (const Parameter& parameter : declaration.parameters) {
     const auto names = names_of(parameter);
+    if (!parameter.second_of.empty()) {
+      properties[parameter.second_of] = {{"anyOf", {properties[parameter.second_of], list_of(reference("value"), 2)}}};
+      continue;
+    }
     for (const std::string& name : names) properties[name] = parameter_schema(parameter);
     if (parameter.kind == Parameter::Kind::characteristic)
       properties["smooth"] = {{"type", "boolean"}, {"description", fmt::format("a monotone cubic spline through the points of `{}`", parameter.name)}};

@@ -102,7 +102,7 @@ Row row(const Parameter& p, const Declaration& declaration) {
 
 std::string ports(const Declaration& declaration) {
   if (const auto& three = declaration.three; !three.empty()) return fmt::format("between = [{}, {}, {}]", three[0], three[1], three[2]);
-  if (declaration.supported) return "between = [a, b], and `support` = node (default ground)";
+  if (declaration.supported) return "between = [a, b], support = node";
   switch (declaration.ports) {
     case Declaration::Ports::between:
       return "between = [a, b]";
@@ -215,6 +215,7 @@ std::string as_text(const Component& component) {
   std::vector<std::vector<std::string>> table = {titles};
   std::vector<std::string> descriptions = {""};
   for (const Parameter& p : d.parameters) {
+    if (!p.second_of.empty()) continue;
     const Row r = row(p, d);
     table.push_back({r.name, r.symbol, r.quantity, r.units, r.bounds, r.fallback});
     descriptions.push_back(r.description);
@@ -255,6 +256,7 @@ std::string as_markdown(const std::vector<const Component*>& components) {
     if (!d.source.empty()) text += fmt::format("* Source: {}.\n", prose(d.source));
     text += "\n| parameter | symbol | quantity | unit | value | default | |\n|---|---|---|---|---|---|---|\n";
     for (const Parameter& p : d.parameters) {
+      if (!p.second_of.empty()) continue;
       const Row r = row(p, d);
       text +=
           fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(code(r.name)), cell(r.symbol), cell(r.quantity),
