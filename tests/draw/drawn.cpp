@@ -58,7 +58,7 @@ class Groups {
 
 /// What a symbol covers, a little less than to its edge.
 Box covered(const Mark& mark, const Scene& scene) {
-  const Reach reach = reach_of(symbol_of(scene, mark.element));
+  const Reach reach = reach_of((mark.of_support ? support_symbol() : symbol_of(scene, mark.element)));
   const double height = mark.box.bottom - mark.box.top, middle = (mark.box.top + mark.box.bottom) / 2;
   return {mark.box.left + 0.5, middle - reach.up * height + 0.5, mark.box.right - 0.5,
           middle + reach.down * height - 0.5};
@@ -97,17 +97,18 @@ class Inspection {
   void elements() {
     std::vector<int> marks(scene_.elements.size());
     for (const Mark& mark : picture_.marks) {
-      ++marks[static_cast<std::size_t>(mark.element)];
+      if (!mark.of_support) ++marks[static_cast<std::size_t>(mark.element)];
       const SceneElement& of = scene_.elements[static_cast<std::size_t>(mark.element)];
       const bool block = components()[static_cast<std::size_t>(of.declaration)]->role == Role::block;
       std::vector<NodeId> nodes, expected;
       for (const Mark::End& end : mark.ends) nodes.push_back(end.node);
-      if (!block) expected = of.at ? std::vector{of.a} : std::vector{of.a, of.b};
+      if (mark.of_support) expected = {of.b, of.support};
+      else if (!block) expected = of.at ? std::vector{of.a} : std::vector{of.a, of.b};
       std::sort(nodes.begin(), nodes.end());
       std::sort(expected.begin(), expected.end());
       if (nodes != expected) say("{} ends at other nodes", of.name);
       // Mirrored or not, its port a is the one on the side of its first end.
-      if (expected.size() == 2 && (mark.ends.front().node == of.a) == mark.mirrored)
+      if (!mark.of_support && expected.size() == 2 && (mark.ends.front().node == of.a) == mark.mirrored)
         say("{} is the wrong way round", of.name);
     }
     for (std::size_t i = 0; i < marks.size(); ++i)

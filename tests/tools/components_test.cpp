@@ -25,6 +25,7 @@ TEST_CASE("components describes every element type and all its parameters") {
     CHECK(contains(one.out, d.law));
     for (const Parameter& parameter : d.parameters) {
       CAPTURE(parameter.name);
+      if (!parameter.second_of.empty()) continue;  // told with the first
       CHECK(contains(one.out, "\n  " + parameter.name));
       if (parameter.unit != Parameter::Unit::quantity) {
         CHECK((contains(one.out, " any ") || contains(one.out, " of the ")));
