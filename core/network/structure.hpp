@@ -63,7 +63,7 @@ struct Structure {
     struct Term { NodeId node; double factor; };
     NodeId pivot;
     std::vector<Term> terms;   ///< no pivot of any other
-    std::vector<Term> shares;  ///< without losses the same as `terms`
+    std::vector<Term> shares;  ///< of nodes that are not known; without losses the same as in `terms`
     int train;                 ///< whose equation it was
   };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <utility>
@@ -107,7 +108,9 @@ class Trains {
       s_.train_forces.back()[2] -= more;
       any = true;
     }
-    for (Structure::Tied& tied : s_.tied) tied.shares = tied.terms;
+    for (Structure::Tied& tied : s_.tied) {
+      std::copy_if(tied.terms.begin(), tied.terms.end(), std::back_inserter(tied.shares), [&](const Structure::Tied::Term& term) { return !known(term.node); });
+    }
     if (!any) return;
     const auto rows = static_cast<Eigen::Index>(s_.tied.size());
     std::map<NodeId, Eigen::RowVectorXd> forces;  // at each head, of each train that has an equation
