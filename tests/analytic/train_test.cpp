@@ -247,11 +247,12 @@ double difference(const RunTable& one, const RunTable& other, const std::string&
   return largest / scale;
 }
 
-/// The same for the force of the gear, while the shafts turn: at rest it may share the load with sliders in several ways.
+/// The same for the force of the gear, while the shafts turn against each other: locked, it may share the load with sliders in several ways.
 double difference_of_force(const RunTable& one, const RunTable& other, double times) {
   double largest = 0;
   for (std::size_t k = 0; k < one.time().size(); ++k) {
-    const bool turns = one["x.velocity"][k] != 0 && one["y.velocity"][k] != 0 && one["z.velocity"][k] != 0;
+    const double x = one["x.velocity"][k], y = one["y.velocity"][k], z = one["z.velocity"][k];
+    const bool turns = x != 0 && y != 0 && z != 0 && std::abs(x - y) > 1e-9 * std::abs(x);
     if (turns) largest = std::max(largest, std::abs(one["g.force"][k] - times * other["g.force"][k]));
   }
   return largest / one.scale("g.force");
