@@ -335,8 +335,8 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
         if (!direction_of_descent(gradient, d, true)) return Outcome::undecided;
       }
       const double descent = slope_along(d, 0);
-      if (!equations_.empty() && !(descent < 0) && balanced(gradient)) {
-        // The forces of equations hold what was released.
+      if (!equations_.empty() && balanced(gradient)) {
+        // The forces of equations balance everything, and hold what was released: the step is their round-off.
         released_.clear();
         looked_again = false;
         settled = true;

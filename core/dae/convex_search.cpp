@@ -60,6 +60,10 @@ double ConvexNetwork::slope_along(const std::vector<double>& d, double step) con
   for (std::size_t k = 0; k < u_.size(); ++k) {
     if (d[k] != 0) sum += (inertia_[k] * (u_[k] + step * d[k]) - applied_[k]) * d[k];
   }
+  // A direction keeps the equations but for its round-off, along which their forces would do work.
+  for (const Equation& e : equations_) {
+    for (std::size_t i = 0; i < e.node.size(); ++i) sum += e.force * e.factor[i] * d[at(e.node[i])];
+  }
   return sum;
 }
 

@@ -80,7 +80,8 @@ class EventTransition {
   double go_on_together(const std::vector<int>& joining, const Modes& held, State& state, std::vector<std::string>& notes) const;
   double kinetic_energy(const State& state) const;
   /// Returns the impulse of each slider [N s].
-  std::vector<double> share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const;
+  std::vector<double> share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state,
+                                     const Modes* held = nullptr) const;
   double collide(double t, const std::vector<double>& momentum, const std::vector<int>& settles, State& state, Change& change);
   std::vector<int> moving_backwards(const State& state) const;
   std::vector<std::string> names_of(const std::vector<int>& sliders) const;

@@ -125,8 +125,9 @@ double EventTransition::turn_trains(double t, State& state, std::vector<std::str
 
 /// Changes the velocities of masses by impulses,
 ///     minimise 1/2 (v - v0)' M (v - v0) - momentum' v     with     w in the permitted direction, at every law without a bound.
-/// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse.
-std::vector<double> EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state) const {
+/// Prescribed velocities change by `jump`. Friction, springs and dashpots take no impulse, but the sliders that stick in `held` do.
+std::vector<double> EventTransition::share_impulses(double t, const std::vector<double>& jump, const std::vector<double>& momentum, State& state,
+                                                    const Modes* held) const {
   ConvexNetwork problem(static_cast<int>(structure_.kind.size()));
   std::vector<char> reached(structure_.kind.size(), 0);  // by some impulse
   const auto add = [&](const Branch& b, const ConvexNetwork::Law& law) {
@@ -134,10 +135,12 @@ std::vector<double> EventTransition::share_impulses(double t, const std::vector<
     return problem.add(slot(b.a), slot(b.b), law);
   };
   for (const auto& [branch, inertance] : network_.inerters) add(branch, {.backward = inertance, .forward = inertance, .of_change = true});
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   const auto impulse = [](const Bounds& bounds) { return std::isinf(bounds.sliding.value) ? bounds.sliding.value : 0; };
   std::vector<int> branch(network_.sliders.size(), -1);
   for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    const ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
+    ConvexNetwork::Law law{.low = -impulse(inputs_.box(k).backward), .high = impulse(inputs_.box(k).forward)};
+    if (held && held->slider[k] == Modes::stuck) law = {.low = -unlimited, .high = unlimited};
     if (law.low < law.high) branch[k] = add(network_.sliders[k].branch, law);
   }
   for (std::size_t n = 0; n < structure_.kind.size(); ++n) {
@@ -207,7 +210,13 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
   if (events.empty()) return std::max(0.0, heat);
   held = modes;
   for (const int k : events) held.slider[at(k)] = Modes::stuck;
-  return std::max(0.0, heat + go_on_together(events, held, state, notes));
+  const double together = std::max(0.0, heat + go_on_together(events, held, state, notes));
+  if (network_.trains.empty()) return together;
+  // What stops at one node of a train, the others follow.
+  const double before = kinetic_energy(state);
+  const std::vector<double> none(structure_.kind.size(), 0);
+  share_impulses(t, none, none, state, &held);
+  return together + std::max(0.0, before - kinetic_energy(state));
 }
 
 /// Gives the nodes that sticking sliders join, one of them among `joining`, their common velocity. Returns the energy that this

@@ -99,10 +99,12 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     for (Eigen::Index k = 0; k < trains; ++k) {
       const double found = selection.problem.force_of_equation(static_cast<std::size_t>(k));
       selection.train_force[static_cast<std::size_t>(k)] = found;
-      if (network_.trains[static_cast<std::size_t>(k)].loss) miss[k] = found - trial[k];
-      size = std::max({size, std::abs(found), std::abs(trial[k])});
+      const std::optional<Loss>& loss = network_.trains[static_cast<std::size_t>(k)].loss;
+      if (!loss) continue;
+      miss[k] = found - trial[k];
+      size = std::max({size, std::abs(found), std::abs(trial[k]), loss->lost(1, found), loss->lost(-1, found)});
     }
-    if (miss.lpNorm<Eigen::Infinity>() <= numerics::equal_given_values * size) return selection;
+    if (miss.lpNorm<Eigen::Infinity>() <= numerics::balance_roundoff * size) return selection;
     if (round == numerics::loss_trials) report_undecided(network_, at_time(*network_.scene, t));
     Vector next = trial + miss;
     if (round > 0) {

@@ -69,8 +69,8 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
   }
 }
 
-/// The problem of BoxedForces in its dual, where a train is an equation between potentials. Without bounds if none would hold.
-bool StickForces::share_with_trains(const std::vector<double>& left, bool bounded, std::vector<double>& force, std::vector<double>& train_force) const {
+/// The problem of BoxedForces in its dual, where a train is an equation between potentials. All bounds are `widening` times as far.
+bool StickForces::share_with_trains(const std::vector<double>& left, double widening, std::vector<double>& force, std::vector<double>& train_force) const {
   std::vector<int> place(structure_.kind.size(), 0);
   int nodes = 1;  // node 0 is held, as are the leading nodes of clusters and known ones
   for (std::size_t n = 0; n < place.size(); ++n) {
@@ -89,9 +89,9 @@ bool StickForces::share_with_trains(const std::vector<double>& left, bool bounde
   for (std::size_t k = 0; k < branch.size(); ++k) {
     if (!structure_.stuck[k]) continue;
     const Box& box = inputs_.box(k);
-    const double low = -box.backward.breakaway.value, high = box.forward.breakaway.value;
+    const double low = -widening * box.backward.breakaway.value, high = widening * box.forward.breakaway.value;
     ConvexNetwork::Law law{.backward = 1, .forward = 1};
-    if (bounded) law.beyond = [low, high](double w, double& slope) {
+    if (std::isfinite(widening)) law.beyond = [low, high](double w, double& slope) {
       slope = w < low || w > high ? 0 : 1;
       return std::clamp(w, low, high);
     };
@@ -106,7 +106,16 @@ bool StickForces::share_with_trains(const std::vector<double>& left, bool bounde
 }
 
 void StickForces::solve(double t, const std::vector<double>& left, std::vector<double>& force, std::vector<double>& train_force) {
-  if (!locked_.empty() && (share_with_trains(left, true, force, train_force) || share_with_trains(left, false, force, train_force))) return;
+  // As in an overloaded cut, forces exceed their bounds by a common share, here to within a factor of 2.
+  double widening = 1;
+  for (double share = std::numeric_limits<double>::epsilon(); !locked_.empty(); share *= 2) {
+    if (share_with_trains(left, widening, force, train_force)) return;
+    if (!std::isfinite(widening)) {  // the integrator tries too long a step: it rejects states that are not finite
+      std::fill(force.begin(), force.end(), std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    widening = 1 + share;
+  }
   for (const auto& [slider, node, side] : lone_) force[slider] = side == 0 ? 0 : -side * left[at(node)];
   for (Shared& shared : shared_) {
     double sum = 0;

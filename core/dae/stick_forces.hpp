@@ -31,7 +31,7 @@ class StickForces {
     BoxedForces problem;
     std::vector<double> load, force;
   };
-  bool share_with_trains(const std::vector<double>& left, bool bounded, std::vector<double>& force, std::vector<double>& train_force) const;
+  bool share_with_trains(const std::vector<double>& left, double widening, std::vector<double>& force, std::vector<double>& train_force) const;
   [[noreturn]] void report_unbalanced(double t, const Shared& shared) const;
   const Network& network_;
   const Structure& structure_;

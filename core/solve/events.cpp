@@ -215,13 +215,33 @@ std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double
   for (const int k : stopped) {
     if (!structure.stuck[at(k)]) stop(k, view.slider_velocity[at(k)]);
   }
+  // Where all nodes of a train but one have stopped, so does that one.
+  const auto carry_on = [&](const Structure::Tied& tied) {
+    NodeId last = -1;
+    double own = 1, sum = 0;
+    bool several = false;
+    const auto look = [&](NodeId node, double factor) {
+      sum += factor * change[at(node)];
+      if (firm(node)) return;
+      several = several || last >= 0;
+      last = node;
+      own = factor;
+    };
+    look(tied.pivot, 1);
+    for (const auto& [node, factor] : tied.terms) look(node, factor);
+    if (last >= 0 && !several && sum != 0) change[at(last)] = -sum / own;
+  };
+  const auto rounding = [&](double velocity, double by) {
+    return structure.tied.empty() ? 0 : numerics::sum_ulps * std::numeric_limits<double>::epsilon() * (std::abs(velocity) + std::abs(by));
+  };
   std::vector<int> along;
   for (bool more = true; std::exchange(more, false);) {
+    for (const Structure::Tied& tied : structure.tied) carry_on(tied);
     for (const int k : sliders_) {
       const Branch& b = structure.sliders[at(k)];
       if (structure.stuck[at(k)] || contains(stopped, k) || contains(along, k)) continue;
       const double by = change[at(b.a)] - change[at(b.b)], velocity = view.slider_velocity[at(k)] + by;
-      if (by == 0 || !(modes_.slider[at(k)] * velocity < 0)) continue;
+      if (by == 0 || !(modes_.slider[at(k)] * velocity < rounding(view.slider_velocity[at(k)], by))) continue;
       along.push_back(k);
       stop(k, velocity);
       more = true;

@@ -201,7 +201,7 @@ Scene behind_gears(const Scene& scene, double ratio) {
     SceneElement gear;
     gear.name = drive.name + "_gear";
     gear.declaration = static_cast<int>(std::find(components().begin(), components().end(), find_component("gear")) - components().begin());
-    gear.values = {ratio};
+    gear.values = {ratio, 1, 1, 0, 0};
     gear.a = k + 1;
     gear.b = std::exchange(drive.a, k + 1);
     start_alike(drive, scene.start, result.nodes[at(gear.a)], result.nodes[at(gear.b)], ratio);

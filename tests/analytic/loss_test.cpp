@@ -1,0 +1,192 @@
+// Losses of gears: efficiency of the mesh, friction of the bearings, self-locking.
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "core/network/component.hpp"
+#include "core/result/certify.hpp"
+#include "tests/support/simulate.hpp"
+
+using namespace rheonet;
+using namespace rheonet::test;
+
+namespace {
+
+/// Largest difference of a column from a function of time, relative to the largest value of the function.
+template <class Function>
+double far_from(const RunTable& rows, const std::string& column, Function exact) {
+  double largest = 0, scale = 0;
+  for (std::size_t k = 0; k < rows.time().size(); ++k) {
+    const double x = exact(rows.time()[k]);
+    largest = std::max(largest, std::abs(rows[column][k] - x));
+    scale = std::max(scale, std::abs(x));
+  }
+  return largest / scale;
+}
+
+/// A motor with inertia J1 at a, a load with inertia J2 at b, and a gear between.
+std::string drive(double J1, double J2, const std::string& T1, const std::string& T2, const std::string& gear, double stop) {
+  return fmt::format(R"~(
+domain = "rotation"
+[elements]
+T1 = {{ type = "torque", at = "a", torque = {} }}
+J1 = {{ type = "inertia", at = "a", inertia = {} }}
+g = {{ type = "gear", between = ["a", "b"], {} }}
+J2 = {{ type = "inertia", at = "b", inertia = {} }}
+T2 = {{ type = "torque", at = "b", torque = {} }}
+[simulate]
+stop = {}
+accuracy = 1e-9
+output = {{ points = 51 }}
+record = ["a.velocity", "b.velocity", "g.force", "g.dissipated"]
+)~", T1, J1, gear, J2, T2, stop);
+}
+
+}  // namespace
+
+TEST_CASE("losses: the side that drives loses its share of power") {
+  const double J1 = 0.7, J2 = 1.9, i = 3, forwards = 0.8, backwards = 0.6;
+  const std::string gear = fmt::format("ratio = {}, efficiency = [{}, {}]", i, forwards, backwards);
+  // a drives: f_b = -i eta f_a.
+  const RunTable motor = simulate(drive(J1, J2, "5", "-2", gear, 1));
+  const double m = (5 + J1 * i * 2 / J2) / (J1 * i * i / J2 + 1 / forwards), up = (i * m - 2) / J2;
+  CHECK(far_from(motor, "b.velocity", [&](double t) { return up * t; }) < 1e-11);
+  CHECK(far_from(motor, "g.force", [&](double) { return m / forwards; }) < 1e-11);
+  CHECK(far_from(motor, "g.dissipated", [&](double t) { return (1 - forwards) * m / forwards * i * up * t; }) < 1e-11);
+  // b drives, backwards: f_a = eta of what b takes, over i.
+  const RunTable brake = simulate(drive(J1, J2, "0.2", "-9", gear, 1));
+  const double n = (0.2 + J1 * i * 9 / J2) / (J1 * i * i / J2 + backwards), down = (i * n - 9) / J2;
+  CHECK(far_from(brake, "b.velocity", [&](double t) { return down * t; }) < 1e-11);
+  CHECK(far_from(brake, "g.force", [&](double) { return backwards * n; }) < 1e-11);
+}
+
+TEST_CASE("losses: a self-locking gear holds its load, one that is just not lets it go") {
+  const auto moved = [](const std::string& gear, double load) {
+    const RunTable rows = simulate(drive(0.1, 2, "0", fmt::format("{}", -load), gear, 1));
+    return std::abs(rows["b.velocity"].back());
+  };
+  CHECK(moved("ratio = 5, efficiency = [0.4, -0.01]", 7) == 0);
+  CHECK(moved("ratio = 5, efficiency = [0.4, 0]", 7) == 0);
+  CHECK(moved("ratio = 5, efficiency = [0.4, 0.01]", 7) > 0);
+  // With friction of its bearings it holds until the torque at b reaches i times that.
+  CHECK(moved("ratio = 5, efficiency = [0.4, 0.3], bearing = [0, 2]", 9.999) == 0);
+  CHECK(moved("ratio = 5, efficiency = [0.4, 0.3], bearing = [0, 2]", 10.001) > 0);
+  // And driven from a it moves the load, up and down.
+  const RunTable up = simulate(drive(0.1, 2, "4", "-7", "ratio = 5, efficiency = [0.4, -0.5]", 1));
+  const double m = (4 + 0.1 * 5 * 7 / 2) / (0.1 * 25 / 2 + 1 / 0.4);
+  CHECK(far_from(up, "b.velocity", [&](double t) { return (5 * m - 7) / 2 * t; }) < 1e-11);
+  const RunTable down = simulate(drive(0.1, 2, "-1", "-7", "ratio = 5, efficiency = [0.4, -0.5]", 1));
+  const double n = (-1 + 0.1 * 5 * 7 / 2) / (0.1 * 25 / 2 - 0.5);
+  CHECK(far_from(down, "b.velocity", [&](double t) { return (5 * n - 7) / 2 * t; }) < 1e-11);
+}
+
+TEST_CASE("losses: friction of the bearings alone is a slider between the gear and its support") {
+  std::mt19937 random(3);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int n = 0; n < 30; ++n) {
+    const double i = between(-3, 3), bearing = between(0.1, 1.5), c = between(0.1, 1), k = between(1, 30);
+    const std::string around = fmt::format(R"~(
+domain = "rotation"
+[elements]
+T1 = {{ type = "torque", at = "a", torque = {{ sine = {}, frequency = {} }} }}
+J1 = {{ type = "inertia", at = "a", inertia = {} }}
+J2 = {{ type = "inertia", at = "b", inertia = {} }}
+T2 = {{ type = "torque", at = "b", torque = {{ sine = {}, frequency = {}, offset = {} }} }}
+c = {{ type = "dashpot", between = ["b", "x"], damping = {} }}
+k = {{ type = "spring", between = ["x", "ground"], stiffness = {} }}
+f = {{ type = "slider", between = ["b", "ground"], coulomb = {} }}
+)~", between(1, 5), between(0.2, 1), between(0.2, 2), between(0.2, 2), between(1, 5), between(0.2, 1), between(-1, 1), c, k, between(0, 1));
+    const std::string run = "[simulate]\nstop = 3\naccuracy = 1e-9\noutput = { points = 31 }\nrecord = [\"a.velocity\", \"b.velocity\", \"b.position\", \"k.force\"]\n";
+    const std::string gear = fmt::format("g = {{ type = \"gear\", between = [\"a\", \"b\"], ratio = {:.17g}", i);
+    const RunTable lossy = simulate(around + gear + fmt::format(", bearing = {:.17g} }}\n", bearing) + run);
+    const RunTable wired = simulate(around + gear + fmt::format(" }}\ns = {{ type = \"slider\", between = [\"a\", \"ground\"], coulomb = {:.17g} }}\n", bearing) + run);
+    CAPTURE(n);
+    CHECK(largest_error(lossy, wired) < 1e-7);
+  }
+}
+
+TEST_CASE("losses: a gear goes through all its modes as an independent integration does") {
+  // The torques of Modelica's example of a lossy gear: the motor's a sine, the load's a ramp; both efficiencies are 1/2.
+  const double J1 = 1, J2 = 1.5, i = 2, stop = 0.5;
+  const Loss loss{0.5, 0.5, 0, 0};
+  const auto T1 = [](double t) { return 10 * std::sin(2 * std::numbers::pi * t); };
+  const auto T2 = [](double t) { return -10 + 2.5 * t; };
+  // Acceleration of b, by its direction; 0: it rests, if the torque at a is between both lines.
+  const auto moving = [&](double t, int side) {
+    for (const bool b_drives : {false, true}) {
+      const auto [factor, offset] = loss.line(side, b_drives);
+      const double m = (T1(t) - offset - J1 * i * T2(t) / J2) / (J1 * i * i / J2 + factor);
+      if (loss.b_drives(side, m) == b_drives) return (T2(t) + i * m) / J2;
+    }
+    return std::nan("");
+  };
+  const auto rests = [&](double t) {
+    const double m = -T2(t) / i;
+    return T1(t) <= m + loss.lost(1, m) && T1(t) >= m - loss.lost(-1, m);
+  };
+  constexpr int steps = 500'000, rows = 50;
+  const double h = stop / steps;
+  std::vector<double> speed{0};
+  double w = 0;
+  int side = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double t = k * h;
+    if (side == 0 && !rests(t)) side = T1(t) > -T2(t) / i ? 1 : -1;
+    if (side != 0) {
+      const double next = w + h / 6 * (moving(t, side) + 4 * moving(t + h / 2, side) + moving(t + h, side));
+      if (next * side < 0 && w * side > 0) {
+        w = 0;
+        side = 0;
+      } else {
+        w = next;
+      }
+    }
+    if ((k + 1) % (steps / rows) == 0) speed.push_back(w);
+  }
+  const RunTable run = simulate(drive(J1, J2, "{ sine = 10, frequency = 1 }", "{ ramp = 2.5, offset = -10 }", "ratio = 2, efficiency = 0.5", stop));
+  REQUIRE(run.time().size() == speed.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < speed.size(); ++k) largest = std::max(largest, std::abs(run["b.velocity"][k] - speed[k]));
+  CHECK(largest < 2e-5);
+  CHECK(*std::min_element(speed.begin(), speed.end()) < -0.01);
+  CHECK(*std::max_element(speed.begin(), speed.end()) > 0.01);
+}
+
+TEST_CASE("losses: a support that a motion holds still is ground, and the energy account closes") {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int n = 0; n < 20; ++n) {
+    const std::string around = fmt::format(R"~(
+domain = "rotation"
+[elements]
+T1 = {{ type = "torque", at = "a", torque = {{ sine = {}, frequency = {}, offset = {} }} }}
+J1 = {{ type = "inertia", at = "a", inertia = {} }}
+J2 = {{ type = "inertia", at = "b", inertia = {} }}
+k = {{ type = "spring", between = ["b", "ground"], stiffness = {} }}
+)~", between(2, 6), between(0.2, 1), between(-1, 1), between(0.2, 2), between(0.2, 2), between(2, 30));
+    const std::string run = "[simulate]\nstop = 3\naccuracy = 1e-9\noutput = { points = 31 }\nrecord = [\"a.velocity\", \"b.velocity\", \"b.position\", \"g.force\"]\n";
+    const std::string gear = fmt::format("g = {{ type = \"gear\", between = [\"a\", \"b\"], ratio = {}, efficiency = [{}, {}], bearing = [{}, {}]", between(-3, 3), between(0.5, 1),
+                                         between(0.3, 1), between(0, 0.5), between(0, 0.5));
+    Summary summary;
+    CAPTURE(n);
+    const RunTable plain = simulate(scene_of(around + gear + " }\n" + run), &summary);
+    const RunTable framed = simulate(around + gear + ", support = \"frame\" }\nm = { type = \"motion\", at = \"frame\", velocity = 0 }\n" + run);
+    CHECK(largest_error(plain, framed) < 1e-6);
+    CHECK(std::abs(summary.missing) <= 1e-7 * summary.largest);
+    CHECK(summary.dissipated >= 0);
+  }
+}
+
+TEST_CASE("losses: bad values are refused") {
+  const auto message = [](const std::string& gear) { return refusal(drive(1, 1, "1", "0", gear, 1)); };
+  CHECK(message("ratio = 2, efficiency = 1.2").find("`efficiency` must be at most 1") != std::string::npos);
+  CHECK(message("ratio = 2, efficiency = 0").find("`efficiency` must be greater than 0") != std::string::npos);
+  CHECK(message("ratio = 2, efficiency = [0.9, 0.8, 0.7]").find("`efficiency` takes one value or two, but has 3") != std::string::npos);
+  CHECK(message("ratio = 2, bearing = \"1 kg\"").find("`bearing`") != std::string::npos);
+  CHECK(message("ratio = 2, efficiency_b = 0.5").find("unknown key `efficiency_b`") != std::string::npos);
+}
