@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,10 @@ class Dae {
 
   // --- What a consistent state needs (see consistency.hpp).
   bool differential(int row) const { return differential_[static_cast<std::size_t>(row)] != 0; }
+  /// The equation in this row is that of a train.
+  bool tied(int row) const {
+    return std::any_of(structure_->tied.begin(), structure_->tied.end(), [&](const Structure::Tied& tied) { return iv_[at(tied.pivot)] == row; });
+  }
   /// Rows of dF/dy' for differential equations, of dF/dy for algebraic ones: the matrix that determines y' and jumps.
   void consistency_matrix(double t, const double* y, double* values);
   /// While set, slopes of power laws are at least their secants from rest: such an iteration never overshoots rest, whereas

@@ -10,6 +10,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/network/adjacent_elements.hpp"
 
@@ -69,7 +70,8 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
   }
 }
 
-/// The problem of BoxedForces in its dual, where a train is an equation between potentials. All bounds are `widening` times as far.
+/// The problem of BoxedForces in its dual, where a train is an equation between potentials. All bounds are `widening` times as far. False if
+/// no forces within them balance at every node.
 bool StickForces::share_with_trains(const std::vector<double>& left, double widening, std::vector<double>& force, std::vector<double>& train_force) const {
   std::vector<int> place(structure_.kind.size(), 0);
   int nodes = 1;  // node 0 is held, as are the leading nodes of clusters and known ones
@@ -98,10 +100,25 @@ bool StickForces::share_with_trains(const std::vector<double>& left, double wide
     branch[k] = problem.add(place[at(network_.sliders[k].branch.a)], place[at(network_.sliders[k].branch.b)], law);
   }
   if (problem.solve() != ConvexNetwork::Outcome::solved) return false;
+  std::vector<double> sum(left), size(left.size(), 0);
+  const auto add = [&](NodeId node, double f) {
+    sum[at(node)] += f;
+    size[at(node)] += std::abs(f);
+  };
   for (std::size_t k = 0; k < branch.size(); ++k) {
-    if (branch[k] >= 0) force[k] = problem.force(branch[k]);
+    if (branch[k] < 0) continue;
+    force[k] = problem.force(branch[k]);
+    add(network_.sliders[k].branch.a, force[k]);
+    add(network_.sliders[k].branch.b, -force[k]);
   }
-  for (std::size_t e = 0; e < locked_.size(); ++e) train_force[locked_[e]] = problem.force_of_equation(e);
+  for (std::size_t e = 0; e < locked_.size(); ++e) {
+    const Network::Train& train = network_.trains[locked_[e]];
+    const double f = train_force[locked_[e]] = problem.force_of_equation(e);
+    for (std::size_t i = 0; i < train.node.size(); ++i) add(train.node[i], train.factor[i] * f);
+  }
+  for (std::size_t n = 0; n < place.size(); ++n) {
+    if (place[n] > 0 && std::abs(sum[n]) > numerics::balance_roundoff * (size[n] + std::abs(left[n]))) return false;
+  }
   return true;
 }
 
