@@ -12,28 +12,38 @@ namespace rheonet {
 namespace {
 
 /// Solves [ L  C' ; C  0 ] [ x ; f ] = [ x ; given ] with the conductances L and the equations C. An equation without factors has f = 0.
+/// Unknowns and equations are scaled, L to a diagonal of 1: conductances may be 20 decades apart.
 bool solve_with_equations(const std::vector<Conductance>& conductances, const std::vector<std::vector<double>>& rows, const Eigen::VectorXd& given,
                           Eigen::VectorXd& x, Eigen::VectorXd& forces) {
   const Eigen::Index columns = x.size(), size = columns + given.size();
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(size);
+  for (const auto& [a, b, value] : conductances) {
+    for (const int i : {a, b}) {
+      if (i >= 0) scale[i] += value;
+    }
+  }
+  for (Eigen::Index i = 0; i < columns; ++i) scale[i] = scale[i] > 0 ? 1 / std::sqrt(scale[i]) : 1;
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& [a, b, value] : conductances) {
     for (const int i : {a, b}) {
-      if (i >= 0) entries.emplace_back(i, i, value);
+      if (i >= 0) entries.emplace_back(i, i, value * scale[i] * scale[i]);
     }
     if (a < 0 || b < 0) continue;
-    entries.emplace_back(a, b, -value);
-    entries.emplace_back(b, a, -value);
+    entries.emplace_back(a, b, -value * scale[a] * scale[b]);
+    entries.emplace_back(b, a, -value * scale[a] * scale[b]);
   }
   for (std::size_t e = 0; e < rows.size(); ++e) {
     const int row = static_cast<int>(columns + static_cast<Eigen::Index>(e));
-    bool any = false;
+    double largest = 0;
+    for (std::size_t c = 0; c < rows[e].size(); ++c) largest = std::max(largest, std::abs(rows[e][c] * scale[static_cast<Eigen::Index>(c)]));
+    scale[row] = largest > 0 ? 1 / largest : 1;
+    if (largest == 0) entries.emplace_back(row, row, 1);
     for (std::size_t c = 0; c < rows[e].size(); ++c) {
       if (rows[e][c] == 0) continue;
-      any = true;
-      entries.emplace_back(row, static_cast<int>(c), rows[e][c]);
-      entries.emplace_back(static_cast<int>(c), row, rows[e][c]);
+      const double factor = rows[e][c] * scale[static_cast<Eigen::Index>(c)] * scale[row];
+      entries.emplace_back(row, static_cast<int>(c), factor);
+      entries.emplace_back(static_cast<int>(c), row, factor);
     }
-    if (!any) entries.emplace_back(row, row, 1);
   }
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -41,7 +51,7 @@ bool solve_with_equations(const std::vector<Conductance>& conductances, const st
   if (factors.info() != Eigen::Success) return false;
   Eigen::VectorXd right(size);
   right << x, given;
-  const Eigen::VectorXd solved = factors.solve(right);
+  const Eigen::VectorXd solved = scale.cwiseProduct(factors.solve(scale.cwiseProduct(right).eval()).eval());
   x = solved.head(columns);
   forces = solved.tail(given.size());
   return true;
