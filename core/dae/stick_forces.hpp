@@ -5,6 +5,7 @@
 #include "core/dae/inputs.hpp"
 #include "core/network/structure.hpp"
 #include "core/nonsmooth/boxed_forces.hpp"
+#include "core/nonsmooth/least_norm.hpp"
 
 namespace rheonet {
 
@@ -24,19 +25,20 @@ class StickForces {
  private:
   /// A slider that alone holds a node, or holds none: it shares no load.
   struct Lone { std::size_t slider; NodeId node; double side; };
-  /// Sliders that share the loads of their nodes.
+  /// Sliders that share the loads of their nodes, and the trains that they lock. A train has no bounds.
   struct Shared {
-    std::vector<std::size_t> sliders;  ///< of each branch of the problem
-    std::vector<NodeId> nodes;         ///< of each node of the problem
-    BoxedForces problem;
+    std::vector<std::size_t> sliders, trains;  ///< of the branches of the problem, in this order
+    std::vector<NodeId> nodes;                 ///< of each node of the problem
+    BoxedForces problem{0, {}};                ///< without trains
+    LeastNorm with_trains;                     ///< with them
     std::vector<double> load, force;
+    void bound(std::size_t slider, double low, double high);
+    bool solve();
   };
-  bool share_with_trains(const std::vector<double>& left, double widening, std::vector<double>& force, std::vector<double>& train_force) const;
   [[noreturn]] void report_unbalanced(double t, const Shared& shared) const;
   const Network& network_;
   const Structure& structure_;
   const Inputs& inputs_;
-  std::vector<std::size_t> locked_;  ///< trains whose nodes sliders lock
   std::vector<Lone> lone_;
   std::vector<Shared> shared_;
 };

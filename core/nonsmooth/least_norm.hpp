@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace rheonet {
+
+/// The forces x of least norm that balance loads within bounds,
+///
+///     minimise 1/2 x'x     subject to     B x = load,     low <= x <= high,
+///
+/// by the dual active set method of Goldfarb and Idnani (Mathematical Programming 27 (1983) 1): from the forces without bounds, one
+/// violated bound after the other is met. It ends after finitely many steps, and knows where nothing meets all bounds. Then the bounds
+/// that contradict the load are exceeded by one common share, the least one.
+///
+/// Dense, for a few forces whose balances have any coefficients. Where they are the branches of a graph, see BoxedForces.
+struct LeastNorm {
+  Eigen::MatrixXd balance;        ///< B: a row a node, of full rank
+  std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high
+
+  /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.
+  bool solve(const std::vector<double>& load, std::vector<double>& force) const;
+};
+
+}  // namespace rheonet
