@@ -127,7 +127,7 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
       return ((balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array()).all();
     }
     // A little more, so that round-off does not find the same contradiction again.
-    const double wider = excess + numerics::equation_roundoff * (1 + excess);
+    const double wider = excess + numerics::balance_roundoff * (1 + excess);
     if (!(wider > share) || std::isinf(wider)) return false;
     share = wider;
   }
