@@ -51,7 +51,11 @@ bool solve_with_equations(const std::vector<Conductance>& conductances, const st
   if (factors.info() != Eigen::Success) return false;
   Eigen::VectorXd right(size);
   right << x, given;
-  const Eigen::VectorXd solved = scale.cwiseProduct(factors.solve(scale.cwiseProduct(right).eval()).eval());
+  right = scale.cwiseProduct(right).eval();
+  Eigen::VectorXd solved = factors.solve(right);
+  // Refined (Skeel 1980), every equation holds to the round-off of its own terms, however small they are beside those of others.
+  for (int k = 0; k < numerics::refinements; ++k) solved += factors.solve((right - matrix * solved).eval());
+  solved = scale.cwiseProduct(solved).eval();
   x = solved.head(columns);
   forces = solved.tail(given.size());
   return true;

@@ -104,7 +104,7 @@ bool BoxedForces::without_bounds(const std::vector<double>& load, std::vector<do
   if (!factors_) return false;
   std::copy(load.begin(), load.end(), left_.begin());
   const auto nodes = static_cast<Eigen::Index>(load.size());
-  for (int solved = 0; solved <= numerics::least_norm_refinements; ++solved) {
+  for (int solved = 0; solved <= numerics::refinements; ++solved) {
     Eigen::Map<Eigen::VectorXd>(direction_.data(), nodes) = factors_->solve(Eigen::Map<const Eigen::VectorXd>(left_.data(), nodes));
     for (std::size_t n = 0; n < load.size(); ++n) {
       phi_[n] += direction_[n];
