@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "core/base/index.hpp"
@@ -14,15 +15,20 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// The method for bounds that are `1 + share` times as far.
+/// A bound side x[force] >= -width, with width >= 0.
+struct Bound {
+  Eigen::Index force = 0;
+  double side = 0, width = 0;
+};
+
 class DualActiveSet {
  public:
-  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share) : problem_(problem), load_(load), share_(share) {}
+  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load) : problem_(problem), load_(load) {}
 
-  /// Meets all bounds; false if that is impossible: `excess` is the share by which those that contradict each other are too narrow.
-  bool solve(Eigen::VectorXd& x, double& excess) {
+  /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by the share `excess`.
+  bool solve(Eigen::VectorXd& x, std::vector<Bound>& cut, double& excess) {
     const Eigen::MatrixXd& balance = problem_.balance;
-    x = balance.transpose() * (balance * balance.transpose()).ldlt().solve(load_);
+    x = balance.completeOrthogonalDecomposition().solve(load_);
     const std::size_t most = numerics::least_rounds + numerics::rounds_a_branch * problem_.low.size();
     for (std::size_t round = 0; round < most; ++round) {
       Bound worst;
@@ -46,7 +52,7 @@ class DualActiveSet {
         }
         const double length = std::min(full, partial);
         if (std::isinf(length)) {
-          excess = contradiction(worst, share);
+          cut = contradiction(worst, share, excess);
           return false;
         }
         if (moves) x += length * step;
@@ -55,7 +61,7 @@ class DualActiveSet {
         if (full <= partial) {
           active_.push_back(worst);
           multipliers_.push_back(multiplier);
-          x[worst.force] = limit(worst);
+          x[worst.force] = -worst.side * worst.width;
           break;
         }
         active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(blocking));
@@ -66,23 +72,14 @@ class DualActiveSet {
   }
 
  private:
-  /// side x >= -bound, with the bound at least 0.
-  struct Bound { Eigen::Index force = 0; double side = 0; };
-
-  double width(const Bound& b) const {
-    const std::size_t k = static_cast<std::size_t>(b.force);
-    return (1 + share_) * (b.side > 0 ? -problem_.low[k] : problem_.high[k]);
-  }
-  double limit(const Bound& b) const { return -b.side * width(b); }
-  double slack(const Bound& b, const Eigen::VectorXd& x) const { return b.side * x[b.force] + width(b); }
+  static double slack(const Bound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.width; }
   Eigen::VectorXd normal_of(const Bound& b) const { return b.side * Eigen::VectorXd::Unit(problem_.balance.cols(), b.force); }
 
   bool most_violated(const Eigen::VectorXd& x, Bound& worst) const {
     double least = 0;
     for (Eigen::Index k = 0; k < x.size(); ++k) {
-      for (const double side : {1.0, -1.0}) {
-        const Bound b{k, side};
-        const double over = slack(b, x) + numerics::equation_roundoff * width(b);
+      for (const Bound& b : {Bound{k, 1, -problem_.low[static_cast<std::size_t>(k)]}, Bound{k, -1, problem_.high[static_cast<std::size_t>(k)]}}) {
+        const double over = slack(b, x) + numerics::equation_roundoff * b.width;
         if (over >= least) continue;
         least = over;
         worst = b;
@@ -99,16 +96,22 @@ class DualActiveSet {
     return normals;
   }
 
-  /// The load and the bounds that hold against it: the normal of `bound` is that share of those of the equations and of active bounds.
-  double contradiction(const Bound& bound, const Eigen::VectorXd& share) const {
-    double against = width(bound), power = share.head(load_.size()).dot(load_);
-    for (std::size_t k = 0; k < active_.size(); ++k) against -= share[load_.size() + static_cast<Eigen::Index>(k)] * width(active_[k]);
-    return against > 0 ? (1 + share_) * (-power / against) - 1 : none;
+  /// The bounds that hold against the load: the normal of `bound` is that share of those of the equations and of active bounds.
+  std::vector<Bound> contradiction(const Bound& bound, const Eigen::VectorXd& share, double& excess) const {
+    std::vector<Bound> cut{bound};
+    double against = bound.width;
+    for (std::size_t k = 0; k < active_.size(); ++k) {
+      const double by = -share[load_.size() + static_cast<Eigen::Index>(k)];
+      if (by <= numerics::equal_values) continue;
+      cut.push_back(active_[k]);
+      against += by * active_[k].width;
+    }
+    excess = -share.head(load_.size()).dot(load_) / against - 1;
+    return cut;
   }
 
   const LeastNorm& problem_;
   const Eigen::VectorXd& load_;
-  double share_;
   std::vector<Bound> active_;
   std::vector<double> multipliers_;
 };
@@ -117,21 +120,35 @@ class DualActiveSet {
 
 bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& force) const {
   const Eigen::VectorXd loads = Eigen::Map<const Eigen::VectorXd>(load.data(), static_cast<Eigen::Index>(load.size()));
-  Eigen::VectorXd x;
-  double share = 0;
-  for (std::size_t cut = 0; cut <= low.size() + 1; ++cut) {
-    double excess = none;
-    if (DualActiveSet(*this, loads, share).solve(x, excess)) {
-      force.assign(x.begin(), x.end());
-      const Eigen::VectorXd size = balance.cwiseAbs() * x.cwiseAbs() + loads.cwiseAbs();
-      return ((balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array()).all();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(balance.cols());
+  std::vector<Eigen::Index> open(low.size());
+  constexpr Eigen::Index decided = -1;
+  std::iota(open.begin(), open.end(), 0);
+  while (!open.empty()) {
+    LeastNorm rest{balance(Eigen::all, open), {}, {}};
+    for (const Eigen::Index k : open) {
+      rest.low.push_back(low[static_cast<std::size_t>(k)]);
+      rest.high.push_back(high[static_cast<std::size_t>(k)]);
     }
-    // A little more, so that round-off does not find the same contradiction again.
-    const double wider = excess + numerics::balance_roundoff * (1 + excess);
-    if (!(wider > share) || std::isinf(wider)) return false;
-    share = wider;
+    const Eigen::VectorXd left = loads - balance * x;
+    Eigen::VectorXd found;
+    std::vector<Bound> cut;
+    double excess = 0;
+    if (DualActiveSet(rest, left).solve(found, cut, excess)) {
+      x(open) = found;
+      break;
+    }
+    if (cut.empty() || !std::isfinite(excess)) return false;
+    for (const auto& [place, side, width] : cut) {
+      Eigen::Index& k = open[static_cast<std::size_t>(place)];
+      x[k] = -side * (1 + excess) * width;
+      k = decided;
+    }
+    std::erase(open, decided);
   }
-  return false;
+  force.assign(x.begin(), x.end());
+  const Eigen::VectorXd size = balance.cwiseAbs() * x.cwiseAbs() + loads.cwiseAbs();
+  return ((balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array()).all();
 }
 
 }  // namespace rheonet

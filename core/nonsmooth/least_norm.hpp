@@ -11,11 +11,11 @@ namespace rheonet {
 ///
 /// by the dual active set method of Goldfarb and Idnani (Mathematical Programming 27 (1983) 1): from the forces without bounds, one
 /// violated bound after the other is met. It ends after finitely many steps, and knows where nothing meets all bounds. Then the bounds
-/// that contradict the load are exceeded by one common share, the least one.
+/// that contradict the load are exceeded by one common share, the least one, and the other forces balance the rest in the same way.
 ///
 /// Dense, for a few forces whose balances have any coefficients. Where they are the branches of a graph, see BoxedForces.
 struct LeastNorm {
-  Eigen::MatrixXd balance;        ///< B: a row a node, of full rank
+  Eigen::MatrixXd balance;        ///< B: a row a node
   std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high
 
   /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.
