@@ -21,14 +21,23 @@ struct Bound {
   double side = 0, width = 0;
 };
 
+/// The method, for bounds that are `1 + share` times as far as those of the problem.
 class DualActiveSet {
  public:
-  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load) : problem_(problem), load_(load) {}
+  DualActiveSet(const LeastNorm& problem, const Eigen::VectorXd& load, double share) : problem_(problem), share_(share) {
+    // Where forces were taken out, balances may depend on each other.
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors(problem.balance.cols(), problem.balance.rows());
+    factors.setThreshold(numerics::equal_values);
+    factors.compute(problem.balance.transpose());
+    rows_ = factors.householderQ() * Eigen::MatrixXd::Identity(problem.balance.cols(), factors.rank());
+    without_bounds_.setZero(problem.balance.cols());
+    if (factors.rank() > 0) without_bounds_ = rows_ * (problem.balance * rows_).colPivHouseholderQr().solve(load);
+  }
 
-  /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by the share `excess`.
+  /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by the share `excess` of
+  /// those of the problem.
   bool solve(Eigen::VectorXd& x, std::vector<Bound>& cut, double& excess) {
-    const Eigen::MatrixXd& balance = problem_.balance;
-    x = balance.completeOrthogonalDecomposition().solve(load_);
+    x = without_bounds_;
     const std::size_t most = numerics::least_rounds + numerics::rounds_a_branch * problem_.low.size();
     for (std::size_t round = 0; round < most; ++round) {
       Bound worst;
@@ -44,7 +53,7 @@ class DualActiveSet {
         double partial = none;
         std::size_t blocking = 0;
         for (std::size_t k = 0; k < active_.size(); ++k) {
-          const double by = share[balance.rows() + static_cast<Eigen::Index>(k)];
+          const double by = share[rows_.cols() + static_cast<Eigen::Index>(k)];
           if (by > 0 && multipliers_[k] / by < partial) {
             partial = multipliers_[k] / by;
             blocking = k;
@@ -56,7 +65,7 @@ class DualActiveSet {
           return false;
         }
         if (moves) x += length * step;
-        for (std::size_t k = 0; k < active_.size(); ++k) multipliers_[k] -= length * share[balance.rows() + static_cast<Eigen::Index>(k)];
+        for (std::size_t k = 0; k < active_.size(); ++k) multipliers_[k] -= length * share[rows_.cols() + static_cast<Eigen::Index>(k)];
         multiplier += length;
         if (full <= partial) {
           active_.push_back(worst);
@@ -73,12 +82,13 @@ class DualActiveSet {
 
  private:
   static double slack(const Bound& b, const Eigen::VectorXd& x) { return b.side * x[b.force] + b.width; }
-  Eigen::VectorXd normal_of(const Bound& b) const { return b.side * Eigen::VectorXd::Unit(problem_.balance.cols(), b.force); }
+  Eigen::VectorXd normal_of(const Bound& b) const { return b.side * Eigen::VectorXd::Unit(rows_.rows(), b.force); }
 
   bool most_violated(const Eigen::VectorXd& x, Bound& worst) const {
     double least = 0;
     for (Eigen::Index k = 0; k < x.size(); ++k) {
-      for (const Bound& b : {Bound{k, 1, -problem_.low[static_cast<std::size_t>(k)]}, Bound{k, -1, problem_.high[static_cast<std::size_t>(k)]}}) {
+      for (const Bound& b : {Bound{k, 1, -(1 + share_) * problem_.low[static_cast<std::size_t>(k)]},
+                             Bound{k, -1, (1 + share_) * problem_.high[static_cast<std::size_t>(k)]}}) {
         const double over = slack(b, x) + numerics::equation_roundoff * b.width;
         if (over >= least) continue;
         least = over;
@@ -89,10 +99,9 @@ class DualActiveSet {
   }
 
   Eigen::MatrixXd active_normals() const {
-    const Eigen::MatrixXd& balance = problem_.balance;
-    Eigen::MatrixXd normals(balance.cols(), balance.rows() + static_cast<Eigen::Index>(active_.size()));
-    normals.leftCols(balance.rows()) = balance.transpose();
-    for (std::size_t k = 0; k < active_.size(); ++k) normals.col(balance.rows() + static_cast<Eigen::Index>(k)) = normal_of(active_[k]);
+    Eigen::MatrixXd normals(rows_.rows(), rows_.cols() + static_cast<Eigen::Index>(active_.size()));
+    normals.leftCols(rows_.cols()) = rows_;
+    for (std::size_t k = 0; k < active_.size(); ++k) normals.col(rows_.cols() + static_cast<Eigen::Index>(k)) = normal_of(active_[k]);
     return normals;
   }
 
@@ -101,17 +110,19 @@ class DualActiveSet {
     std::vector<Bound> cut{bound};
     double against = bound.width;
     for (std::size_t k = 0; k < active_.size(); ++k) {
-      const double by = -share[load_.size() + static_cast<Eigen::Index>(k)];
+      const double by = -share[rows_.cols() + static_cast<Eigen::Index>(k)];
       if (by <= numerics::equal_values) continue;
       cut.push_back(active_[k]);
       against += by * active_[k].width;
     }
-    excess = -share.head(load_.size()).dot(load_) / against - 1;
+    excess = (1 + share_) * (-share.head(rows_.cols()).dot(rows_.transpose() * without_bounds_) / against) - 1;
     return cut;
   }
 
   const LeastNorm& problem_;
-  const Eigen::VectorXd& load_;
+  double share_;
+  Eigen::MatrixXd rows_;            ///< orthonormal combinations of the balances, one a column
+  Eigen::VectorXd without_bounds_;  ///< forces of least norm
   std::vector<Bound> active_;
   std::vector<double> multipliers_;
 };
@@ -132,23 +143,32 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
     }
     const Eigen::VectorXd left = loads - balance * x;
     Eigen::VectorXd found;
-    std::vector<Bound> cut;
-    double excess = 0;
-    if (DualActiveSet(rest, left).solve(found, cut, excess)) {
+    // Each contradiction shows by how much all bounds must at least be wider: the last one decides (Dinkelbach 1967).
+    std::vector<Bound> worst;
+    double share = 0;
+    while (true) {
+      std::vector<Bound> cut;
+      double excess = 0;
+      if (DualActiveSet(rest, left, share).solve(found, cut, excess)) break;
+      if (cut.empty() || !std::isfinite(excess)) return false;
+      if (excess <= share + numerics::balance_roundoff * (1 + share)) break;  // the same contradiction, but for its round-off
+      share = excess;
+      worst = std::move(cut);
+    }
+    if (worst.empty()) {
       x(open) = found;
       break;
     }
-    if (cut.empty() || !std::isfinite(excess)) return false;
-    for (const auto& [place, side, width] : cut) {
+    for (const auto& [place, side, width] : worst) {
       Eigen::Index& k = open[static_cast<std::size_t>(place)];
-      x[k] = -side * (1 + excess) * width;
+      x[k] = (1 + share) * (side > 0 ? rest.low : rest.high)[static_cast<std::size_t>(place)];
       k = decided;
     }
     std::erase(open, decided);
   }
   force.assign(x.begin(), x.end());
   const Eigen::VectorXd size = balance.cwiseAbs() * x.cwiseAbs() + loads.cwiseAbs();
-  return ((balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array()).all();
+  return ((balance * x - loads).cwiseAbs().array() <= numerics::balance_roundoff * size.array() + numerics::equation_roundoff * size.maxCoeff()).all();
 }
 
 }  // namespace rheonet

@@ -15,7 +15,7 @@ namespace rheonet {
 ///
 /// Dense, for a few forces whose balances have any coefficients. Where they are the branches of a graph, see BoxedForces.
 struct LeastNorm {
-  Eigen::MatrixXd balance;        ///< B: a row a node
+  Eigen::MatrixXd balance;        ///< B: a row a node, of full rank
   std::vector<double> low, high;  ///< of each force [N]; low <= 0 <= high
 
   /// `load`: of each row [N], finite. Writes the forces; false if round-off prevents an answer.

@@ -15,22 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-std::string run_of(double stop, double accuracy = 1e-9) {
-  return fmt::format("[simulate]\nstop = {}\naccuracy = {}\noutput = {{ points = 41 }}\n", stop, accuracy);
-}
-
-/// Largest difference of a column from a function of time, relative to the largest value of the function.
-template <class Function>
-double error_of(const RunTable& rows, const std::string& column, Function exact) {
-  double largest = 0, scale = 0;
-  for (std::size_t k = 0; k < rows.time().size(); ++k) {
-    const double x = exact(rows.time()[k]);
-    largest = std::max(largest, std::abs(rows[column][k] - x));
-    scale = std::max(scale, std::abs(x));
-  }
-  return largest / scale;
-}
-
 constexpr double rounding = 1e-13;
 
 }  // namespace
@@ -45,7 +29,7 @@ g1 = {{ type = "gear", between = ["a", "b"], ratio = {} }}
 J2 = {{ type = "inertia", at = "b", inertia = {} }}
 g2 = {{ type = "gear", between = ["b", "c"], ratio = {} }}
 J3 = {{ type = "inertia", at = "c", inertia = {} }}
-)~", T, J1, i, J2, j, J3) + run_of(1.3));
+)~", T, J1, i, J2, j, J3) + simulate_until(1.3));
   const double J = J1 + J2 / (i * i) + J3 / (i * i * j * j), a = T / J;
   CHECK(error_of(rows, "a.velocity", [&](double t) { return a * t; }) < rounding);
   CHECK(error_of(rows, "b.velocity", [&](double t) { return a * t / i; }) < rounding);
@@ -66,7 +50,7 @@ drive = {{ type = "motion", at = "a", velocity = {} }}
 k = {{ type = "spring", between = ["a", "b"], stiffness = {} }}
 g = {{ type = "lever", between = ["b", "c"], ratio = {} }}
 B = {{ type = "dashpot", between = ["c", "ground"], damping = {} }}
-)~", v, k, i, B) + run_of(1.1));
+)~", v, k, i, B) + simulate_until(1.1));
   // Seen from a, the dashpot has B/i^2.
   const double seen = B / (i * i), tau = seen / k;
   const auto f = [&](double t) { return seen * v * (1 - std::exp(-t / tau)); };
@@ -86,7 +70,7 @@ J = {{ type = "inertia", at = "slow", inertia = {} }}
 g = {{ type = "gear", between = ["fast", "slow"], ratio = {} }}
 brake = {{ type = "slider", between = ["fast", "ground"], coulomb = {} }}
 )~", slope, J, i, Tc);
-  const RunTable rows = simulate(text + run_of(20, 1e-9));
+  const RunTable rows = simulate(text + simulate_until(20, 1e-9));
   const double t0 = Tc * i / slope;
   CHECK(error_of(rows, "slow.velocity", [&](double t) { return t < t0 ? 0 : slope * (t - t0) * (t - t0) / 2 / J; }) < 1e-7);
   CHECK(error_of(rows, "brake.force", [&](double t) { return std::min(slope * t / i, Tc); }) < 1e-7);
@@ -103,7 +87,7 @@ motor = {{ type = "torque", at = "a", torque = {} }}
 J = {{ type = "inertia", at = "a", inertia = {} }}
 g = {{ type = "gear", between = ["a", "b"], ratio = {} }}
 f = {{ type = "freewheel", between = ["b", "ground"] }}
-)~", torque, J, ratio) + run_of(1);
+)~", torque, J, ratio) + simulate_until(1);
   };
   for (const double ratio : {2.3, -2.3}) {
     for (const double torque : {T, -T}) {
@@ -129,7 +113,7 @@ J = {{ type = "inertia", at = "drum", inertia = {} }}
 rope = {{ type = "rack", between = ["drum", "load"], radius = {} }}
 m = {{ type = "mass", at = "load", mass = "{} kg" }}
 weight = {{ type = "force", at = "load", force = "{} N" }}
-)~", T, J, r, m, -m * g) + run_of(1.7));
+)~", T, J, r, m, -m * g) + simulate_until(1.7));
   const double a = (T - m * g * r) / (J + m * r * r);
   CHECK(error_of(rows, "drum.velocity", [&](double t) { return a * t; }) < rounding);
   CHECK(error_of(rows, "load.velocity", [&](double t) { return r * a * t; }) < rounding);
@@ -171,7 +155,7 @@ g1 = {{ type = "gear", between = ["a", "b"], ratio = 2 }}
 g2 = {{ type = "gear", between = ["b", "c"], ratio = 3 }}
 g3 = {{ type = "gear", between = ["a", "c"], ratio = {} }}
 J = {{ type = "inertia", at = "c", inertia = 3 }}
-)~", second) + run_of(1);
+)~", second) + simulate_until(1);
   };
   const RunTable rows = simulate(text(6));
   CHECK(error_of(rows, "c.velocity", [](double t) { return 12 * t; }) < 1e-12);
@@ -222,7 +206,7 @@ motor = {{ type = "torque", at = "a", torque = {{ sine = {}, frequency = 1.1 }} 
 g = {{ type = "gear", between = ["a", "b"], ratio = {} }}
 J = {{ type = "inertia", at = "b", inertia = {} }}
 c = {{ type = "cfm", between = ["b", "ground"], stiffness = {}, coulomb = 3, damping = 2 }}
-)~", T, i, J, k) + run_of(3, 1e-8)), &summary);
+)~", T, i, J, k) + simulate_until(3, 1e-8)), &summary);
   CHECK(std::abs(summary.missing) < 1e-6 * summary.largest);
   CHECK(summary.supplied > 0);
 }
@@ -241,7 +225,7 @@ p = {{ type = "gain", in = "b.position", gain = "{} N*m/rad" }}
 w = {{ type = "gain", in = "wish", gain = "{} N*m/rad" }}
 d = {{ type = "gain", in = "b.velocity", gain = "{} N*m*s/rad" }}
 control = {{ type = "sum", in = ["w", "-p", "-d"] }}
-)~", i, J, target, kp, kp, kd) + run_of(2));
+)~", i, J, target, kp, kp, kd) + simulate_until(2));
   // J x'' = i (kp (target - x) - kd x')
   const double a = i * kd / J / 2, root = std::sqrt(a * a - i * kp / J), fast = a + root, slow = a - root;
   const auto x = [&](double t) { return target * (1 - (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow)); };
@@ -309,7 +293,7 @@ J3 = {{ type = "inertia", at = "c", inertia = {} }}
 [nodes]
 a = {{ velocity = {} }}
 b = {{ velocity = {} }}
-)~", J1, i, J2, Tc, J3, w1, w2) + run_of(0.1));
+)~", J1, i, J2, Tc, J3, w1, w2) + simulate_until(0.1));
     // Momentum and inertia, seen from b.
     const double J = i * i * J1 + J2, v = (i * J1 * w1 + J2 * w2) / J, s = v > 0 ? 1 : -1;
     CAPTURE(i);
@@ -331,7 +315,7 @@ f = {{ type = "freewheel", between = ["c", "b"] }}
 J = {{ type = "inertia", at = "c", inertia = 2 }}
 [nodes]
 c = {{ velocity = 1 }}
-)~", velocity, i) + run_of(1);
+)~", velocity, i) + simulate_until(1);
   };
   // Faster from 0.5 s on: c is taken along at once. Slower: it runs ahead.
   const RunTable faster = simulate(text("{ step = 4, time = 0.5, offset = 2.5 }"));

@@ -17,18 +17,6 @@ using namespace rheonet::test;
 
 namespace {
 
-/// Largest difference of a column from a function of time, relative to the largest value of the function.
-template <class Function>
-double far_from(const RunTable& rows, const std::string& column, Function exact) {
-  double largest = 0, scale = 0;
-  for (std::size_t k = 0; k < rows.time().size(); ++k) {
-    const double x = exact(rows.time()[k]);
-    largest = std::max(largest, std::abs(rows[column][k] - x));
-    scale = std::max(scale, std::abs(x));
-  }
-  return largest / scale;
-}
-
 /// A motor with inertia J1 at a, a load with inertia J2 at b, and a gear between.
 std::string drive(double J1, double J2, const std::string& T1, const std::string& T2, const std::string& gear, double stop) {
   return fmt::format(R"~(
@@ -55,14 +43,14 @@ TEST_CASE("losses: the side that drives loses its share of power") {
   // a drives: f_b = -i eta f_a.
   const RunTable motor = simulate(drive(J1, J2, "5", "-2", gear, 1));
   const double m = (5 + J1 * i * 2 / J2) / (J1 * i * i / J2 + 1 / forwards), up = (i * m - 2) / J2;
-  CHECK(far_from(motor, "b.velocity", [&](double t) { return up * t; }) < 1e-11);
-  CHECK(far_from(motor, "g.force", [&](double) { return m / forwards; }) < 1e-11);
-  CHECK(far_from(motor, "g.dissipated", [&](double t) { return (1 - forwards) * m / forwards * i * up * t; }) < 1e-11);
+  CHECK(error_of(motor, "b.velocity", [&](double t) { return up * t; }) < 1e-11);
+  CHECK(error_of(motor, "g.force", [&](double) { return m / forwards; }) < 1e-11);
+  CHECK(error_of(motor, "g.dissipated", [&](double t) { return (1 - forwards) * m / forwards * i * up * t; }) < 1e-11);
   // b drives, backwards: f_a = eta of what b takes, over i.
   const RunTable brake = simulate(drive(J1, J2, "0.2", "-9", gear, 1));
   const double n = (0.2 + J1 * i * 9 / J2) / (J1 * i * i / J2 + backwards), down = (i * n - 9) / J2;
-  CHECK(far_from(brake, "b.velocity", [&](double t) { return down * t; }) < 1e-11);
-  CHECK(far_from(brake, "g.force", [&](double) { return backwards * n; }) < 1e-11);
+  CHECK(error_of(brake, "b.velocity", [&](double t) { return down * t; }) < 1e-11);
+  CHECK(error_of(brake, "g.force", [&](double) { return backwards * n; }) < 1e-11);
 }
 
 TEST_CASE("losses: a self-locking gear holds its load, one that is just not lets it go") {
@@ -79,10 +67,10 @@ TEST_CASE("losses: a self-locking gear holds its load, one that is just not lets
   // And driven from a it moves the load, up and down.
   const RunTable up = simulate(drive(0.1, 2, "4", "-7", "ratio = 5, efficiency = [0.4, -0.5]", 1));
   const double m = (4 + 0.1 * 5 * 7 / 2) / (0.1 * 25 / 2 + 1 / 0.4);
-  CHECK(far_from(up, "b.velocity", [&](double t) { return (5 * m - 7) / 2 * t; }) < 1e-11);
+  CHECK(error_of(up, "b.velocity", [&](double t) { return (5 * m - 7) / 2 * t; }) < 1e-11);
   const RunTable down = simulate(drive(0.1, 2, "-1", "-7", "ratio = 5, efficiency = [0.4, -0.5]", 1));
   const double n = (-1 + 0.1 * 5 * 7 / 2) / (0.1 * 25 / 2 - 0.5);
-  CHECK(far_from(down, "b.velocity", [&](double t) { return (5 * n - 7) / 2 * t; }) < 1e-11);
+  CHECK(error_of(down, "b.velocity", [&](double t) { return (5 * n - 7) / 2 * t; }) < 1e-11);
 }
 
 TEST_CASE("losses: friction of the bearings alone is a slider between the gear and its support") {

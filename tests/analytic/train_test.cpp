@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <random>
 #include <string>
 
@@ -15,22 +17,6 @@ using namespace rheonet;
 using namespace rheonet::test;
 
 namespace {
-
-std::string run_for(double stop, double accuracy = 1e-9) {
-  return fmt::format("[simulate]\nstop = {}\naccuracy = {}\noutput = {{ points = 41 }}\n", stop, accuracy);
-}
-
-/// Largest difference of a column from a function of time, relative to the largest value of the function.
-template <class Function>
-double off(const RunTable& rows, const std::string& column, Function exact) {
-  double largest = 0, scale = 0;
-  for (std::size_t k = 0; k < rows.time().size(); ++k) {
-    const double x = exact(rows.time()[k]);
-    largest = std::max(largest, std::abs(rows[column][k] - x));
-    scale = std::max(scale, std::abs(x));
-  }
-  return largest / scale;
-}
 
 /// Accelerations and force of [ M c; c' 0 ] [ a; f ] = [ T; 0 ].
 Eigen::Vector4d accelerations(const Eigen::Vector3d& inertia, const Eigen::Vector3d& row, const Eigen::Vector3d& load) {
@@ -59,12 +45,12 @@ TEST_CASE("trains: a planetary gear shares torques by its ratio and the inertias
       if (J[k] > 0) text += fmt::format("J{0} = {{ type = \"inertia\", at = \"{0}\", inertia = {1} }}\n", n, J[k]);
     }
     const Eigen::Vector4d a = accelerations(J, row, T);
-    const RunTable rows = simulate(text + run_for(1.3));
+    const RunTable rows = simulate(text + simulate_until(1.3));
     for (int k = 0; k < 3; ++k) {
-      CHECK(off(rows, node[static_cast<std::size_t>(k)] + ".velocity", [&](double t) { return a[k] * t; }) < 1e-12);
-      CHECK(off(rows, node[static_cast<std::size_t>(k)] + ".position", [&](double t) { return a[k] * t * t / 2; }) < 1e-8);
+      CHECK(error_of(rows, node[static_cast<std::size_t>(k)] + ".velocity", [&](double t) { return a[k] * t; }) < 1e-12);
+      CHECK(error_of(rows, node[static_cast<std::size_t>(k)] + ".position", [&](double t) { return a[k] * t * t / 2; }) < 1e-8);
     }
-    CHECK(off(rows, "p.force", [&](double) { return a[3]; }) < 1e-12);
+    CHECK(error_of(rows, "p.force", [&](double) { return a[3]; }) < 1e-12);
   }
 }
 
@@ -78,14 +64,14 @@ p = {{ type = "planetary", between = [{}], ratio = {} }}
 Ja = {{ type = "inertia", at = "s", inertia = {} }}
 Jb = {{ type = "inertia", at = "{}", inertia = {} }}
 T = {{ type = "torque", at = "s", torque = {} }}
-)~", nodes, r, J1, at, J2, T) + run_for(1.3);
+)~", nodes, r, J1, at, J2, T) + simulate_until(1.3);
   };
   // Carrier at ground: w_s = -r w_r. Ring at ground: w_s = (1 + r) w_c.
   const RunTable carrier = simulate(text(R"("s", "ground", "r")", "r"));
-  CHECK(off(carrier, "s.velocity", [&](double t) { return T / (J1 + J2 / (r * r)) * t; }) < 1e-12);
-  CHECK(off(carrier, "r.velocity", [&](double t) { return -T / (J1 + J2 / (r * r)) * t / r; }) < 1e-12);
+  CHECK(error_of(carrier, "s.velocity", [&](double t) { return T / (J1 + J2 / (r * r)) * t; }) < 1e-12);
+  CHECK(error_of(carrier, "r.velocity", [&](double t) { return -T / (J1 + J2 / (r * r)) * t / r; }) < 1e-12);
   const RunTable ring = simulate(text(R"("s", "c", "ground")", "c"));
-  CHECK(off(ring, "c.velocity", [&](double t) { return T / (J1 + J2 / ((1 + r) * (1 + r))) * t / (1 + r); }) < 1e-12);
+  CHECK(error_of(ring, "c.velocity", [&](double t) { return T / (J1 + J2 / ((1 + r) * (1 + r))) * t / (1 + r); }) < 1e-12);
 }
 
 TEST_CASE("trains: a massless ring is held by a brake, and slips above its torque") {
@@ -131,12 +117,12 @@ Jc = {{ type = "inertia", at = "c", inertia = {} }}
 Jr = {{ type = "inertia", at = "r", inertia = {} }}
 p = {{ type = "planetary", between = ["s", "c", "r"], ratio = 2 }}
 lock = {{ type = "slider", between = ["s", "c"], coulomb = 10 }}
-)~", T, Js, Jc, Jr) + run_for(1));
+)~", T, Js, Jc, Jr) + simulate_until(1));
   const double a = T / (Js + Jc + Jr);
-  for (const char* node : {"s", "c", "r"}) CHECK(off(rows, std::string(node) + ".velocity", [&](double t) { return a * t; }) < 1e-12);
+  for (const char* node : {"s", "c", "r"}) CHECK(error_of(rows, std::string(node) + ".velocity", [&](double t) { return a * t; }) < 1e-12);
   // The ring is driven by the gear alone: 2 f_s = Jr a. The clutch carries what the sun leaves over.
-  CHECK(off(rows, "p.force", [&](double) { return -Jr * a / 2; }) < 1e-12);
-  CHECK(off(rows, "lock.force", [&](double) { return T - Js * a + Jr * a / 2; }) < 1e-12);
+  CHECK(error_of(rows, "p.force", [&](double) { return -Jr * a / 2; }) < 1e-12);
+  CHECK(error_of(rows, "lock.force", [&](double) { return T - Js * a + Jr * a / 2; }) < 1e-12);
 }
 
 TEST_CASE("trains: a lever on a spring oscillates with the mass that is felt at its pivot") {
@@ -159,11 +145,11 @@ k = {{ type = "spring", between = ["s", "ground"], stiffness = {} }}
 a = {{ position = {} }}
 b = {{ position = {} }}
 s = {{ position = {} }}
-)~", ma, mb, ms, i, k, x[0], x[1], x[2]) + run_for(2, 1e-10));
-  CHECK(off(rows, "s.position", [&](double t) { return x[2] * std::cos(omega * t); }) < 1e-8);
-  CHECK(off(rows, "a.position", [&](double t) { return x[0] * std::cos(omega * t); }) < 1e-8);
-  CHECK(off(rows, "b.velocity", [&](double t) { return -x[1] * omega * std::sin(omega * t); }) < 1e-8);
-  CHECK(off(rows, "l.force", [&](double t) { return -k * x0 * by_pivot[3] * std::cos(omega * t); }) < 1e-8);
+)~", ma, mb, ms, i, k, x[0], x[1], x[2]) + simulate_until(2, 1e-10));
+  CHECK(error_of(rows, "s.position", [&](double t) { return x[2] * std::cos(omega * t); }) < 1e-8);
+  CHECK(error_of(rows, "a.position", [&](double t) { return x[0] * std::cos(omega * t); }) < 1e-8);
+  CHECK(error_of(rows, "b.velocity", [&](double t) { return -x[1] * omega * std::sin(omega * t); }) < 1e-8);
+  CHECK(error_of(rows, "l.force", [&](double t) { return -k * x0 * by_pivot[3] * std::cos(omega * t); }) < 1e-8);
 }
 
 TEST_CASE("trains: a spring and a dashpot across a gear see the difference of its nodes") {
@@ -179,12 +165,12 @@ c = {{ type = "dashpot", between = ["a", "b"], damping = {} }}
 [nodes]
 a = {{ velocity = {} }}
 b = {{ velocity = 1 }}
-)~", J1, J2, i, k, c, i) + run_for(2, 1e-10));
+)~", J1, J2, i, k, c, i) + simulate_until(2, 1e-10));
   // In the angle of b: (i^2 J1 + J2) x'' + (i - 1)^2 (c x' + k x) = 0.
   const double J = i * i * J1 + J2, s = (i - 1) * (i - 1), decay = s * c / J / 2, omega = std::sqrt(s * k / J - decay * decay);
   const auto x = [&](double t) { return std::exp(-decay * t) / omega * std::sin(omega * t); };
-  CHECK(off(rows, "b.position", x) < 1e-8);
-  CHECK(off(rows, "k.force", [&](double t) { return k * (i - 1) * x(t); }) < 1e-8);
+  CHECK(error_of(rows, "b.position", x) < 1e-8);
+  CHECK(error_of(rows, "k.force", [&](double t) { return k * (i - 1) * x(t); }) < 1e-8);
 }
 
 TEST_CASE("trains: a gearbox shifts by its clutches") {
@@ -201,7 +187,7 @@ first = {{ type = "slider", between = ["in", "x"], coulomb = {{ pulse = 100, wid
 g1 = {{ type = "gear", between = ["x", "out"], ratio = {} }}
 second = {{ type = "slider", between = ["in", "y"], coulomb = {{ step = {}, time = 1 }} }}
 g2 = {{ type = "gear", between = ["y", "out"], ratio = {} }}
-)~", T, J1, J2, -load, i1, Tc, i2) + run_for(4));
+)~", T, J1, J2, -load, i1, Tc, i2) + simulate_until(4));
   const double first = (T * i1 - load) / (J1 * i1 * i1 + J2), slips = (Tc * i2 - load) / J2, second = (T * i2 - load) / (J1 * i2 * i2 + J2);
   const double lock = 1 + (i1 - i2) * first / (slips * i2 + (Tc - T) / J1);
   REQUIRE(lock < 3);
@@ -209,13 +195,15 @@ g2 = {{ type = "gear", between = ["y", "out"], ratio = {} }}
     return t < 1 ? first * t : t < lock ? first + slips * (t - 1) : first + slips * (lock - 1) + second * (t - lock);
   };
   const auto in = [&](double t) { return t < 1 ? i1 * out(t) : t < lock ? i1 * first + (T - Tc) / J1 * (t - 1) : i2 * out(t); };
-  CHECK(off(rows, "out.velocity", out) < 1e-11);
-  CHECK(off(rows, "in.velocity", in) < 1e-11);
-  CHECK(off(rows, "x.velocity", [&](double t) { return i1 * out(t); }) < 1e-11);
-  CHECK(off(rows, "y.velocity", [&](double t) { return i2 * out(t); }) < 1e-11);
+  CHECK(error_of(rows, "out.velocity", out) < 1e-11);
+  CHECK(error_of(rows, "in.velocity", in) < 1e-11);
+  CHECK(error_of(rows, "x.velocity", [&](double t) { return i1 * out(t); }) < 1e-11);
+  CHECK(error_of(rows, "y.velocity", [&](double t) { return i2 * out(t); }) < 1e-11);
 }
 
 namespace {
+
+bool among(int n, std::initializer_list<int> some) { return std::find(some.begin(), some.end(), n) != some.end(); }
 
 /// Elements of all kinds around three shafts, of which at most one has no inertia; `gear` joins them.
 std::string around_three(std::mt19937& random, const std::string& gear) {
@@ -238,10 +226,10 @@ std::string around_three(std::mt19937& random, const std::string& gear) {
 }
 
 /// Largest difference of two runs in a column, relative to its largest value.
-double difference(const RunTable& one, const RunTable& other, const std::string& column, double times = 1) {
-  double largest = 0, scale = 1e-300;
+double difference(const RunTable& one, const RunTable& other, const std::string& column) {
+  double largest = 0, scale = 1e-9;  // the floor: of shafts that stand
   for (std::size_t k = 0; k < one.time().size(); ++k) {
-    largest = std::max(largest, std::abs(one[column][k] - times * other[column][k]));
+    largest = std::max(largest, std::abs(one[column][k] - other[column][k]));
     scale = std::max(scale, std::abs(one[column][k]));
   }
   return largest / scale;
@@ -262,9 +250,10 @@ double difference_of_force(const RunTable& one, const RunTable& other, double ti
 
 TEST_CASE("trains: a planetary gear is any gear between two of its nodes that turns against the third") {
   std::mt19937 random(7);
-  for (int n = 0; n < 40; ++n) {
+  for (int n = 0; n < 400; ++n) {
     const double r = std::uniform_real_distribution<double>(0.3, 4)(random);
     const auto seed = random();
+    if (n >= 40 && !among(n, {133, 230, 251, 264, 368})) continue;  // those that once failed
     const auto run = [&](const std::string& gear) {
       std::mt19937 same(seed);
       const std::string text = around_three(same, gear);
@@ -287,9 +276,10 @@ TEST_CASE("trains: a planetary gear is any gear between two of its nodes that tu
 
 TEST_CASE("trains: a support that a motion holds still is ground") {
   std::mt19937 random(11);
-  for (int n = 0; n < 40; ++n) {
+  for (int n = 0; n < 900; ++n) {
     const double i = std::uniform_real_distribution<double>(-3, 3)(random);
     const auto seed = random();
+    if (n >= 40 && !among(n, {78, 299, 804})) continue;
     const auto run = [&](const std::string& support) {
       std::mt19937 same(seed);
       const std::string text = around_three(same, fmt::format("g = {{ type = \"gear\", between = [\"x\", \"y\"]{}, ratio = {} }}\nh = {{ type = \"dashpot\", between = [\"y\", \"z\"], damping = 1 }}\n",
@@ -304,6 +294,35 @@ TEST_CASE("trains: a support that a motion holds still is ground") {
   }
 }
 
+TEST_CASE("trains: a planetary gear that three sliders lock breaks loose where the power of the loads exceeds theirs") {
+  // The train's force is open while all stick. Of the three motions that could begin, z at rest and w_x = (1 + r) w_y needs the least torque.
+  const double r = 2.06, J = 1.22, rise = 2.7, Ty = 0.13, Fx = 1.27, Fy = 0.47, Fz = 1.2;
+  const RunTable rows = simulate(fmt::format(R"~(
+domain = "rotation"
+[elements]
+g = {{ type = "planetary", between = ["x", "y", "z"], ratio = {} }}
+Tx = {{ type = "torque", at = "x", torque = {{ ramp = {} }} }}
+fx = {{ type = "slider", between = ["x", "y"], coulomb = {} }}
+Jy = {{ type = "inertia", at = "y", inertia = {} }}
+Ty = {{ type = "torque", at = "y", torque = {} }}
+fy = {{ type = "slider", between = ["y", "ground"], coulomb = {} }}
+Jz = {{ type = "inertia", at = "z", inertia = 0.91 }}
+fz = {{ type = "slider", between = ["z", "ground"], coulomb = {} }}
+)~", r, rise, Fx, J, Ty, Fy, Fz) + simulate_until(0.6));
+  const double breaks = (Fx * r + Fy - Ty) / (rise * (1 + r));
+  REQUIRE(breaks > 0.2);
+  REQUIRE(breaks < 0.5);
+  CHECK(error_of(rows, "y.velocity", [&](double t) { return t < breaks ? 0 : rise * (1 + r) / (2 * J) * (t - breaks) * (t - breaks); }) < 1e-9);
+  CHECK(error_of(rows, "x.velocity", [&](double t) { return (1 + r) * (t < breaks ? 0 : rise * (1 + r) / (2 * J) * (t - breaks) * (t - breaks)); }) < 1e-9);
+  for (std::size_t k = 0; k < rows.time().size(); ++k) {
+    const double t = rows.time()[k], f = rows["g.force"][k];
+    CHECK(rows["z.velocity"][k] == 0);
+    CHECK(rows["fz.force"][k] == doctest::Approx(-r * f).epsilon(1e-12));
+    if (t > breaks) CHECK(f == doctest::Approx(rise * t - Fx).epsilon(1e-9));
+    for (const auto& [name, bound] : {std::pair{"fx.force", Fx}, {"fy.force", Fy}, {"fz.force", Fz}}) CHECK(std::abs(rows[name][k]) <= bound * (1 + 1e-11));
+  }
+}
+
 TEST_CASE("trains: masses that start with velocities that do not fit go on together") {
   const double Js = 0.4, Jc = 0.9, r = 2, w = 3;
   const Scene scene = scene_of(fmt::format(R"~(
@@ -314,12 +333,12 @@ Jc = {{ type = "inertia", at = "c", inertia = {} }}
 p = {{ type = "planetary", between = ["s", "c", "ground"], ratio = {} }}
 [nodes]
 s = {{ velocity = {} }}
-)~", Js, Jc, r, w) + run_for(1));
+)~", Js, Jc, r, w) + simulate_until(1));
   Summary summary;
   const RunTable rows = simulate(scene, &summary);
   // Momentum along the motion w_s = (1 + r) w_c.
   const double after = Js * w * (1 + r) / (Js * (1 + r) * (1 + r) + Jc);
-  CHECK(off(rows, "c.velocity", [&](double) { return after; }) < 1e-12);
+  CHECK(error_of(rows, "c.velocity", [&](double) { return after; }) < 1e-12);
   const double lost = Js * w * w / 2 - (Js * (1 + r) * (1 + r) + Jc) * after * after / 2;
   bool told = false;
   for (const std::string& note : summary.notes) told = told || note.find(fmt::format("lose {:.6g} J", lost)) != note.npos;
@@ -351,7 +370,6 @@ record = ["m.force", "m.p.force", "Ja.force", "Ta.force", "a.velocity", "k.force
   CHECK(certificate.holds);
   const RunTable rows = simulate(scene);
   // The force of the box is that of the ring, at its first port.
-  CHECK(difference(rows, rows, "m.force", 1) == 0);
   double largest = 0;
   for (std::size_t k = 0; k < rows.time().size(); ++k) {
     largest = std::max(largest, std::abs(rows["m.force"][k] - 2 * rows["m.p.force"][k]));

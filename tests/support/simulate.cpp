@@ -1,6 +1,7 @@
 #include "tests/support/simulate.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,20 @@ double largest_error(const RunTable& rows, const RunTable& exact) {
     }
   }
   return largest;
+}
+
+double error_of(const RunTable& rows, const std::string& column, const std::function<double(double)>& exact) {
+  double largest = 0, scale = 0;
+  for (std::size_t k = 0; k < rows.time().size(); ++k) {
+    const double x = exact(rows.time()[k]);
+    largest = std::max(largest, std::abs(rows[column][k] - x));
+    scale = std::max(scale, std::abs(x));
+  }
+  return largest / scale;
+}
+
+std::string simulate_until(double stop, double accuracy) {
+  return fmt::format("[simulate]\nstop = {}\naccuracy = {}\noutput = {{ points = 41 }}\n", stop, accuracy);
 }
 
 Scene scene_of(const std::string& toml, double accuracy) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -46,6 +47,12 @@ RunTable read_rows(std::FILE* csv);
 /// By how much the record that is farthest from the same one of another run is off at its worst row, as a share of its scale
 /// there. Fails the test if the rows are not at the same times.
 double largest_error(const RunTable& rows, const RunTable& exact);
+
+/// Largest difference of a column from a function of time, relative to the largest value of the function.
+double error_of(const RunTable& rows, const std::string& column, const std::function<double(double)>& exact);
+
+/// A `[simulate]` from 0 to `stop` [s] with 41 rows.
+std::string simulate_until(double stop, double accuracy = 1e-9);
 
 /// The message that `simulate` would throw; "" if it does not.
 std::string refusal(const std::string& toml);

@@ -1,0 +1,181 @@
+// Forces of least norm within bounds, whose balances have any coefficients.
+#include "core/nonsmooth/least_norm.hpp"
+
+#include <doctest/doctest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <vector>
+
+using namespace rheonet;
+
+namespace {
+
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+struct Problem {
+  LeastNorm problem;
+  Eigen::VectorXd load;
+  Eigen::Index forces() const { return problem.balance.cols(); }
+  double low(Eigen::Index k) const { return problem.low[static_cast<std::size_t>(k)]; }
+  double high(Eigen::Index k) const { return problem.high[static_cast<std::size_t>(k)]; }
+};
+
+/// Up to three balances of up to six forces, the last of them without bounds in every second problem. With `whole` numbers many
+/// bounds are met at once, and many combinations of balances decide alike.
+Problem random_problem(std::mt19937& random, bool whole) {
+  const auto between = [&](double low, double high) {
+    const double x = std::uniform_real_distribution<double>(low, high)(random);
+    return whole ? std::round(x) : x;
+  };
+  const auto rows = std::uniform_int_distribution<Eigen::Index>(1, 3)(random), columns = std::uniform_int_distribution<Eigen::Index>(rows + 1, 6)(random);
+  const bool train = random() % 2 == 0;
+  Problem result;
+  result.problem.balance.resize(rows, columns);
+  do {
+    for (double& x : result.problem.balance.reshaped()) x = random() % 4 == 0 ? 0 : between(-2, 2);
+  } while (result.problem.balance.fullPivLu().rank() < rows);
+  Eigen::VectorXd force(columns);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    const bool open = train && k + 1 == columns;
+    result.problem.low.push_back(open ? -inf : -between(1, 4));
+    result.problem.high.push_back(open ? inf : between(1, 4));
+    force[k] = between(-5, 5);
+  }
+  result.load = result.problem.balance * force;
+  return result;
+}
+
+/// Tries every set of forces at their bounds: the first one that meets all conditions of optimality is the answer. Empty if no forces
+/// meet all bounds.
+std::optional<Eigen::VectorXd> by_all_guesses(const Problem& p) {
+  constexpr double rounding = 1e-9;
+  std::vector<int> side(p.problem.low.size(), -1);
+  while (true) {
+    Eigen::MatrixXd free = p.problem.balance;
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(p.forces()), left = p.load;
+    bool finite = true;
+    for (Eigen::Index k = 0; k < p.forces(); ++k) {
+      const int s = side[static_cast<std::size_t>(k)];
+      if (s == 0) continue;
+      x[k] = s > 0 ? p.high(k) : p.low(k);
+      finite = finite && std::isfinite(x[k]);
+      left -= x[k] * p.problem.balance.col(k);
+      free.col(k).setZero();
+    }
+    if (finite) {
+      // x = B'y where a force is free. Where the free forces leave y open, the smallest y that is right for the forces at their bounds is
+      // unknown: more forces are free in another guess.
+      const Eigen::VectorXd y = (free * free.transpose()).completeOrthogonalDecomposition().solve(left), drive = p.problem.balance.transpose() * y;
+      bool right = true;
+      for (Eigen::Index k = 0; k < p.forces(); ++k) {
+        const int s = side[static_cast<std::size_t>(k)];
+        if (s == 0) x[k] = drive[k];
+        right = right && (s == 0 ? p.low(k) - rounding <= x[k] && x[k] <= p.high(k) + rounding : s * (drive[k] - x[k]) >= -rounding);
+      }
+      if (right && (p.problem.balance * x - p.load).norm() < rounding) return x;
+    }
+    std::size_t k = 0;
+    while (k < side.size() && side[k] == 1) side[k++] = -1;
+    if (k == side.size()) return std::nullopt;
+    ++side[k];
+  }
+}
+
+/// The largest share of the load in what bounds can hold against it, over all combinations of balances. Combinations in which as many
+/// forces as possible drop out decide.
+double largest_share(const Problem& p) {
+  const Eigen::Index rows = p.problem.balance.rows();
+  double largest = 0;
+  for (unsigned set = 0; set < 1u << p.forces(); ++set) {
+    std::vector<Eigen::Index> out;
+    for (Eigen::Index k = 0; k < p.forces(); ++k) {
+      if (set >> k & 1u || std::isinf(p.high(k))) out.push_back(k);
+    }
+    const Eigen::MatrixXd dropped = p.problem.balance(Eigen::all, out);
+    const Eigen::MatrixXd left = out.empty() ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(rows, rows)) : Eigen::MatrixXd(dropped.transpose().fullPivLu().kernel());
+    if (left.cols() != 1 || left.norm() == 0) continue;
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::VectorXd y = sign * left, drive = p.problem.balance.transpose() * y;
+      double most = 0;
+      for (Eigen::Index k = 0; k < p.forces(); ++k) {
+        if (std::abs(drive[k]) > 1e-9) most += drive[k] > 0 ? drive[k] * p.high(k) : drive[k] * p.low(k);
+      }
+      if (most > 0) largest = std::max(largest, y.dot(p.load) / most);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("least norm: random balances, beside the answer among all guesses and the largest share of the load") {
+  int within = 0, beyond = 0;
+  for (const bool whole : {false, true}) {
+    std::mt19937 random(whole ? 3 : 5);
+    for (int n = 0; n < 2000; ++n) {
+      CAPTURE(whole);
+      CAPTURE(n);
+      const Problem p = random_problem(random, whole);
+      std::vector<double> force;
+      REQUIRE(p.problem.solve({p.load.begin(), p.load.end()}, force));
+      const Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(force.data(), p.forces());
+      CHECK((p.problem.balance * x - p.load).norm() <= 1e-12 * (1 + x.norm()));
+      double share = 0;
+      for (Eigen::Index k = 0; k < p.forces(); ++k) share = std::max(share, x[k] / (x[k] > 0 ? p.high(k) : p.low(k)));
+      if (const auto expected = by_all_guesses(p)) {
+        ++within;
+        CHECK((x - *expected).norm() < 1e-8);
+        CHECK(share <= 1 + 1e-12);
+      } else {
+        ++beyond;
+        CHECK(share == doctest::Approx(largest_share(p)).epsilon(1e-9));
+        CHECK(share > 1);
+      }
+    }
+  }
+  CHECK(within > 500);
+  CHECK(beyond > 500);
+}
+
+TEST_CASE("least norm: two forces against a third without bounds, in closed form") {
+  // f1 + i g = L1, f2 - g = L2: only f1 + i f2 = L1 + i L2 is balanced by f1 and f2.
+  LeastNorm problem;
+  const double i = 2.5;
+  problem.balance.resize(2, 3);
+  problem.balance << 1, 0, i, 0, 1, -1;
+  problem.low = {-1, -2, -inf};
+  problem.high = {1, 2, inf};
+  std::vector<double> force;
+  // Both free: least norm of all three forces, the one without bounds too.
+  REQUIRE(problem.solve({0.3, 0.2}, force));
+  const double g = (i * 0.3 - 0.2) / (1 + i * i + 1);
+  CHECK(force[2] == doctest::Approx(g).epsilon(1e-14));
+  CHECK(force[0] == doctest::Approx(0.3 - i * g).epsilon(1e-14));
+  CHECK(force[1] == doctest::Approx(0.2 + g).epsilon(1e-14));
+  // The most that both hold is 1 + 2 i; beyond it each exceeds its bound by the same share.
+  for (const double over : {-1e-9, 0.0, 1e-9, 0.25, 10.0}) {
+    CAPTURE(over);
+    const double sum = (1 + 2 * i) * (1 + over);
+    REQUIRE(problem.solve({sum + i * 7, -7}, force));
+    CHECK(force[0] == doctest::Approx(1 + over).epsilon(over < 0 ? 1e-8 : 1e-13));
+    CHECK(force[1] == doctest::Approx(2 * (1 + over)).epsilon(over < 0 ? 1e-8 : 1e-13));
+    CHECK(force[0] + i * force[1] == doctest::Approx(sum).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("least norm: bounds that do not contradict each other hold beside those that do") {
+  // The first balance is overloaded by half; the second shares its load of 3 as 1 + 2.
+  LeastNorm problem;
+  problem.balance.resize(2, 4);
+  problem.balance << 1, 1, 0, 0, 0, 0, 1, 1;
+  problem.low = {-1, -1, -1, -5};
+  problem.high = {1, 1, 1, 5};
+  std::vector<double> force;
+  REQUIRE(problem.solve({3, 3}, force));
+  const std::vector<double> expected{1.5, 1.5, 1, 2};
+  for (std::size_t k = 0; k < 4; ++k) CHECK(force[k] == doctest::Approx(expected[k]).epsilon(1e-14));
+}
