@@ -36,7 +36,7 @@ Declaration declared(const char* type, const char* summary, const char* ratio) {
       .equation = R"(v_a - v_s = i\,(v_b - v_s),\qquad f_b = -i\,(\eta_a f_a \mp f_{\text{bearing}}) \text{ or } -i\,(f_a/\eta_b \mp f_{\text{bearing}}))",
       .source = "definition; losses: C. Pelchen, C. Schweiger, M. Otter, 2nd International Modelica Conference 2002, p. 257",
       .notes = "It turns against `support` s, a node, or ground if none is named. Its force is that at its first node a; without losses that at "
-               "its second node b is -i times as large, and its support takes up the difference. Stores nothing; dissipates what is lost.\n"
+               "its second node b is -i times as large, and its support takes up the difference. It stores no energy. Its losses become heat.\n"
                "With losses it sticks at rest while the force at a is between those of both directions. With eta_b of 0 or less it is self-locking.\n"
                "Positions keep this ratio to the start positions. Transmissions that make a loop by themselves need one common ratio, and share the load as "
                "rigid links do. With losses, in a loop with other elements, or with a support that moves, two of its nodes need an inertia, a prescribed motion, or elements that "
@@ -47,10 +47,10 @@ Declaration declared(const char* type, const char* summary, const char* ratio) {
 double ratio(std::span<const double> v) { return v[0]; }
 
 const RegisterComponent register_gear(transmission(
-    declared("gear", "gear: a constant ratio of two velocities, with or without losses",
+    declared("gear", "two gear wheels, a worm gear or a belt: a constant ratio of two velocities, with or without losses",
              "velocity of the first node over that of the second, not 0; negative where they turn against each other"),
     ratio,
-    {.outline = "M.16 .5 A.15 .15 0 1 1 .46 .5 A.15 .15 0 1 1 .16 .5 Z M.46 .5 A.19 .19 0 1 1 .84 .5 A.19 .19 0 1 1 .46 .5 Z",
+    {.outline = "M.31 .35 A.15 .15 0 1 1 .31 .65 A.15 .15 0 1 1 .31 .35 Z M.65 .31 A.19 .19 0 1 1 .65 .69 A.19 .19 0 1 1 .65 .31 Z",
      .lines = "M0 .5 H.31 M.65 .5 H1"},
     losses));
 

@@ -15,7 +15,7 @@ const RegisterComponent register_rack(transmission(
                  "dissipates nothing.\nA domain ends here: a is of rotation, b of translation.",
     },
     [](std::span<const double> v) { return 1 / v[0]; },
-    {.outline = "M.32 .36 A.16 .16 0 1 1 .64 .36 A.16 .16 0 1 1 .32 .36 Z", .lines = "M0 .5 H.12 V.36 H.48 M.24 .56 H.8 V.5 H1",
+    {.outline = "M.48 .2 A.16 .16 0 1 1 .48 .52 A.16 .16 0 1 1 .48 .2 Z", .lines = "M0 .5 H.12 V.36 H.48 M.24 .56 H.8 V.5 H1",
      .thin = "M.3 .56 V.62 M.4 .56 V.62 M.5 .56 V.62 M.6 .56 V.62 M.7 .56 V.62"}));
 
 }  // namespace

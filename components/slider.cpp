@@ -65,7 +65,7 @@ const RegisterComponent register_slider({
             .law = "w = 0 with abs(f) <= Fs, or f = Fc sgn(w); with `normal`, both times N",
             .equation = R"(w = 0\ \text{with}\ |f| \le F_s,\qquad\text{or}\qquad f = F_c\operatorname{sgn} w)",
             .source = "C. A. de Coulomb 1784; P. L. Dahl 1982, Eq. 20",
-            .notes = "Stores nothing, dissipates f w. Where the balance of forces does not determine how sticking sliders share a load, "
+            .notes = "It stores no energy; f w becomes heat. Where the balance of forces does not determine how sticking sliders share a load, "
                      "they share it with the least sum of squares within their bounds.\n"
                      "With `stribeck` it slides with f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w): from breakaway at rest down to Fc. Both nodes then "
                      "need a mass or a prescribed motion.\n"

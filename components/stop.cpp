@@ -171,7 +171,7 @@ const RegisterComponent register_stop({
             .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\n"
                      "With `stiffness = \"inf\"` the displacement stays within the bounds. Between masses or prescribed motions an impact ends the approach: "
                      "w after = -e w before, with the momentum kept. It turns 1 - e^2 of the energy of the approach into heat. A node without mass just comes into contact.\n"
-                     "Contacts that are hit at one time share the impulses: each takes what ends the approach of all, and gives back its e times that. With one e "
+                     "Contacts that are hit at one time share the impulses. A first set of impulses ends the approach of all of them; then each gives back e times its own. With one e "
                      "this is w after = -e w before at each of them. A contact that only touches gives nothing back.\n"
                      "Hops that grow ever shorter end in rest, once all that remain are within a quarter of `accuracy`: in velocity, and in time.\n"
                      "An event marks each contact, each impact and each release.",

@@ -16,7 +16,7 @@ inline Box rigid_transmission(std::span<const Dual>) {
 
 inline std::optional<Loss> no_loss(std::span<const double>) { return {}; }
 
-/// What transmissions have in common.
+/// The component of a transmission. `ratio`: velocity of the first node over that of the second.
 inline Component transmission(Declaration declaration, std::function<double(std::span<const double>)> ratio, Symbol drawing,
                               std::function<std::optional<Loss>(std::span<const double>)> loss = no_loss) {
   declaration.ports = Declaration::Ports::between;

@@ -197,7 +197,7 @@ class BlockSignals {
   struct Taken { double t, value; };
   struct Sampler {
     int block;
-    double number;            ///< whole: the last sample was at this multiple of the period, or the first one after that
+    double number;            ///< a whole number: the last sample was at the first time not before this multiple of the period
     TimePoint next;           ///< time of the next sample; at first the start
     bool taking = false;      ///< a sample is due, and still follows the input
     double value = 0;         ///< of the last sample

@@ -68,7 +68,7 @@ void ConvexNetwork::tie(const std::array<int, 3>& nodes, const std::array<double
   for (const int node : nodes) tied_[at(node)] = 1;
 }
 
-/// The factors of the columns in each equation, and what is left to be changed. An equation whose nodes sticking branches hold, or that
+/// The factors of the columns in each equation. `left`: of each equation, the change of velocity [m/s] that it still asks for. An equation whose nodes sticking branches hold, or that
 /// follows from others, has no factors.
 std::vector<std::vector<double>> ConvexNetwork::equations_of_columns(Eigen::VectorXd& left) const {
   std::vector<std::vector<double>> rows, reduced;
@@ -148,7 +148,7 @@ void ConvexNetwork::share_with_locked_equations(const std::vector<Conductance>& 
   for (std::size_t k = 0; k < locked.size(); ++k) equations_[locked[k]].force = forces[static_cast<Eigen::Index>(k)];
 }
 
-/// Brings the start values to where the equations hold, by the least change that the inertias allow. From there on steps keep them.
+/// Brings the start values to where the equations hold, by the least change that the inertias allow. Later steps keep them.
 void ConvexNetwork::meet_equations() {
   if (equations_.empty()) return;
   Eigen::VectorXd left;

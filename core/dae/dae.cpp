@@ -292,7 +292,7 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
     const Branch& b = network_->sliders[k].branch;
     slip_side_[k] = structure_->stuck[k] ? static_cast<signed char>(Modes::stuck) : modes.slider[k];
     slip_force_[k] = slip_side_[k] == 0 ? 0 : slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
-    // That of losses depends on the force of their train, which shares it out (Structure::train_forces): the rest is constant.
+    // The friction of losses is a share of the force of their train (Structure::train_forces), and a constant. This is the constant.
     if (const int train = network_->sliders[k].train; train >= 0 && slip_side_[k] != 0) {
       loss_lines_[at(train)] = network_->trains[at(train)].loss->line(slip_side_[k], modes.b_drives[at(train)] != 0);
       slip_force_[k] = loss_lines_[at(train)].offset;

@@ -60,7 +60,7 @@ class EventTransition {
   };
   /// Empty if everything balances. With `along` each law keeps the slope of its present direction on both sides.
   std::optional<Jump> find_jump(const std::vector<double>& dx, const State& state, const std::vector<double>& force, bool along = false) const;
-  /// Applies the jump to the state, up to the first contact; true if anything moved. `dx` becomes what is left of it.
+  /// Applies the jump to the state, up to the first contact; true if anything moved. Afterwards `dx` is the rest of the displacements, still to be made.
   bool jump(double t, bool stepped, std::vector<double>& dx, State& state, std::vector<double>& force,
             Change& change);
   /// As `jump`, if the imbalance is no more than an error of the integrator's steps: friction that gives way to it does not
@@ -123,7 +123,7 @@ class EventTransition {
   void add_inerters(ModeSelection& selection) const;
   /// `given`: what the changes of velocities at each train, times their factors, sum to [m/s].
   void add_trains(ConvexNetwork& problem, const std::vector<double>& given) const;
-  /// Of each train: the sum of velocities times factors [m/s], which is 0 while it holds.
+  /// The residual of the equation of each train [m/s]: the sum of its velocities times their factors.
   std::vector<double> slips_of_trains(const std::vector<double>& velocity) const;
   double turn_trains(double t, State& state, std::vector<std::string>& notes);
   void add_sliders(ModeSelection& selection) const;

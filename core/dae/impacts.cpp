@@ -212,7 +212,7 @@ double EventTransition::halt(double t, const std::vector<int>& events, const Mod
   for (const int k : events) held.slider[at(k)] = Modes::stuck;
   const double together = std::max(0.0, heat + go_on_together(events, held, state, notes));
   if (network_.trains.empty()) return together;
-  // What stops at one node of a train, the others follow.
+  // Where one node of a train has stopped, the others follow.
   const double before = kinetic_energy(state);
   const std::vector<double> none(structure_.kind.size(), 0);
   share_impulses(t, none, none, state, &held);

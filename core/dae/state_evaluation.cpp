@@ -194,7 +194,7 @@ double Dae::supplied_power() const {
   for (const Network::Motion& m : network_->motions) power += reaction(m.node) * view_.velocity[at(m.node)];
   for (std::size_t k = 0; k < network_->forces.size(); ++k) {
     const Network::Force& f = network_->forces[k];
-    // What changes the stiffness of a spring supplies the energy that it gains beyond the work on it.
+    // A signal that changes the stiffness of a spring supplies energy too: the gain beyond the work done at its ends.
     if (f.lossless()) power += output_rate(f.energy);
     if (f.resists && !f.lossless()) continue;
     power += inputs_->force[k] * (view_.velocity[at(f.a)] - (f.b >= 0 ? view_.velocity[at(f.b)] : 0));

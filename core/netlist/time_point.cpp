@@ -1,5 +1,7 @@
 #include "core/netlist/time_point.hpp"
 
+#include <limits>
+
 namespace rheonet {
 
 namespace {
@@ -11,7 +13,7 @@ struct Fraction {
 
 /// The decimal fraction with the fewest digits.
 Fraction decimal(double x) {
-  constexpr double most = 1e15;  // so that numerators and denominators are exact
+  constexpr double most = 1 / std::numeric_limits<double>::epsilon();  // whole numbers up to it are exact
   for (double power = 1; power <= most && x * power <= most; power *= 10) {
     const double numerator = std::round(x * power);
     if (numerator / power == x) return {numerator, power};

@@ -83,7 +83,7 @@ std::string with_unit(double value, const std::string& unit) {
 }  // namespace
 
 std::string number_text(double value) {
-  return std::abs(value) < 1e15 && value == std::floor(value) ? fmt::format("{:.0f}", value) : fmt::format("{}", value);
+  return fmt::format("{}", value);
 }
 
 std::size_t place_of_name(std::string_view name, std::string_view expression) {

@@ -345,7 +345,7 @@ class Finder {
     return static_cast<int>(result_.sensors.size()) - 1;
   }
 
-  /// What an element dissipates needs the rate of its energy, and that of a force is not always known.
+  /// The power that an element dissipates follows from the rate of its energy, which is not always known for a force.
   void refuse_energy_of_forces(const Network::Force& force, int block, std::vector<char>& seen) const {
     if (std::exchange(seen[at(block)], 1)) return;
     for (const Blocks::Input& input : result_.blocks[at(block)].inputs) {

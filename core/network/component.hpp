@@ -219,7 +219,7 @@ struct Loss {
   /// By how much a drives, while it turns to this side [N]: the difference of both lines.
   double lead_of_a(int side, double m) const { return side * (line(side, false).at(m) - line(side, true).at(m)); }
   bool b_drives(int side, double m) const { return lead_of_a(side, m) < 0; }
-  /// What is lost at the first node while it turns to this side, at least 0.
+  /// Force that is lost at the first node while it turns to this side [N], at least 0.
   double lost(int side, double m) const { return std::max(0.0, side * (line(side, b_drives(side, m)).at(m) - m)); }
 };
 
@@ -271,7 +271,7 @@ struct Symbol {
   bool empty() const { return outline.empty() && lines.empty() && thin.empty() && solid.empty(); }
 };
 
-/// What a law is made from: the values of its declared parameters, and its characteristic if it has one.
+/// The data of a law: the values of its declared parameters, and its characteristic if it has one.
 struct LawValues : std::span<const double> {
   const Characteristic* characteristic;
 

@@ -244,7 +244,7 @@ class Trains {
         matrix(i, j) = -1;
         ++coupled;
       }
-      // What remains of the diagonal beside inerters within the group is a mass, or an inerter that leads out of it.
+      // Beside inerters within the group, a node has its own mass, or an inerter to a node outside.
       const double own = mass(*std::next(group.begin(), i)) > 0 || leads_out(*std::next(group.begin(), i), group) ? 1 : 0;
       matrix(i, i) = own + coupled;
     }

@@ -7,7 +7,7 @@ namespace rheonet {
 
 TransferFunction::TransferFunction(const std::vector<double>& numerator, const std::vector<double>& denominator)
     : a(denominator), b(denominator.size(), 0) {
-  // What a longer numerator has more are zeros.
+  // Leading coefficients of a numerator longer than the denominator are zeros.
   for (std::size_t k = 1; k <= std::min(numerator.size(), b.size()); ++k) b[b.size() - k] = numerator[numerator.size() - k];
   for (double& x : b) x /= denominator.front();
   for (double& x : a) x /= denominator.front();

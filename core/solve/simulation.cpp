@@ -187,7 +187,7 @@ class Run {
     inputs_.blocks().fire({});
     system_->consistency.derivative(t, y_, yp_);
     const Dae::View& view = dae.view(t, y_.data(), yp_.data());
-    // A sample of what has jumped at this time jumps with it. Each round settles at least one sample, as none depends on itself.
+    // Where its input has jumped at this time, a sample jumps too. Each round settles at least one sample, as none depends on itself.
     if (!inputs_.blocks().hold(round.number)) {
       take_state(t);
       return cross(t, true, {}, {round.number + 1, change.heat});
