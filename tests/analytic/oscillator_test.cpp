@@ -6,6 +6,7 @@
 
 #include "tests/analytic/drives.hpp"
 #include "tests/support/check.hpp"
+#include "tests/support/simulate.hpp"
 
 using namespace rheonet::test;
 
@@ -75,6 +76,32 @@ TEST_CASE("Oscillator, forced") {
     for (const Load& load : loads()) {
       CAPTURE(load.name);
       check(zeta, load.element, motion(zeta, load.force, 0, 0), drive_start);
+    }
+  }
+}
+
+TEST_CASE("Oscillator, on a spring so soft that the run ends within a small part of a period") {
+  // The force of the spring is far below the round-off of the others: its displacement counts all the same.
+  const double mass = 2.3, force = 4.1, end = 1.3;
+  for (const double soft : {1e-30, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1}) {
+    for (const double accuracy : {1e-3, 1e-6, 1e-9}) {
+      CAPTURE(soft);
+      CAPTURE(accuracy);
+      const RunTable rows = simulate(fmt::format(R"~(
+[elements]
+m = {{ type = "mass", at = "a", mass = {} }}
+F = {{ type = "force", at = "a", force = {} }}
+k = {{ type = "spring", between = ["a", "ground"], stiffness = {} }}
+)~", mass, force, soft) + simulate_until(end, accuracy));
+      // 2 F/k sin(w t/2)^2, where w t/2 may be small.
+      const double omega = std::sqrt(soft / mass);
+      const auto position = [&](double t) {
+        const double half = omega * t / 2, sinc = half > 1e-6 ? std::sin(half) / half : 1;
+        return force * t * t / (2 * mass) * sinc * sinc;
+      };
+      CHECK(error_of(rows, "a.position", position) < accuracy);
+      CHECK(error_of(rows, "k.force", [&](double t) { return soft * position(t); }) < accuracy);
+      CHECK(error_of(rows, "a.velocity", [&](double t) { return force / (mass * omega) * std::sin(omega * t); }) < accuracy);
     }
   }
 }
