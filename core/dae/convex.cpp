@@ -97,7 +97,7 @@ void ConvexNetwork::choose_weak() {
   }
   for (const double slope : least) least_of_all = std::min(least_of_all, slope);
   for (Branch& b : branches_) {
-    if (firm(at(b.a)) && firm(at(b.b))) continue;  // no regularisation needed
+    if (restrained(at(b.a)) && restrained(at(b.b))) continue;  // no regularisation needed
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
     if (!b.jumps && flatter > numerics::flat_law * steeper) continue;
     const double around = std::min(least[at(b.a)], least[at(b.b)]);

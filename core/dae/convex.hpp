@@ -38,13 +38,17 @@ class ConvexNetwork {
   /// Prescribes the change of the node.
   void fix(int node, double change);
   void load(int node, double applied) { applied_[at(node)] += applied; }
-  void set_inertia(int node, double inertia) { inertia_[at(node)] = inertia; }
+  void set_inertia(int node, double inertia) {
+    inertia_[at(node)] = inertia;
+    any_inertia_ = true;
+  }
   /// Returns the index of the branch.
   int add(int a, int b, Law law);
-  /// The changes of these nodes, times their factors, sum to `given`. Each of them has an inertia, or follows from those that have.
+  /// The changes of these nodes, times their factors, sum to `given`. Where any node has an inertia, these have one, or follow from those
+  /// that have.
   void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
-  /// Force of the equation number `equation`, after `solve`.
-  double force_of_equation(std::size_t equation) const { return equations_[equation].force; }
+  /// The force of each equation, in the order of `tie`, after `solve`.
+  std::vector<double> forces_of_equations() const;
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
@@ -93,6 +97,8 @@ class ConvexNetwork {
   };
   /// Its value does not follow from the forces of branches alone.
   bool firm(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || tied_[node]; }
+  /// It needs no regularising slope, and cannot run away.
+  bool restrained(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || (tied_[node] && any_inertia_); }
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
   std::vector<std::size_t> locked_equations() const;
@@ -130,6 +136,7 @@ class ConvexNetwork {
   std::vector<double> base_, u_;  ///< x = base + u; base is the start value of the node, or of the heavy node that it follows
   std::vector<double> inertia_, applied_;
   std::vector<char> fixed_, tied_;
+  bool any_inertia_ = false;
   std::vector<Equation> equations_;
   std::vector<double> given_;  ///< prescribed change of each fixed node
   std::vector<Branch> branches_;

@@ -68,6 +68,12 @@ void ConvexNetwork::tie(const std::array<int, 3>& nodes, const std::array<double
   for (const int node : nodes) tied_[at(node)] = 1;
 }
 
+std::vector<double> ConvexNetwork::forces_of_equations() const {
+  std::vector<double> forces;
+  for (const Equation& e : equations_) forces.push_back(e.force);
+  return forces;
+}
+
 /// The factors of the columns in each equation. `left`: of each equation, the change of velocity [m/s] that it still asks for. An equation whose nodes sticking branches hold, or that
 /// follows from others, has no factors.
 std::vector<std::vector<double>> ConvexNetwork::equations_of_columns(Eigen::VectorXd& left) const {

@@ -121,7 +121,7 @@ bool ConvexNetwork::run_away() {
   std::vector<char> heavy(u_.size(), 0);
   double farthest = 0;
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (!firm(k)) continue;
+    if (!restrained(k)) continue;
     heavy[at(cluster_[k])] = 1;
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
@@ -156,7 +156,7 @@ bool ConvexNetwork::flattened(const std::vector<double>& gradient) {
   }
   std::vector<char> held(u_.size(), 0);
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (firm(k)) held[at(parts.find(static_cast<int>(k)))] = 1;
+    if (restrained(k)) held[at(parts.find(static_cast<int>(k)))] = 1;
     forces[at(parts.find(static_cast<int>(k)))] += std::abs(applied_[k]);
     const int column = column_[at(cluster_[k])];
     if (column >= 0 && head_[at(cluster_[k])] == static_cast<int>(k)) left[at(parts.find(static_cast<int>(k)))] += gradient[at(column)];

@@ -241,6 +241,9 @@ EventTransition::Nodal EventTransition::nodal(const State& state, const std::vec
       for (const NodeId node : {b.a, b.b}) result.rounding[at(node)] += rounding;
     }
   }
+  for (std::size_t k = 0; k < network_.trains.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) add(network_.trains[k].node[i], network_.trains[k].factor[i] * state.train_force[k]);
+  }
   for (std::size_t k = 0; k < network_.forces.size(); ++k) {
     add(network_.forces[k].a, -inputs_.force[k]);
     add(network_.forces[k].b, inputs_.force[k]);

@@ -10,6 +10,7 @@
 #include "core/base/roundoff.hpp"
 #include "core/dae/event_transition.hpp"
 #include "core/dae/rate_law.hpp"
+#include "core/dae/train_force_trials.hpp"
 #include "core/network/overload_report.hpp"
 
 namespace rheonet {
@@ -85,35 +86,15 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   return broken;
 }
 
-/// The bounds of losses depend on the forces of their trains, which the problem gives: repeats it until they agree. Each is a piecewise
-/// linear function of the other, so that a secant through two trials (Anderson 1965) meets them.
 EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
                                    const std::vector<double>& force, const Nodal& now) {
-  using Vector = Eigen::VectorXd;
-  const auto trains = static_cast<Eigen::Index>(network_.trains.size());
-  Vector trial = Eigen::Map<const Vector>(state.train_force.data(), trains), before, miss_before;
-  for (int round = 0;; ++round) {
-    ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, {trial.begin(), trial.end()});
-    Vector miss = Vector::Zero(trains);
-    double size = 0;
-    for (Eigen::Index k = 0; k < trains; ++k) {
-      const double found = selection.problem.force_of_equation(static_cast<std::size_t>(k));
-      selection.train_force[static_cast<std::size_t>(k)] = found;
-      const std::optional<Loss>& loss = network_.trains[static_cast<std::size_t>(k)].loss;
-      if (!loss) continue;
-      miss[k] = found - trial[k];
-      size = std::max({size, std::abs(found), std::abs(trial[k]), loss->lost(1, found), loss->lost(-1, found)});
-    }
-    if (miss.lpNorm<Eigen::Infinity>() <= numerics::balance_roundoff * size) return selection;
-    if (round == numerics::loss_trials) report_undecided(network_, at_time(*network_.scene, t));
-    Vector next = trial + miss;
-    if (round > 0) {
-      const Vector turn = miss - miss_before;
-      const double share = turn.squaredNorm() > 0 ? turn.dot(miss) / turn.squaredNorm() : 0;
-      next -= share * (trial - before + turn);
-    }
-    before = std::exchange(trial, std::move(next));
-    miss_before = std::move(miss);
+  TrainForceTrials trials(network_, state.train_force);
+  while (true) {
+    ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, trials.trial());
+    selection.train_force = selection.problem.forces_of_equations();
+    for (std::size_t k = 0; k < selection.train_force.size(); ++k) selection.train_force[k] += state.train_force[k];
+    if (trials.agree(selection.train_force)) return selection;
+    if (trials.endless()) report_undecided(network_, at_time(*network_.scene, t));
   }
 }
 

@@ -1,3 +1,4 @@
+#include "core/dae/free_motions.hpp"
 #include "core/dae/steady_state_solver.hpp"
 
 #include <limits>
@@ -45,16 +46,13 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
     if (slip_[k] == 0) {
       forces.hang.join(s.branch.a, s.branch.b);
       if (!rigid(k) && !has_contact(k)) forces.sticking.push_back(name(s.branch));
-    } else {
-      result_.slider_force[k] = slip_[k] * inputs_.box(k).at(slip_[k]).sliding.value;
-      forces.push(s.branch, result_.slider_force[k]);
     }
   }
   return forces;
 }
 
-/// The displacements under these forces and those of the contacts.
-ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, std::vector<int>& slider_branch) {
+/// The displacements under these forces and those of the contacts, with the forces of sliders that slide in a given direction.
+ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch) {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
   for (std::size_t n = 0; n < velocity_.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), forces.load[n]);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
@@ -71,10 +69,16 @@ ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, std::vec
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
-    if (slip_[k] != 0) continue;
+    if (direction[k] != 0) {
+      const double f = result_.slider_force[k] = direction[k] * bound(k, direction[k]);
+      problem.load(slot(s.branch.a), -f);
+      problem.load(slot(s.branch.b), f);
+      continue;
+    }
     slider_branch[k] = problem.add(slot(s.branch.a), slot(s.branch.b),
                                    s.contact ? contact_law(k) : ConvexNetwork::Law{.low = -bound(k, -1), .high = bound(k, 1)});
   }
+  add_trains(problem, [&](NodeId node) { return slot(node); });
   return problem;
 }
 
@@ -83,21 +87,35 @@ ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, std::vec
 bool SteadyStateSolver::find_positions() {
   Forces forces = forces_at_start();
   std::vector<int> slider_branch(slip_.size(), -1);
-  ConvexNetwork problem = position_problem(forces, slider_branch);
-  const std::vector<std::string> open = fix_positions(problem, forces.hang);
-  solve(problem, std::numeric_limits<double>::infinity());
-  for (int n = 0; n < numerics::contact_iterations && press_contacts(problem, slider_branch); ++n) {
-    problem = position_problem(forces, slider_branch);
-    fix_positions(problem, forces.hang);
+  ConvexNetwork problem(0);
+  std::vector<std::string> open;
+  TrainForceTrials trials(network_, state_.train_force);
+  bool again = true;
+  for (int n = 0; again; ++n) {
+    problem = position_problem(forces, slip_, slider_branch);
+    open = fix_positions(problem, forces.hang);
     solve(problem, std::numeric_limits<double>::infinity());
+    again = n < numerics::contact_iterations && press_contacts(problem, slider_branch);
+    state_.train_force = problem.forces_of_equations();
+    again = !agree(trials) || again;
   }
-  std::vector<int> direction(slip_.size(), 0);
+  std::vector<int> slid(slip_.size(), 0), direction = slip_;
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] != 0) continue;
-    direction[k] = has_contact(k) ? 0 : problem.direction(slider_branch[k]);
-    result_.slider_force[k] = problem.force(slider_branch[k]);
+    if (slip_[k] != 0 || has_contact(k)) continue;
+    direction[k] = slid[k] = problem.direction(slider_branch[k]);
   }
-  if (break_away(direction)) return false;
+  if (break_away(slid)) return false;
+  // Once more, with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.
+  for (again = direction != slip_; again; again = !agree(trials)) {
+    ConvexNetwork refined = position_problem(forces, direction, slider_branch);
+    fix_positions(refined, forces.hang);
+    if (refined.solve() != ConvexNetwork::Outcome::solved) break;
+    problem = std::move(refined);
+    state_.train_force = problem.forces_of_equations();
+  }
+  for (std::size_t k = 0; k < slip_.size(); ++k) {
+    if (direction[k] == 0) result_.slider_force[k] = problem.force(slider_branch[k]);
+  }
   take_positions(problem);
   if (const auto& sticking = forces.sticking; !sticking.empty()) {
     note(format_list(sticking) + (sticking.size() > 1 ? " stick: their forces are" : " sticks: its force is") +
@@ -130,22 +148,21 @@ void SteadyStateSolver::take_positions(const ConvexNetwork& problem) {
   }
 }
 
-/// In each set of nodes that hold each other but are held by no known node, fixes one. Returns the names of these nodes.
+/// In each set of nodes that hold each other, but that neither a known node nor a train holds, fixes one. Returns the names of these nodes.
 std::vector<std::string> SteadyStateSolver::fix_positions(ConvexNetwork& problem, DisjointSets& hang) const {
-  std::vector<char> placed(velocity_.size(), 0);
+  FreeMotions free(network_, hang);
   const auto fix = [&](NodeId node) {
     problem.fix(slot(node), 0);
-    placed[at(hang.find(node))] = 1;
+    free.place(node);
   };
-  for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    if (known(static_cast<NodeId>(n))) fix(static_cast<NodeId>(n));
+  for (NodeId node = 0; at(node) < velocity_.size(); ++node) {
+    if (known(node)) fix(node);
   }
   std::vector<std::string> open;
   // Nodes that the user has placed come first.
   for (const bool given : {true, false}) {
-    for (std::size_t n = 0; n < velocity_.size(); ++n) {
-      const NodeId node = static_cast<NodeId>(n);
-      if (placed[at(hang.find(node))] || std::isnan(network_.node(static_cast<NodeId>(n)).position) == given) continue;
+    for (NodeId node = 0; at(node) < velocity_.size(); ++node) {
+      if (std::isnan(network_.node(node).position) == given || !free.free(node)) continue;
       fix(node);
       open.push_back(network_.node_name(node));
     }

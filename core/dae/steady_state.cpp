@@ -1,6 +1,7 @@
 #include "core/dae/steady_state.hpp"
 
 #include "core/base/numerics.hpp"
+#include "core/dae/free_motions.hpp"
 #include "core/dae/pair_start.hpp"
 #include "core/dae/steady_state_solver.hpp"
 
@@ -16,8 +17,10 @@ SteadyStateSolver::SteadyStateSolver(const Network& network, const Structure& cl
       velocity_(classified.kind.size(), 0),
       load_(velocity_),
       load_magnitude_(velocity_),
-      broken_(network.sliders.size(), 0) {
-  result_.modes.slider.assign(network.sliders.size(), Modes::stuck);
+      broken_(network.sliders.size(), 0),
+      trials_(network, begin.state.train_force),
+      locks_trains_(std::any_of(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); })) {
+  result_.modes = {std::vector<signed char>(network.sliders.size(), Modes::stuck), std::vector<char>(network.trains.size(), 0)};
   result_.slider_force.assign(network.sliders.size(), 0);
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
@@ -39,6 +42,10 @@ SteadyStart SteadyStateSolver::go() {
   if (resting_) refuse_motion();
   note_what_gave_way();
   follow_pairs(network_, state_);
+  for (std::size_t k = 0; k < network_.trains.size(); ++k) {
+    const Network::Train& train = network_.trains[k];
+    if (train.loss) result_.modes.b_drives[k] = train.loss->b_drives(result_.modes.slider[at(train.friction)], state_.train_force[k]);
+  }
   return std::move(result_);
 }
 
@@ -119,37 +126,37 @@ void SteadyStateSolver::report_stretching(NodeId first, NodeId last, const std::
       network_.node_name(last), with_unit(network_.node(last), velocity_[at(last)], Quantity::velocity)));
 }
 
-/// Nodes that nothing joins to a prescribed motion or to ground keep the velocity of their centre of mass.
+/// Nodes that nothing joins to a prescribed motion or to ground keep their momentum.
 void SteadyStateSolver::hold_what_is_free() {
   DisjointSets sets(velocity_.size());
   for (const Branch& b : network_.deflections) sets.join(b.a, b.b);
   for (const Branch& b : network_.rates) sets.join(b.a, b.b);
   for (const Network::Slider& s : network_.sliders) sets.join(s.branch.a, s.branch.b);
-  std::vector<char> held(velocity_.size(), 0);
-  for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    if (known(static_cast<NodeId>(n))) held[at(sets.find(static_cast<NodeId>(n)))] = 1;
+  FreeMotions free(network_, sets);
+  std::vector<std::vector<NodeId>> members(velocity_.size());
+  for (NodeId node = 0; at(node) < velocity_.size(); ++node) {
+    if (known(node)) free.place(node);
+    members[at(sets.find(node))].push_back(node);
   }
-  std::vector<double> load(velocity_.size(), 0), magnitude(load), momentum(load), mass(load);
-  for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    const std::size_t set = at(sets.find(static_cast<NodeId>(n)));
-    load[set] += load_[n];
-    magnitude[set] += load_magnitude_[n];
-    mass[set] += structure_.own_mass[n];
-    momentum[set] += structure_.own_mass[n] * state_.velocity[n];
-  }
-  for (std::size_t n = 0; n < velocity_.size(); ++n) {
-    if (held[n] || sets.find(static_cast<NodeId>(n)) != static_cast<NodeId>(n)) continue;
-    if (std::abs(load[n]) > numerics::balance_roundoff * magnitude[n]) {
-      std::vector<NodeId> nodes;
-      for (std::size_t m = 0; m < velocity_.size(); ++m) {
-        if (at(sets.find(static_cast<NodeId>(m))) == n) nodes.push_back(static_cast<NodeId>(m));
+  for (NodeId node = 0; at(node) < velocity_.size(); ++node) {
+    if (!free.free(node)) continue;
+    double load = 0, magnitude = 0, momentum = 0, mass = 0;
+    std::vector<NodeId> nodes;
+    for (const auto& [set, by] : free.motion(node)) {
+      for (const NodeId n : members[at(set)]) {
+        load += by * load_[at(n)];
+        magnitude += std::abs(by) * load_magnitude_[at(n)];
+        mass += by * by * structure_.own_mass[at(n)];
+        momentum += by * structure_.own_mass[at(n)] * state_.velocity[at(n)];
+        if (by != 0) nodes.push_back(n);
       }
-      report_acceleration(nodes);
     }
-    pinned_.push_back(static_cast<NodeId>(n));
-    if (!resting_ && mass[n] > 0) velocity_[n] = momentum[n] / mass[n];
+    if (std::abs(load) > numerics::balance_roundoff * magnitude) report_acceleration(nodes);
+    free.place(node);
+    pinned_.push_back(node);
+    if (!resting_ && mass > 0) velocity_[at(node)] = momentum / mass;
     note(fmt::format("nothing joins node `{}` to ground or to a motion: it moves at {}",
-                     network_.node_name(static_cast<NodeId>(n)), with_unit(network_.node(static_cast<NodeId>(n)), velocity_[n], Quantity::velocity)));
+                     network_.node_name(node), with_unit(network_.node(node), velocity_[at(node)], Quantity::velocity)));
   }
 }
 

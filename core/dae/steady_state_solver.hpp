@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "core/base/numerics.hpp"
 #include "core/dae/convex.hpp"
 #include "core/dae/steady_state.hpp"
+#include "core/dae/train_force_trials.hpp"
 #include "core/network/rigid_links.hpp"
 
 namespace rheonet {
@@ -64,6 +66,7 @@ class SteadyStateSolver {
 
   /// A displacement that has a bound cannot change for ever in its direction.
   double bound(std::size_t slider, int side) const {
+    if (locks_trains_ && network_.sliders[slider].train >= 0) return std::numeric_limits<double>::infinity();
     const std::optional<Contact>& contact = network_.sliders[slider].contact;
     const Bounds& bounds = (contact ? contact->at(side) : inputs_.box(slider)).at(side);
     return broken_[slider] ? bounds.sliding.value : bounds.breakaway.value;
@@ -92,20 +95,26 @@ class SteadyStateSolver {
   // steady_velocities.cpp
   void lead(DisjointSets& sets);
   bool find_velocities();
+  bool agree(TrainForceTrials& trials);
+  void refuse_torn_trains() const;
   bool break_away(const std::vector<int>& direction);
   ConvexNetwork velocity_problem() const;
+  template <class Slot>
+  void add_trains(ConvexNetwork& problem, Slot slot_of) const {
+    for (const Network::Train& train : network_.trains) problem.tie({slot_of(train.node[0]), slot_of(train.node[1]), slot_of(train.node[2])}, train.factor, 0);
+  }
   void add_rates(ConvexNetwork& problem, double scale) const;
   double natural_speed(double force) const;
   void solve(ConvexNetwork& problem, double far) const;
   void take_velocities(const ConvexNetwork& problem);
-  void refine_velocities(double scale);
+  bool refine_velocities(double scale, TrainForceTrials& trials);
   void refuse_motion() const;
 
   // steady_positions.cpp
   struct Forces;
   Forces forces_at_start();
   bool find_positions();
-  ConvexNetwork position_problem(const Forces& forces, std::vector<int>& slider_branch);
+  ConvexNetwork position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch);
   void take_positions(const ConvexNetwork& problem);
   std::vector<std::string> fix_positions(ConvexNetwork& problem, DisjointSets& hang) const;
   // steady_contacts.cpp
@@ -128,6 +137,8 @@ class SteadyStateSolver {
   std::vector<int> slip_;         ///< of each slider: its direction
   std::vector<double> pressed_;   ///< of each slider with a gauge: estimate of its force [N]
   double contact_stiffness_ = 0;  ///< of these estimates [N/m]
+  TrainForceTrials trials_;  ///< for the balance at the velocities
+  bool locks_trains_;        ///< trains with losses stand still
   SteadyStart result_;
 };
 

@@ -19,7 +19,8 @@ void SteadyStateSolver::lead(DisjointSets& sets) {
 }
 
 /// Finds the velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
-/// accelerates. False if sliders have broken away under more than their sliding force.
+/// accelerates. False if sliders have broken away under more than their sliding force, or if losses of trains have new bounds. As the
+/// first of these depend on forces that are not known yet, gears with losses stand still at first.
 bool SteadyStateSolver::find_velocities() {
   DisjointSets rigid(velocity_.size());
   for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
@@ -54,6 +55,14 @@ bool SteadyStateSolver::find_velocities() {
   add_rates(problem, scale);
   solve(problem, numerics::unresisted_speed * natural_speed(scale));
 
+  state_.train_force = problem.forces_of_equations();
+  if (locks_trains_) {
+    locks_trains_ = false;
+    trials_ = TrainForceTrials(network_, state_.train_force);
+    inputs_.transmit(state_.train_force);
+    return false;
+  }
+  if (!agree(trials_)) return false;
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     slip_[k] = slider_branch[k] < 0 ? 0 : problem.direction(slider_branch[k]);
@@ -63,13 +72,24 @@ bool SteadyStateSolver::find_velocities() {
     laws_[j].direction = laws_[j].steady.rest > 0 && law_branch[j] >= 0 ? problem.direction(law_branch[j]) : 0;
   }
   take_velocities(problem);
-  refine_velocities(scale);
+  TrainForceTrials trials(network_, state_.train_force);
+  while (!refine_velocities(scale, trials)) {
+  }
+  refuse_torn_trains();
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const double w = difference(network_.deflections[j]);
     if (laws_[j].steady.rest == 0) laws_[j].direction = w > 0 ? 1 : w < 0 ? -1 : 0;
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) result_.modes.slider[k] = static_cast<signed char>(slip_[k]);
   return true;
+}
+
+/// True if the forces of the trains are those that the bounds of their losses were found from. If not, there are new bounds.
+bool SteadyStateSolver::agree(TrainForceTrials& trials) {
+  if (trials.agree(state_.train_force)) return true;
+  if (trials.endless()) report_undecided(network_, kind() + ":");
+  inputs_.transmit(trials.trial());
+  return false;
 }
 
 /// True if any of the sliders that move in these directions had held more than its sliding force until now.
@@ -94,6 +114,7 @@ ConvexNetwork SteadyStateSolver::velocity_problem() const {
     }
     if (load_[n] != 0) problem.load(leader(node), load_[n]);
   }
+  add_trains(problem, [&](NodeId node) { return leader(node); });
   return problem;
 }
 
@@ -142,8 +163,8 @@ void SteadyStateSolver::take_velocities(const ConvexNetwork& problem) {
 }
 
 /// Solves once more, with sticking elements rigid and slipping ones as forces: this removes the effect of regularising slopes.
-/// Velocities that are undetermined without these slopes stay as they are.
-void SteadyStateSolver::refine_velocities(double scale) {
+/// Velocities that are undetermined without these slopes stay as they are. False if losses of trains have new bounds.
+bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials) {
   DisjointSets joined(velocity_.size());
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     if (laws_[j].elastic()) joined.join(network_.deflections[j].a, network_.deflections[j].b);
@@ -174,7 +195,25 @@ void SteadyStateSolver::refine_velocities(double scale) {
     if (slip_[k] != 0) push(network_.sliders[k].branch, slip_[k] * inputs_.box(k).at(slip_[k]).sliding.value);
   }
   add_rates(problem, scale);
-  if (problem.solve() == ConvexNetwork::Outcome::solved) take_velocities(problem);
+  if (problem.solve() != ConvexNetwork::Outcome::solved) return true;
+  take_velocities(problem);
+  state_.train_force = problem.forces_of_equations();
+  return agree(trials);
+}
+
+/// Refuses trains whose ends springs or motions hold at velocities that do not fit.
+void SteadyStateSolver::refuse_torn_trains() const {
+  for (const Network::Train& train : network_.trains) {
+    double sum = 0, size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sum += train.factor[i] * velocity_[at(train.node[i])];
+      size += std::abs(train.factor[i] * velocity_[at(train.node[i])]);
+    }
+    if (std::abs(sum) <= numerics::equal_given_values * size) continue;
+    throw SimulationError(network_.spot_of(train.element), fmt::format(
+        "{}: prescribed motions, and springs between them, hold the nodes of transmission `{}` at velocities that do not fit its ratio, and would "
+        "stretch for ever", kind(), network_.scene->elements[at(train.element)].name));
+  }
 }
 
 void SteadyStateSolver::refuse_motion() const {

@@ -331,16 +331,6 @@ void refuse_falling_friction(const Network& network) {
 
 }  // namespace
 
-/// A balance of forces at rest or in steady motion does not know of trains yet.
-void refuse_balanced_start_of_trains(const Network& network) {
-  if (network.trains.empty() || network.scene->start_from == Scene::StartFrom::given) return;
-  const int element = network.trains.front().element;
-  throw SimulationError(network.spot_of(element),
-                        fmt::format("with transmission `{}`, which has losses, a support that moves, or a loop with other elements, a start from rest or in steady "
-                                    "motion is not available; start from given values, and give it time to settle",
-                                    network.scene->elements[static_cast<std::size_t>(element)].name));
-}
-
 Network build_network(const Scene& scene) {
   Network network;
   network.scene = &scene;
@@ -389,7 +379,6 @@ Network build_network(const Scene& scene) {
   feed_sources(network);
   network.blocks = find_blocks(network);
   refuse_inerters_at_blocks(network);
-  refuse_balanced_start_of_trains(network);
   refuse_falling_friction(network);
   for (std::size_t n = 0; n < network.nodes(); ++n) name_node(static_cast<NodeId>(n));
   return network;

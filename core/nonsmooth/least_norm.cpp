@@ -133,7 +133,6 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
   const Eigen::VectorXd loads = Eigen::Map<const Eigen::VectorXd>(load.data(), static_cast<Eigen::Index>(load.size()));
   Eigen::VectorXd x = Eigen::VectorXd::Zero(balance.cols());
   std::vector<Eigen::Index> open(low.size());
-  constexpr Eigen::Index decided = -1;
   std::iota(open.begin(), open.end(), 0);
   while (!open.empty()) {
     LeastNorm rest{balance(Eigen::all, open), {}, {}};
@@ -162,9 +161,9 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
     for (const auto& [place, side, width] : worst) {
       Eigen::Index& k = open[static_cast<std::size_t>(place)];
       x[k] = (1 + share) * (side > 0 ? rest.low : rest.high)[static_cast<std::size_t>(place)];
-      k = decided;
+      k = -1;
     }
-    std::erase(open, decided);
+    std::erase(open, -1);
   }
   force.assign(x.begin(), x.end());
   const Eigen::VectorXd size = balance.cwiseAbs() * x.cwiseAbs() + loads.cwiseAbs();

@@ -393,7 +393,4 @@ TEST_CASE("trains: what cannot be is refused by name") {
         "transmission `q` is too many: the motion of its nodes follows from `p` already: it could only repeat or contradict that; leave it out");
   CHECK(message(p + Js + Jc + "m = { type = \"motion\", at = \"r\", position = { step = \"0.1 rad\", time = 0.5 } }\n") ==
         "at t = 0.5 s a step in position turns transmission `p` in no time, which takes a force beyond any bound; give the step a time to rise in");
-  CHECK(refusal("domain = \"rotation\"\n[elements]\n" + p + Js + Jc + "[simulate]\nstart_from = \"rest\"\nstop = 1\n") ==
-        "with transmission `p`, which has losses, a support that moves, or a loop with other elements, a start from rest or in steady motion is not available; start "
-        "from given values, and give it time to settle");
 }

@@ -1,0 +1,39 @@
+#include "core/dae/train_force_trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
+
+namespace rheonet {
+
+TrainForceTrials::TrainForceTrials(const Network& network, const std::vector<double>& first)
+    : network_(&network), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))) {}
+
+bool TrainForceTrials::agree(const std::vector<double>& found) {
+  Eigen::VectorXd miss = Eigen::VectorXd::Zero(trial_.size());
+  double size = 0;
+  for (Eigen::Index k = 0; k < trial_.size(); ++k) {
+    const std::optional<Loss>& loss = network_->trains[static_cast<std::size_t>(k)].loss;
+    const double force = found[static_cast<std::size_t>(k)];
+    if (!loss) continue;
+    miss[k] = force - trial_[k];
+    size = std::max({size, std::abs(force), std::abs(trial_[k]), loss->lost(1, force), loss->lost(-1, force)});
+  }
+  if (miss.lpNorm<Eigen::Infinity>() <= numerics::balance_roundoff * size) return true;
+  Eigen::VectorXd next = trial_ + miss;
+  if (count_++ > 0) {
+    const Eigen::VectorXd turn = miss - miss_before_;
+    const double share = turn.squaredNorm() > 0 ? turn.dot(miss) / turn.squaredNorm() : 0;
+    next -= share * (trial_ - before_ + turn);
+  }
+  before_ = std::exchange(trial_, std::move(next));
+  miss_before_ = std::move(miss);
+  return false;
+}
+
+bool TrainForceTrials::endless() const { return count_ > numerics::loss_trials; }
+
+}  // namespace rheonet

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/network/network.hpp"
+
+namespace rheonet {
+
+/// Trial forces of the trains. The bounds of losses depend on the forces of their trains, which follow from a balance of forces within
+/// these bounds: the balance is solved again until both agree. Each is a piecewise linear function of the other, so that a secant
+/// through two trials (D. G. Anderson, Journal of the ACM 12 (1965) 547) meets them.
+class TrainForceTrials {
+ public:
+  TrainForceTrials(const Network& network, const std::vector<double>& first);
+
+  /// Of each train [N].
+  std::vector<double> trial() const { return {trial_.begin(), trial_.end()}; }
+  /// Takes the forces that a balance with this trial has. True if both agree to round-off; otherwise `trial` is the next one.
+  bool agree(const std::vector<double>& found);
+  /// True after so many trials that the forces will not agree.
+  bool endless() const;
+
+ private:
+  const Network* network_;
+  int count_ = 0;
+  Eigen::VectorXd trial_, before_, miss_before_;
+};
+
+}  // namespace rheonet
