@@ -49,6 +49,8 @@ class ConvexNetwork {
   void tie(const std::array<int, 3>& nodes, const std::array<double, 3>& factors, double given);
   /// The force of each equation, in the order of `tie`, after `solve`.
   std::vector<double> forces_of_equations() const;
+  /// Equations whose nodes sticking branches hold, each within its cluster: their forces are open.
+  std::vector<std::size_t> locked_equations() const;
   /// A guess that only saves time: this branch, whose law jumps, slipped to this side before.
   void was_apart(int branch, int side) { branches_[at(branch)].before = side; }
 
@@ -101,7 +103,6 @@ class ConvexNetwork {
   bool restrained(std::size_t node) const { return fixed_[node] || inertia_[node] > 0 || (tied_[node] && any_inertia_); }
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
-  std::vector<std::size_t> locked_equations() const;
   void share_with_locked_equations(const std::vector<Conductance>& bonds, const std::vector<int>& row, Eigen::VectorXd& phi);
   void meet_equations();
   /// A force without a bound holds a branch, or ends a motion to the side of w that the law forbids.

@@ -117,7 +117,6 @@ bool ConvexNetwork::step_within_equations(const std::vector<Conductance>& slopes
   return true;
 }
 
-/// Equations whose nodes sticking branches hold, each within its cluster: their forces are open.
 std::vector<std::size_t> ConvexNetwork::locked_equations() const {
   std::vector<std::size_t> result;
   for (std::size_t e = 0; e < equations_.size(); ++e) {

@@ -96,7 +96,7 @@ bool SteadyStateSolver::find_positions() {
     open = fix_positions(problem, forces.hang);
     solve(problem, std::numeric_limits<double>::infinity());
     again = n < numerics::contact_iterations && press_contacts(problem, slider_branch);
-    state_.train_force = problem.forces_of_equations();
+    take_train_forces(problem, trials);
     again = !agree(trials) || again;
   }
   std::vector<int> slid(slip_.size(), 0), direction = slip_;
@@ -111,7 +111,7 @@ bool SteadyStateSolver::find_positions() {
     fix_positions(refined, forces.hang);
     if (refined.solve() != ConvexNetwork::Outcome::solved) break;
     problem = std::move(refined);
-    state_.train_force = problem.forces_of_equations();
+    take_train_forces(problem, trials);
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (direction[k] == 0) result_.slider_force[k] = problem.force(slider_branch[k]);
@@ -126,6 +126,13 @@ bool SteadyStateSolver::find_positions() {
                      open.size() > 1 ? "are" : "is", open.size() > 1 ? "they start" : "it starts"));
   }
   return true;
+}
+
+/// Where the force of a train is open, as sticking sliders hold its nodes, the bounds of its losses stay those that let them hold.
+void SteadyStateSolver::take_train_forces(const ConvexNetwork& problem, const TrainForceTrials& trials) {
+  state_.train_force = problem.forces_of_equations();
+  const std::vector<double> trial = trials.trial();
+  for (const std::size_t k : problem.locked_equations()) state_.train_force[k] = trial[k];
 }
 
 void SteadyStateSolver::take_positions(const ConvexNetwork& problem) {

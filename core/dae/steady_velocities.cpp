@@ -55,13 +55,14 @@ bool SteadyStateSolver::find_velocities() {
   add_rates(problem, scale);
   solve(problem, numerics::unresisted_speed * natural_speed(scale));
 
-  state_.train_force = problem.forces_of_equations();
   if (locks_trains_) {
     locks_trains_ = false;
+    state_.train_force = problem.forces_of_equations();
     trials_ = TrainForceTrials(network_, state_.train_force);
     inputs_.transmit(state_.train_force);
     return false;
   }
+  take_train_forces(problem, trials_);
   if (!agree(trials_)) return false;
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
@@ -197,7 +198,7 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
   add_rates(problem, scale);
   if (problem.solve() != ConvexNetwork::Outcome::solved) return true;
   take_velocities(problem);
-  state_.train_force = problem.forces_of_equations();
+  take_train_forces(problem, trials);
   return agree(trials);
 }
 
