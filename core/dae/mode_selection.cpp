@@ -245,7 +245,7 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
     const double limit = bound(k, side);
     const bool at_bound = std::isfinite(limit) && std::abs(std::abs(force) - limit) <= numerics::balance_roundoff * limit;
     const bool fired = contains(selection.fired->sliders, static_cast<int>(k));
-    if (selection.modes->slider[k] == Modes::stuck && !stepped_ && (at_bound || fired)) {
+    if (selection.modes->slider[k] == Modes::stuck && (at_bound || (fired && !stepped_))) {
       (side > 0 ? law.high : law.low) = side > 0 ? forward : -backward;
     } else if (came_to_rest_[k] != 0 && (massless(b.a) || massless(b.b))) {
       // How the velocity of a massless node continues, this first-order problem does not see: the event decides.

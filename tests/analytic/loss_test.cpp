@@ -76,7 +76,7 @@ TEST_CASE("losses: a self-locking gear holds its load, one that is just not lets
 TEST_CASE("losses: friction of the bearings alone is a slider between the gear and its support") {
   std::mt19937 random(3);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-  for (int n = 0; n < 300; ++n) {
+  for (int n = 0; n < 30; ++n) {
     const double i = between(-3, 3), bearing = between(0.1, 1.5), c = between(0.1, 1), k = between(1, 30);
     const std::string around = fmt::format(R"~(
 domain = "rotation"
@@ -148,7 +148,7 @@ TEST_CASE("losses: a gear goes through all its modes as an independent integrati
 TEST_CASE("losses: a support that a motion holds still is ground, and the energy account closes") {
   std::mt19937 random(5);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
-  for (int n = 0; n < 200; ++n) {
+  for (int n = 0; n < 20; ++n) {
     const std::string around = fmt::format(R"~(
 domain = "rotation"
 [elements]
