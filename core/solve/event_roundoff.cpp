@@ -109,8 +109,8 @@ Tolerances::Loads Tolerances::find_loads(const Dae::View& view) const {
 
 /// Finds the round-off of all unknowns. Forces F in balance and equal velocities V leave a velocity eps (V + F/sqrt(k m)) at
 /// a mass and eps (V + F/B) at a node that dashpots hold. They leave a deflection eps F/k, and the integral of eps V until it
-/// has crept away. Otherwise steps would resolve the round-off of a network in equilibrium. In a run that is short beside the period
-/// of a mass on a soft spring, the inertia m/T^2 holds more than the spring: a force F moves the mass by no more than about F T^2/m.
+/// has crept away. Otherwise steps would resolve the round-off of a network in equilibrium. A mass on a spring so soft, or a dashpot
+/// so thin, that the run ends long before it would come to an equilibrium moves as if it were free: round-off leaves nothing there.
 void Tolerances::find_rounding(const Dae::View& view) {
   constexpr double eps = numerics::balanced_force_ulps * std::numeric_limits<double>::epsilon();
   const Structure& structure = dae_->structure();
@@ -118,15 +118,16 @@ void Tolerances::find_rounding(const Dae::View& view) {
   const auto known = [&](NodeId node) { return structure.kind[at(node)] == Kind::known; };
   const double time = network_.scene->stop - network_.scene->start;
   const auto mobility = [&](NodeId node) { return known(node) ? 0 : time * time / structure.inertia[at(node)]; };  // m/N
+  const auto settled = [](double way) { return way < 1 ? way * way : 1; };  // way: towards the equilibrium within the run
   plain_rounding_.assign(structure.kind.size(), 0);
   for (std::size_t i = 0; i < quantity_.size(); ++i) {
     const auto [sort, k] = quantity_[i];
     rounding_[i] = 0;
     drift_[i] = {};
     if (sort == Sort::velocity) {
-      const double m = structure.inertia[k], impedance = std::sqrt(m * (loads.stiffness[k] + m / (time * time))) + loads.damping[k];
+      const double m = structure.inertia[k], impedance = std::sqrt(m * loads.stiffness[k]) + loads.damping[k];
       const std::size_t part = at(part_[k]);
-      rounding_[i] = eps * (loads.speed[part] + (impedance > 0 ? loads.force[part] / impedance : 0));
+      rounding_[i] = eps * (loads.speed[part] + (impedance > 0 ? settled(impedance * time / m) * loads.force[part] / impedance : 0));
       plain_rounding_[part] = std::max(plain_rounding_[part], rounding_[i]);
     } else if (sort == Sort::deflection) {
       const Branch& b = structure.deflections[k];
@@ -134,10 +135,10 @@ void Tolerances::find_rounding(const Dae::View& view) {
       const std::size_t part = at(part_of(b));
       const double f = std::abs(loads.f[k]), df = std::abs(loads.df[k]), dc = std::abs(loads.dc[k]);
       // Friction at its bound has hardly any slope: its secant then limits its deflection.
-      const double slope = std::max(df, view.p[k] != 0 ? f / std::abs(view.p[k]) : 0), inertia = alone ? 0 : 1 / (mobility(b.a) + mobility(b.b));
+      const double slope = std::max(df, view.p[k] != 0 ? f / std::abs(view.p[k]) : 0);
       const bool in_balance = structure.group[at(b.a)] >= 0 || structure.group[at(b.b)] >= 0;
       const double share = in_balance ? numerics::restart_balance_terms * numerics::equation_roundoff : eps;
-      if (df != 0) rounding_[i] += share * (alone ? f : loads.force[part]) / (slope + inertia);
+      if (df != 0) rounding_[i] += share * (alone ? f : settled(slope * (mobility(b.a) + mobility(b.b))) * loads.force[part]) / slope;
       drift_[i] = {eps * (alone ? speed_at(view, b) : loads.speed[part]), dc != 0 ? 1 / dc : std::numeric_limits<double>::infinity()};
     } else if (sort == Sort::force) {
       rounding_[i] = eps * loads.force[at(part_of(structure.rates[k]))];
