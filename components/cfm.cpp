@@ -152,6 +152,10 @@ struct Cfm : SolidFriction {
 bool vanishes(std::span<const double> v) { return v[0] == 0 || v[1] == 0 || v[2] == 0; }
 
 std::optional<Misfit> start_that_can_be(std::span<const double> v) {
+  if (std::isnan(v[0]) || std::isnan(v[1]) || std::isnan(v[2])) {
+    if (const auto wrong = misfit_of_exponent(v[3])) return wrong;
+    return misfit_of_varying({{"stiffness", v[0]}, {"coulomb", v[1]}, {"damping", v[2]}}, v[0], v[4]);
+  }
   if (std::isinf(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]) && v[1] > 0 && v[2] > 0) {
     return Misfit{"stiffness", "= inf needs `damping` or `coulomb` infinite too; with both finite it is a dashpot in series "
                                "with a slider: wire these"};
@@ -166,11 +170,11 @@ const RegisterComponent register_cfm({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma",
                      .description = "slope df/dd at f = 0 (rest stiffness); 0 means no force"},
-                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .symbol = "Fc",
+                    {.name = "coulomb", .quantity = Quantity::force, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "Fc",
                      .description = "largest force, reached above the velocity Fc/B; 0 means no force"},
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .symbol = "B",
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "B",
                      .description = "force per velocity in slow steady motion; 0 means no force"},
                     {.name = "exponent", .quantity = Quantity::number, .fallback = 1.0, .lower = 0, .lower_open = false,
                      .upper = 100, .symbol = "i", .description = "shape of the loop, as for `sfm`"},
@@ -189,7 +193,8 @@ const RegisterComponent register_cfm({
             .equation = R"(\frac{\mathrm{d}f}{\mathrm{d}t} = E\left(w - \frac{f}{B}\right),\qquad E = \sigma\left|1 - s\,\frac{f}{F_c}\right|^{i}\operatorname{sgn}\!\left(1 - s\,\frac{f}{F_c}\right),\qquad s = \operatorname{sgn} w)",
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 14-17",
             .notes = "In steady motion f = B w below Fc/B, Fc s above. Stores f^2/(2 sigma), dissipates "
-                     "f^2/B + f (w - f/B)(1 - u^i) with u = 1 - s f/Fc.",
+                     "f^2/B + f (w - f/B)(1 - u^i) with u = 1 - s f/Fc.\n"
+                     "With a parameter that varies the same holds as for `sfm`.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0, coulomb = 0 or damping = 0", .becomes = "", .applies = vanishes, .values = {}},
@@ -200,6 +205,7 @@ const RegisterComponent register_cfm({
                 .applies = [](std::span<const double> v) { return std::isinf(v[1]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[2], v[0], 0, v[4]}; }}},
     .deflection = deflection_batch<Cfm>,
+    .varying = [](std::span<const double> v) { return varying_solid_friction("w - stiffness*z/damping", v[0], v[4]); },
     .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.66 H.27 M.12 .8 H.88 V.5 H1 "
                          "M.48 .35 L.55 .39 L.45 .45 L.55 .5 L.45 .55 L.55 .6 L.48 .63",
                 .thin = "M.3 .66 L.36 .8 M.38 .66 L.44 .8 M.46 .66 L.52 .8 M.54 .66 L.6 .8 M.62 .66 L.68 .8"},

@@ -90,7 +90,7 @@ const RegisterComponent register_dashpot({
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .with_characteristic = "nonlinear dashpot",
     .rate = rate_batch<Dashpot>,
-    .varying = VaryingLaw{.becomes = "law", .force = "damping*w"},
+    .varying = [](std::span<const double>) { return VaryingLaw{.force = "damping*w"}; },
     .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.68 H.27 M.7 .5 H1", .solid = "M.47 .37 H.53 V.63 H.47 Z"},
 });
 

@@ -72,7 +72,7 @@ const RegisterComponent register_spring({
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[0]}; }}},
     .with_characteristic = "nonlinear spring",
     .deflection = deflection_batch<Spring>,
-    .varying = VaryingLaw{.becomes = "law", .force = "stiffness*(d - rest)", .stored = "stiffness*(d - rest)^2/2"},
+    .varying = [](std::span<const double>) { return VaryingLaw{.force = "stiffness*(d - rest)", .stored = "stiffness*(d - rest)^2/2", .lossless = true}; },
     .spring = linear,
     .drawing = {.lines = "M0 .5 H.14 L.19 .34 L.29 .66 L.39 .34 L.49 .66 L.59 .34 L.69 .66 L.79 .34 L.84 .5 H1"},
 });

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/netlist/scene.hpp"
@@ -18,6 +21,32 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline std::optional<Misfit> beyond_bound(double f0, double Fc) {
   if (std::isnan(f0) || std::abs(f0) <= Fc) return {};
   return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
+}
+
+/// What cannot be where signals give some of these parameters: the others infinite, or a start force f0 [N] without a constant stiffness
+/// sigma [N/m].
+inline std::optional<Misfit> misfit_of_varying(std::initializer_list<std::pair<const char*, double>> parameters, double sigma, double f0) {
+  for (const auto& [name, value] : parameters) {
+    if (std::isinf(value)) return Misfit{name, "must be finite where another parameter varies"};
+  }
+  if (std::isnan(sigma) && !std::isnan(f0) && f0 != 0) return Misfit{"f0", "needs a constant `stiffness`: with one that varies the element starts without force"};
+  return {};
+}
+
+/// Deflection at the start of a law with parameters that vary [m].
+inline double start_of_varying(double sigma, double f0) { return std::isnan(sigma) || std::isnan(f0) ? 0 : f0 / sigma; }
+
+/// Solid friction with parameters that vary, where the deflection z changes with the velocity `rate`: z' = u^i rate.
+inline VaryingLaw varying_solid_friction(const std::string& rate, double sigma, double f0) {
+  const std::string u = "(1 - sign(w)*stiffness*z/coulomb)";
+  return {.force = "stiffness*z", .stored = "stiffness*z^2/2",
+          .states = {{"z", "sign(" + u + ")*abs(" + u + ")^exponent*(" + rate + ")", start_of_varying(sigma, f0)}}};
+}
+
+/// Below 1 the bound is reached in finite time, as an event of a law whose bound is constant.
+inline std::optional<Misfit> misfit_of_exponent(double exponent) {
+  if (exponent >= 1) return {};
+  return Misfit{"exponent", "must be at least 1 where another parameter varies"};
 }
 
 /// Values of a `spring` of stiffness sigma [N/m] that starts with the force f0 [N; NaN: 0].

@@ -1,5 +1,9 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
+#include <string>
+#include <tuple>
 
 #include "core/base/numerics.hpp"
 #include "core/netlist/scene.hpp"
@@ -134,9 +138,26 @@ std::optional<MotionExpression> contact_damping(std::span<const double> v) {
   return MotionExpression{(both ? above + below : std::isnan(v[0]) ? above : below) + "0", names, -1};
 }
 
+// With parameters that vary: the same force, of spring and damping together.
+VaryingLaw varying_stop(std::span<const double> v) {
+  std::string force, stored;
+  for (const auto& [bound, there, outside] : {std::tuple{"upper", !std::isnan(v[1]), "d > upper"}, std::tuple{"lower", !std::isnan(v[0]), "d < lower"}}) {
+    if (!there) continue;
+    const std::string spring = fmt::format("stiffness*(d - {})", bound);
+    const std::string damping = v[3] == 0 ? "" : fmt::format(" + max(-abs({0}), min(abs({0}), damping*w))", spring);
+    force += fmt::format("{} ? {}{} : ", outside, spring, damping);
+    stored += fmt::format("{} ? {}*(d - {})/2 : ", outside, spring, bound);
+  }
+  return {.force = force + "0", .stored = stored + "0", .lossless = v[3] == 0};
+}
+
 std::optional<Misfit> without_room(std::span<const double> v) {
   if (std::isnan(v[0]) && std::isnan(v[1])) return Misfit{"lower", "and `upper` are both missing: give one of them, or both"};
   if (v[1] < v[0]) return Misfit{"upper", "is less than `lower`"};
+  if (std::isinf(v[2]) && std::isnan(v[3])) return Misfit{"damping", "is that of an elastic stop: a rigid one, with `stiffness = \"inf\"`, has a `restitution`"};
+  if (std::isnan(v[2]) || std::isnan(v[3])) {
+    if (!std::isnan(v[5])) return Misfit{"d0", "needs a constant `stiffness` and `damping`: start from the positions of the nodes"};
+  }
   if (std::isinf(v[2]) && v[3] > 0) return Misfit{"damping", "is that of an elastic stop: a rigid one, with `stiffness = \"inf\"`, has a `restitution`"};
   if (!std::isinf(v[2]) && v[4] > 0) return Misfit{"restitution", "is that of a rigid stop, with `stiffness = \"inf\"`: an elastic one has a `damping`"};
   return {};
@@ -153,9 +174,9 @@ const RegisterComponent register_stop({
                      .description = "smallest displacement without contact; absent: no stop on this side"},
                     {.name = "upper", .quantity = Quantity::position, .lower = -unbounded, .optional = true, .turned = "lower", .symbol = "d2",
                      .description = "largest displacement without contact; absent: no stop on this side"},
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "k",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "k",
                      .description = "force per displacement beyond a bound; 0 means no stop, inf a rigid one"},
-                    {.name = "damping", .quantity = Quantity::damping, .fallback = 0.0, .lower_open = false, .symbol = "c",
+                    {.name = "damping", .quantity = Quantity::damping, .fallback = 0.0, .lower_open = false, .may_vary = true, .from_block = true, .symbol = "c",
                      .description = "damping of the contact; its force is at most that of the spring, so that the contact never pulls"},
                     {.name = "restitution", .fallback = 0.0, .lower_open = false, .upper = 1, .symbol = "e",
                      .description = "of a rigid stop: velocity after an impact over that before it; 0: plastic, 1: elastic"},
@@ -168,7 +189,7 @@ const RegisterComponent register_stop({
             .law = "f = k x + c w beyond a bound by x (c w not beyond +-k x), else 0",
             .equation = R"(f = \begin{cases} k\,x + \min(\max(c\,w, -k|x|), k|x|) & \text{beyond a bound by } x \\ 0 & \text{else} \end{cases})",
             .source = "definition; with damping, the contact of Modelica.Mechanics.Translational.Components.ElastoGap",
-            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping both nodes need a mass or a prescribed motion.\n"
+            .notes = "Stores k x^2/2 beyond a bound by x, dissipates what its damping takes. With damping, or a parameter that varies, both nodes need a mass or a prescribed motion.\n"
                      "With `stiffness = \"inf\"` the displacement stays within the bounds. Between masses or prescribed motions an impact ends the approach: "
                      "w after = -e w before, with the momentum kept. It turns 1 - e^2 of the energy of the approach into heat. A node without mass just comes into contact.\n"
                      "Contacts that are hit at one time share the impulses. A first set of impulses ends the approach of all of them; then each gives back e times its own. With one e "
@@ -181,6 +202,7 @@ const RegisterComponent register_stop({
                {.when = "stiffness = inf", .becomes = "rigid stop", .applies = [](std::span<const double> v) { return std::isinf(v[2]); },
                 .values = [](std::span<const double> v) { return std::vector<double>{v[0], v[1], v[4]}; }}},
     .deflection = deflection_batch<Stop>,
+    .varying = varying_stop,
     .beside = contact_damping,
     .drawing = {.lines = "M0 .5 H.3 M.7 .5 H1 M.3 .32 V.68 M.44 .3 V.7 M.56 .3 V.7 M.7 .32 V.68", .thin = "M.3 .5 H.7"},
 });

@@ -42,8 +42,17 @@ struct Vfm : MemorylessLaw {
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }
 
 std::optional<Misfit> delay_of_a_limit(std::span<const double> v) {
+  if (std::isnan(v[0]) || std::isnan(v[1])) {
+    if (v[2] > 0) return Misfit{"delay", "needs a constant `damping` and a constant `stiffness`"};
+    return misfit_of_varying({{"damping", v[0]}, {"stiffness", v[1]}}, v[1], v[3]);
+  }
   if (v[2] == 0 || (std::isfinite(v[0]) && std::isfinite(v[1]))) return {};
   return Misfit{"delay", "needs finite `damping` and `stiffness`: neither a spring nor a dashpot can be delayed"};
+}
+
+/// The same law with parameters that vary; z is the deflection p.
+VaryingLaw varying_vfm(std::span<const double> v) {
+  return {.force = "stiffness*z", .stored = "stiffness*z^2/2", .states = {{"z", "w - stiffness*z/damping", start_of_varying(v[1], v[3])}}};
 }
 
 const RegisterComponent register_vfm({
@@ -53,9 +62,9 @@ const RegisterComponent register_vfm({
             .ports = Declaration::Ports::between,
             .parameters =
                 {
-                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .symbol = "B",
+                    {.name = "damping", .quantity = Quantity::damping, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "B",
                      .description = "force per velocity in steady motion; 0 means no force"},
-                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .symbol = "sigma",
+                    {.name = "stiffness", .quantity = Quantity::stiffness, .lower_open = false, .may_be_infinite = true, .may_vary = true, .from_block = true, .symbol = "sigma",
                      .description = "force per displacement just after a reversal (rest stiffness); 0 means no force"},
                     {.name = "delay", .quantity = Quantity::time, .fallback = 0.0, .lower_open = false, .symbol = "TD",
                      .description = "transport delay of the velocity"},
@@ -74,6 +83,8 @@ const RegisterComponent register_vfm({
             .source = "P. L. Dahl, A Viscous Friction Model, 1982, Eqs. 13, 23, 24, 62 (J. C. Maxwell 1867 by its form)",
             .notes = "Stores f^2/(2 sigma), dissipates f^2/B. The delayed velocity is 0 before the start.\n"
                      "With a delay the element is not passive: it can return energy and drive an oscillation.\n"
+                     "With a parameter that varies both nodes need a mass or a prescribed motion; the energy that a varying `stiffness` supplies counts "
+                     "as negative dissipation.\n"
                      "Next to a node with neither mass nor prescribed "
                      "motion, no step is longer than a third of the delay, so that a very short delay costs time.",
         },
@@ -89,6 +100,7 @@ const RegisterComponent register_vfm({
                 .applies = [](std::span<const double> v) { return std::isinf(v[0]); },
                 .values = [](std::span<const double> v) { return as_spring(v[1], v[3]); }}},
     .deflection = deflection_batch<Vfm>,
+    .varying = varying_vfm,
     .drawing = {.lines = "M0 .5 H.48 M.27 .32 H.7 V.68 H.27 M.7 .5 H1 "
                          "M.48 .35 L.55 .39 L.45 .45 L.55 .5 L.45 .55 L.55 .61 L.48 .65"},
 });

@@ -141,7 +141,12 @@ void BlockSignals::refuse_undefined(double since) const {
   for (std::size_t k = 0; k + 1 < block.function->variables(); ++k) {
     double u = 0;
     for (const Blocks::Input& in : block.inputs) u += in.argument == k ? in.sign * source(in).value : 0;
-    arguments.push_back(fmt::format("u{} = {:.6g}", k + 1, u));
+    arguments.push_back(fmt::format("{} = {:.6g}", block.function->variable(k), u));
+  }
+  if (network_->places[at(block.element)].role == Role::force) {
+    throw SimulationError(network_->spot_of(block.element),
+                          fmt::format("{}, the law of `{}` has no finite force, or no finite slope ({}, in SI): a parameter that it divides by may be 0",
+                                      at_time(*network_->scene, undefined_at_), network_->scene->elements[at(block.element)].name, fmt::join(arguments, ", ")));
   }
   throw SimulationError(network_->spot_of(block.element),
                         fmt::format("{}, the output `{}` of {} has no finite value, or no finite slope ({}, in SI)",

@@ -42,7 +42,7 @@ class RunTimeExpression::Compiler {
   RunTimeExpression run() {
     if (code_.error) throw *code_.error;
     result_.text_ = text_;
-    result_.variable_count_ = variables_.size();
+    for (const Variable& variable : variables_) result_.variables_.push_back(variable.name);
     result_.slots_.assign(variables_.size(), 0);
     result_.uses_.assign(variables_.size(), 0);
     carry_out(0, code_.instructions.size());

@@ -40,7 +40,7 @@ RunTimeExpression::Workspace& RunTimeExpression::start(std::span<const double> a
   work.trace.clear();
   work.ordered = true;
   std::copy(slots_.begin(), slots_.end(), work.slots.begin());
-  std::copy_n(arguments.begin(), variable_count_, work.slots.begin());
+  std::copy_n(arguments.begin(), variables_.size(), work.slots.begin());
   return work;
 }
 
@@ -198,7 +198,7 @@ void RunTimeExpression::sweep(Workspace& work, std::span<double> partials) const
     add_product(adjoint, work.of_left[*k], work.adjoints[step.left]);
     add_product(adjoint, work.of_right[*k], work.adjoints[step.right]);
   }
-  std::copy_n(work.adjoints.begin(), variable_count_, partials.begin());
+  std::copy_n(work.adjoints.begin(), variables_.size(), partials.begin());
 }
 
 namespace {
@@ -223,7 +223,7 @@ std::optional<double> RunTimeExpression::value(std::span<const double> arguments
   std::fill_n(work.adjoints.begin(), slots_.size(), 0.0);
   work.adjoints[result_] = 1;
   sweep(work, partials);
-  return if_finite(work.slots[result_], partials.first(variable_count_));
+  return if_finite(work.slots[result_], partials.first(variables_.size()));
 }
 
 bool RunTimeExpression::find_sides(std::span<const double> arguments, std::span<double> sides) const {
@@ -274,7 +274,7 @@ std::optional<double> RunTimeExpression::switching_function(std::size_t k, std::
   work.adjoints[step.left] += slope;
   if (step.arguments > 1) work.adjoints[step.right] -= slope;
   sweep(work, partials);
-  return if_finite(margin, partials.first(variable_count_));
+  return if_finite(margin, partials.first(variables_.size()));
 }
 
 }  // namespace rheonet

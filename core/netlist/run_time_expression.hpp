@@ -39,7 +39,8 @@ class RunTimeExpression final : public SwitchedFunction {
   std::string text() const override { return text_; }
   /// From now on `text` is shown in its place.
   void show_as(std::string text) { text_ = std::move(text); }
-  std::size_t variables() const override { return variable_count_; }
+  std::size_t variables() const override { return variables_.size(); }
+  std::string variable(std::size_t k) const override { return variables_[k]; }
   std::size_t switches() const override { return switch_count_; }
   /// Whether the text names the variable.
   bool uses(std::size_t variable) const override { return uses_[variable]; }
@@ -87,7 +88,8 @@ class RunTimeExpression final : public SwitchedFunction {
   std::vector<Step> steps_;
   std::vector<double> slots_;  ///< variables, constants and results; holds the constants
   std::uint32_t result_ = 0;   ///< slot
-  std::size_t variable_count_ = 0, switch_count_ = 0;
+  std::vector<std::string> variables_;
+  std::size_t switch_count_ = 0;
   std::vector<std::uint32_t> step_of_switch_;
   std::vector<char> uses_;
   Number unit_;

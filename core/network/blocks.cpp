@@ -160,24 +160,37 @@ class Finder {
     return static_cast<int>(result_.blocks.size()) - 1;
   }
 
-  /// Adds the blocks of the force, and of the stored energy, of an element with parameters that vary.
+  /// Adds the blocks of the states, of the force, and of the stored energy, of an element with parameters that vary.
   void add_varying(Network::Force& force) {
     const SceneElement& element = scene_.elements[at(force.element)];
     const std::vector<Parameter>& parameters = components()[at(element.declaration)]->declaration.parameters;
-    MotionExpression of{force.varying->force, {}};
+    const std::vector<double> values = resolved_values(scene_, element);
+    MotionExpression of;
     std::vector<std::pair<std::string, int>> varying;
     for (std::size_t k = 0; k < parameters.size(); ++k) {
       const auto& signals = element.signal_parameters;
-      if (std::find(signals.begin(), signals.end(), static_cast<int>(k)) != signals.end()) {
+      if (std::isnan(values[k]) && std::find(signals.begin(), signals.end(), static_cast<int>(k)) != signals.end()) {
         varying.emplace_back(parameters[k].name, parameter_block(force.element, static_cast<int>(k)));
-      } else if (!std::isnan(element.values[k])) {
-        of.names[parameters[k].name] = element.values[k];
+      } else if (!std::isnan(values[k])) {
+        of.names[parameters[k].name] = values[k];
       }
     }
-    force.block = add_function({force.element, force.a, force.b}, of, varying);
-    if (!force.lossless()) return;
+    const Branch branch{force.element, force.a, force.b};
+    const std::size_t first = result_.blocks.size();
+    for (const VaryingLaw::State& state : force.varying->states) {
+      varying.emplace_back(state.name, static_cast<int>(result_.blocks.size()));
+      result_.blocks.push_back({.element = force.element, .law = {.state = true, .initial = state.start}, .generates = false, .signal = {}, .inputs = {}});
+    }
+    for (std::size_t k = 0; k < force.varying->states.size(); ++k) {
+      of.expression = force.varying->states[k].rate;
+      const int rate = add_function(branch, of, varying);
+      result_.blocks[first + k].inputs.push_back({true, rate, 1});
+    }
+    of.expression = force.varying->force;
+    force.block = add_function(branch, of, varying);
+    if (force.varying->stored.empty()) return;
     of.expression = force.varying->stored;
-    force.energy = add_function({force.element, force.a, force.b}, of, varying);
+    force.energy = add_function(branch, of, varying);
   }
 
   /// Adds a block for a quantity of an element that depends on its displacement and velocity, and on the outputs of blocks by these

@@ -291,9 +291,14 @@ struct MotionExpression {
 /// A law where signals give some of its parameters, in SI: expressions over d and w, as in MotionExpression, and over the names of its
 /// parameters.
 struct VaryingLaw {
-  std::string becomes;      ///< the component that it has then, of the role `force`
+  struct State {
+    std::string name, rate;
+    double start = 0;
+  };
   std::string force;        ///< force that it resists with
-  std::string stored = {};  ///< energy that it stores, without dissipation: what changes a parameter supplies the rest of its power; "": none
+  std::string stored = {};  ///< energy that it stores: what changes a parameter supplies energy too; "": none
+  bool lossless = false;    ///< all power beyond the stored energy comes from what changes the parameters
+  std::vector<State> states = {};
 };
 
 /// Everything that the simulator knows about an element type. Each file in components/ defines and registers one.
@@ -306,7 +311,8 @@ struct Component {
   std::string with_row = {};             ///< the component that a transmission has instead if it is an equation of its own
   std::function<std::unique_ptr<DeflectionBatch>(const Values&)> deflection = {};  ///< for Role::deflection; and the gauge of a contact
   std::function<std::unique_ptr<RateBatch>(const Values&)> rate = {};              ///< for Role::rate
-  std::optional<VaryingLaw> varying = {};  ///< if signals may give parameters of a deflection or rate law
+  /// If signals may give parameters of a deflection or rate law: the law of an element with these values, NaN where a signal gives one.
+  std::function<VaryingLaw(std::span<const double>)> varying = {};
   /// For Role::slip: the box that belongs to the values of the parameters. These may vary in time (Parameter::may_vary).
   std::function<Box(std::span<const Dual>)> box = {};
   /// For Role::slip: of a law that has a force only in contact. Its gauge is a deflection law without force, whose contact

@@ -1,18 +1,40 @@
 #include "core/network/linear_law.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/index.hpp"
 #include "core/network/component.hpp"
+#include "core/network/error.hpp"
+#include "core/network/limits.hpp"
 #include "core/network/resolved.hpp"
 
 namespace rheonet {
 
+namespace {
+
+/// Without an effect an element may become another one, whose parameters cannot vary.
+void refuse_varying(const SceneElement& element, const Reduced& law) {
+  const std::vector<Parameter>& parameters = law.component->declaration.parameters;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (!std::isnan(law.values[k]) || parameters[k].kind != Parameter::Kind::value || parameters[k].optional) continue;
+    throw SimulationError(element.spot, fmt::format("without this effect `{}` would be {}, which is not available while its `{}` varies; leave out more, or make it constant",
+                                                    element.name, name_of(law), parameters[k].name));
+  }
+}
+
+}  // namespace
+
 Reduced law_of(const Scene& scene, const SceneElement& element) {
-  Reduced law = take_limits(components()[at(element.declaration)], resolved_values(scene, element));
+  const std::vector<double> values = resolved_values(scene, element);
+  Reduced law = take_limits(components()[at(element.declaration)], values);
   if (element.has_row()) return {find_component(law.component->with_row), {}};
   const Component* declared = components()[at(element.declaration)];
-  if (declared->varying && law.component == declared && !element.signals.empty()) law.component = find_component(declared->varying->becomes);
+  const bool varies = declared->varying && std::any_of(element.signal_parameters.begin(), element.signal_parameters.end(), [&](int k) { return std::isnan(values[at(k)]); });
+  if (varies && law.component == declared) law.component = find_component("law");
+  if (varies && law.component && law.component->role != Role::force) refuse_varying(element, law);
   if (law.component) law.characteristic = element.characteristic;
   if (law.characteristic && !law.component->with_characteristic.empty()) {
     law.component = find_component(law.component->with_characteristic);

@@ -12,6 +12,7 @@
 #include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/linear_law.hpp"
+#include "core/network/resolved.hpp"
 #include "core/network/rigid_links.hpp"
 #include "core/network/transmission.hpp"
 
@@ -231,7 +232,7 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::force:
       place_in(network.forces);
       if (const auto& varying = components()[static_cast<std::size_t>(element.declaration)]->varying) {
-        network.forces.push_back({.element = index, .a = ends.a, .b = ends.b, .signal = Signal(), .sign = -1, .resists = true, .varying = &*varying});
+        network.forces.push_back({.element = index, .a = ends.a, .b = ends.b, .signal = Signal(), .sign = -1, .resists = true, .varying = varying(resolved_values(scene, element))});
         break;
       }
       network.forces.push_back({index, ends.a, element.at ? -1 : ends.b, element.signals.at(0).seen_from(scene.start)});

@@ -81,8 +81,8 @@ struct Network {
     double sign = 1;
     bool resists = false;
     int energy = -1;
-    bool lossless() const { return varying && !varying->stored.empty(); }
-    const VaryingLaw* varying = nullptr;  ///< of an element with parameters that vary: its blocks are made for it
+    bool lossless() const { return varying && varying->lossless; }
+    std::optional<VaryingLaw> varying = {};  ///< of an element with parameters that vary: its blocks are made for it
     std::optional<MotionExpression> beside = {};  ///< of a force beside another law of its element: its block is made for it
   };
   /// Where an element is stored: a branch of `deflections` or `rates`, or an index into sliders, masses, inerters, trains, motions or forces.
