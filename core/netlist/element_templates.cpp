@@ -35,16 +35,21 @@ std::string wanted(const Parameter& parameter, Domain domain) {
                                                 : "a " + name_of(parameter.quantity, domain) + ", in " + unit;
 }
 
-/// Lists the parameters that are signals.
-std::string what_may_vary(Declarations declarations) {
-  std::string text;
+/// Lists the parameters of a type that may vary in time; if there are none, the types that have such parameters.
+std::string what_may_vary(const Declaration& of, Declarations declarations) {
+  const auto signals = [](const Declaration& declaration) {
+    std::vector<std::string> names;
+    for (const Parameter& p : declaration.parameters) {
+      if (p.takes_signal()) names.push_back(p.name);
+    }
+    return names;
+  };
+  if (const std::vector<std::string> own = signals(of); !own.empty()) return "what may vary in time is " + list_names(own, "and") + " of " + article(of.type);
+  std::vector<std::string> types;
   for (const Declaration* declaration : declarations) {
-    std::vector<std::string> signals;
-    for (const Parameter& p : declaration->parameters)
-      if (p.takes_signal()) signals.push_back(p.name);
-    if (!signals.empty()) text += (text.empty() ? "" : ", ") + list_names(signals, "and") + " of " + article(declaration->type);
+    if (!signals(*declaration).empty()) types.push_back(declaration->type);
   }
-  return "signals, which vary in time, are " + text;
+  return "no parameter of " + article(of.type) + " may vary in time; types with such parameters are " + list_names(types, "and");
 }
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
@@ -305,7 +310,7 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
       }
       for (std::size_t k = 0; k < 2; ++k) plan.values[i + k] = Formula(items[k], "`" + name + "`", diagnostics);
     } else if (entry->value.is_table()) {
-      diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(context_.declarations));
+      diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(declaration, context_.declarations));
     } else {
       const bool coefficient = plan.quantity_of(parameter) != parameter.quantity;
       plan.values[i] = Formula(entry->value, "`" + name + "`" + (coefficient ? " (which multiplies `" + parameter.coefficient_with + "`)" : ""), diagnostics);

@@ -118,5 +118,5 @@ TEST_CASE("varying parameters: mistakes") {
   told("{ type = \"dashpot\", between = [\"x\", \"ground\"], damping = { block = \"b\" } }", "no block is called `b`");
   told("{ type = \"dashpot\", between = [\"x\", \"y\"], damping = { step = 2 } }", "the force of `e` depends, by a parameter that varies in time, on the velocity, and node `y` has no mass",
        "m = { type = \"mass\", at = \"x\", mass = 1 }\nk = { type = \"spring\", between = [\"y\", \"ground\"], stiffness = 1 }\n");
-  told("{ type = \"vfm\", between = [\"x\", \"ground\"], stiffness = 2, damping = 1, delay = { step = 2 } }", "`damping` of a `dashpot`");
+  told("{ type = \"vfm\", between = [\"x\", \"ground\"], stiffness = 2, damping = 1, delay = { step = 2 } }", "what may vary in time is `damping` and `stiffness` of a `vfm`");
 }

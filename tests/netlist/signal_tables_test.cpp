@@ -163,7 +163,7 @@ TEST_CASE("signals: a parameter that is constant is told from those that vary") 
   CHECK(messages(result) == "scene.toml:2:61: error: `coulomb` is constant in time, but is a table\n"
                             "    2 | s = { type = \"slider\", between = [\"a\", \"ground\"], coulomb = { ramp = \"1 N/s\" } }\n"
                             "      |                                                             ^\n"
-                            "  signals, which vary in time, are `position` and `velocity` of a `motion`, `force` of a `force`\n");
+                            "  no parameter of a `slider` may vary in time; types with such parameters are `motion` and `force`\n");
 }
 
 TEST_CASE("signals: within a repeat and a model") {

@@ -47,8 +47,7 @@ TEST_CASE("sliders: what may vary, and what multiplies what") {
 TEST_CASE("sliders: messages for parameters that do not fit") {
   const std::string of_normal = "`coulomb` (which multiplies `normal`)";
   const std::string infinite = "\"inf\" is for laws that become another one there, and this one does not; a value large beside those around it comes close";
-  const std::string signals = "signals, which vary in time, are `damping` of a `dashpot`, `force` of a `force`, `signal` of a `generator`, `force` and `stores` of a `law`, `position`, `velocity` and `acceleration` of a `motion`, "
-                              "`coulomb`, `breakaway` and `normal` of a `slider`, `stiffness` of a `spring`";
+  const std::string signals = "what may vary in time is `coulomb`, `breakaway` and `normal` of a `slider`";
   const std::string from_block = "a signal comes from a block: a `gain` makes one of a quantity of the network";
   check_refused("coulomb = \"2 N\", normal = \"7 N\"", "4:62", of_normal + ": expected a number without a unit, found a force (N)");
   check_refused("coulomb = { ramp = \"2 N/s\" }, normal = \"7 N\"", "4:71",
@@ -80,10 +79,8 @@ TEST_CASE("signals for parameters that take none, and parameters of an element w
   const auto with = [](const std::string& element) {
     return refusal("[elements]\nm1 = { type = \"mass\", at = \"a\", mass = 2 }\n" + element + "\n[simulate]\nstop = 1\n");
   };
-  check_message(with("k1 = { type = \"stop\", between = [\"a\", \"ground\"], lower = 0, stiffness = { ramp = 1 } }"), "3:73",
-                "`stiffness` is constant in time, but is a table",
-                "signals, which vary in time, are `damping` of a `dashpot`, `force` of a `force`, `signal` of a `generator`, `force` and `stores` of a `law`, `position`, `velocity` and `acceleration` of a `motion`, `coulomb`, "
-                "`breakaway` and `normal` of a `slider`, `stiffness` of a `spring`");
+  check_message(with("m2 = { type = \"mass\", at = \"a\", mass = { ramp = 1 } }"), "3:40", "`mass` is constant in time, but is a table",
+                "no parameter of a `mass` may vary in time; types with such parameters are `cfm`, `dashpot`, `force`, `generator`, `law`, `motion`, `sfm`, `slider`, `spring`, `stop` and `vfm`");
   check_message(with("f1 = { type = \"freewheel\", between = [\"a\", \"ground\"], coulomb = 1 }"), "3:55", "unknown key `coulomb` of a `freewheel`",
                 "its keys are `type`, `between`, `domain` and `repeat`");
   check_message(with("f1 = { type = \"freewheel\", at = \"a\" }"), "3:28", "`f1` is between two nodes, not `at` one", "between = [\"a\", \"ground\"]");
