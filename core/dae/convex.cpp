@@ -327,7 +327,10 @@ ConvexNetwork::Outcome ConvexNetwork::solve() {
     merge();
     while (stick_where_met()) merge();  // several may come together in one step
     if (rounds_ == 0) let_prescribed_part();
-    if (rounds_ == 0) meet_equations();
+    if (rounds_ == 0) {
+      part_torn_equations();
+      meet_equations();
+    }
     bool settled = balanced(gradient) || full_steps_ >= numerics::settled_newton_steps || idle >= numerics::settled_newton_steps;
     if (!settled) {
       if (!direction_of_descent(gradient, d, false)) {

@@ -104,6 +104,8 @@ class ConvexNetwork {
   std::vector<std::vector<double>> equations_of_columns(Eigen::VectorXd& left) const;
   bool step_within_equations(const std::vector<Conductance>& slopes, Eigen::VectorXd& step);
   void share_with_locked_equations(const std::vector<Conductance>& bonds, const std::vector<int>& row, Eigen::VectorXd& phi);
+  double torn(const Equation& equation) const;
+  void part_torn_equations();
   void meet_equations();
   /// A force without a bound holds a branch, or ends a motion to the side of w that the law forbids.
   static bool forbids(const Branch& b, double w);

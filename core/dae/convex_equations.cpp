@@ -16,6 +16,7 @@ namespace {
 bool solve_with_equations(const std::vector<Conductance>& conductances, const std::vector<std::vector<double>>& rows, const Eigen::VectorXd& given,
                           Eigen::VectorXd& x, Eigen::VectorXd& forces) {
   const Eigen::Index columns = x.size(), size = columns + given.size();
+  if (size == 0) return true;
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(size);
   for (const auto& [a, b, value] : conductances) {
     for (const int i : {a, b}) {
@@ -151,6 +152,31 @@ void ConvexNetwork::share_with_locked_equations(const std::vector<Conductance>& 
     return;
   }
   for (std::size_t k = 0; k < locked.size(); ++k) equations_[locked[k]].force = forces[static_cast<Eigen::Index>(k)];
+}
+
+/// By how much an equation does not hold [m/s]; 0 if that is round-off.
+double ConvexNetwork::torn(const Equation& equation) const {
+  double sum = equation.given, size = std::abs(sum);
+  for (std::size_t i = 0; i < equation.node.size(); ++i) {
+    sum -= equation.factor[i] * change(equation.node[i]);
+    size += std::abs(equation.factor[i] * change(equation.node[i]));
+  }
+  return std::abs(sum) > numerics::torn_velocities * size ? sum : 0;
+}
+
+/// Where sticking branches hold the nodes of an equation that does not hold, those at its nodes open.
+void ConvexNetwork::part_torn_equations() {
+  bool any = false;
+  for (const std::size_t e : locked_equations()) {
+    if (torn(equations_[e]) == 0) continue;
+    for (Branch& b : branches_) {
+      const auto beside = [&](int node) { return cluster_[at(node)] == cluster_[at(b.a)]; };
+      if (!b.stuck || std::isinf(b.law.low) || std::isinf(b.law.high) || std::none_of(equations_[e].node.begin(), equations_[e].node.end(), beside)) continue;
+      b.stuck = false;
+      any = true;
+    }
+  }
+  if (any) merge();
 }
 
 /// Brings the start values to where the equations hold, by the least change that the inertias allow. Later steps keep them.

@@ -33,7 +33,7 @@ struct EventTransition::ModeSelection {
   std::vector<int> law;              // of each deflection branch: its branch of the problem; -1: delayed, hence a load
   std::vector<double> creep, at_rest;  // of each deflection branch
   std::vector<int> slider, bound_side;
-  std::vector<double> train_force;  // of each train, at the end of h: the bounds of losses depend on it
+  std::vector<double> train_force;  // of each train, at the end of h: the bounds of losses depend on it; empty: gears with losses stand still
 
   void meet(const Structure& structure, const Branch& b, double slope) {
     for (const NodeId n : {b.a, b.b}) {
@@ -88,14 +88,26 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
 
 EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
                                    const std::vector<double>& force, const Nodal& now) {
-  TrainForceTrials trials(network_, state.train_force);
-  while (true) {
-    ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, trials.trial());
-    selection.train_force = selection.problem.forces_of_equations();
-    for (std::size_t k = 0; k < selection.train_force.size(); ++k) selection.train_force[k] += state.train_force[k];
-    if (trials.agree(selection.train_force)) return selection;
-    if (trials.endless()) report_undecided(network_, at_time(*network_.scene, t));
+  double forces = 0;
+  for (const Network::Train& train : network_.trains) {
+    for (const NodeId node : train.node) forces = std::max(forces, now.magnitude[at(node)]);
   }
+  const auto forces_of_trains = [&](const ModeSelection& selection) {
+    std::vector<double> result = selection.problem.forces_of_equations();
+    for (std::size_t k = 0; k < result.size(); ++k) result[k] += state.train_force[k];
+    return result;
+  };
+  // Trials that lead nowhere begin anew where all gears with losses stand still: self-locking may hold them.
+  for (const bool locked : {false, true}) {
+    const std::vector<double> first = locked ? forces_of_trains(look_ahead(t, h, fired, state, modes, force, now, {})) : state.train_force;
+    TrainForceTrials trials(network_, first, forces);
+    while (!trials.endless()) {
+      ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, trials.trial());
+      selection.train_force = forces_of_trains(selection);
+      if (trials.agree(selection.train_force)) return selection;
+    }
+  }
+  report_losses(network_, at_time(*network_.scene, t));
 }
 
 EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, const Fired& fired, const State& state, const Modes& modes,
@@ -234,8 +246,13 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     const double force = (*selection.force)[k];
+    const int train = network_.sliders[k].train;
+    if (train >= 0 && selection.train_force.empty()) {
+      constexpr double unlimited = std::numeric_limits<double>::infinity();
+      selection.slider[k] = selection.problem.add(slot(b.a), slot(b.b), {.low = -unlimited, .high = unlimited});
+      continue;
+    }
     const auto change = [&](int side) {
-      const int train = network_.sliders[k].train;
       return train < 0 ? selection.h * bound_rate(k, side) : network_.trains[at(train)].loss->lost(side, selection.train_force[at(train)]) - bound(k, side);
     };
     const double forward = change(1), backward = change(-1);

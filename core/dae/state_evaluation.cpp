@@ -68,6 +68,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
       view_.velocity[n] = view_.velocity[leader];
     }
     share_among_joined(t);
+    inputs_->transmit(view_.train_force);
   }
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = structure_->sliders[k];

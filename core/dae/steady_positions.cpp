@@ -89,7 +89,7 @@ bool SteadyStateSolver::find_positions() {
   std::vector<int> slider_branch(slip_.size(), -1);
   ConvexNetwork problem(0);
   std::vector<std::string> open;
-  TrainForceTrials trials(network_, state_.train_force);
+  TrainForceTrials trials(network_, state_.train_force, largest_load_);
   bool again = true;
   for (int n = 0; again; ++n) {
     problem = position_problem(forces, slip_, slider_branch);

@@ -17,9 +17,8 @@ SteadyStateSolver::SteadyStateSolver(const Network& network, const Structure& cl
       velocity_(classified.kind.size(), 0),
       load_(velocity_),
       load_magnitude_(velocity_),
-      broken_(network.sliders.size(), 0),
-      trials_(network, begin.state.train_force),
-      locks_trains_(std::any_of(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); })) {
+      broken_(network.sliders.size(), 0) {
+  if (std::any_of(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); })) losses_ = Losses::none;
   result_.modes = {std::vector<signed char>(network.sliders.size(), Modes::stuck), std::vector<char>(network.trains.size(), 0)};
   result_.slider_force.assign(network.sliders.size(), 0);
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
@@ -77,6 +76,7 @@ void SteadyStateSolver::enter_inputs() {
     }
     if (inputs_.force_rate[k] != 0) changing.push_back(force.element);
   }
+  for (const double f : load_magnitude_) largest_load_ = std::max(largest_load_, f);
   for (int element : changing) {
     note(fmt::format("`{}` changes with time: the state is that under its value at the start, held",
                      network_.scene->elements[at(element)].name));

@@ -66,7 +66,7 @@ class SteadyStateSolver {
 
   /// A displacement that has a bound cannot change for ever in its direction.
   double bound(std::size_t slider, int side) const {
-    if (locks_trains_ && network_.sliders[slider].train >= 0) return std::numeric_limits<double>::infinity();
+    if (network_.sliders[slider].train >= 0 && losses_ != Losses::known) return losses_ == Losses::none ? 0 : std::numeric_limits<double>::infinity();
     const std::optional<Contact>& contact = network_.sliders[slider].contact;
     const Bounds& bounds = (contact ? contact->at(side) : inputs_.box(slider)).at(side);
     return broken_[slider] ? bounds.sliding.value : bounds.breakaway.value;
@@ -138,8 +138,11 @@ class SteadyStateSolver {
   std::vector<int> slip_;         ///< of each slider: its direction
   std::vector<double> pressed_;   ///< of each slider with a gauge: estimate of its force [N]
   double contact_stiffness_ = 0;  ///< of these estimates [N/m]
-  TrainForceTrials trials_;  ///< for the balance at the velocities
-  bool locks_trains_;        ///< trains with losses stand still
+  double largest_load_ = 0;
+  TrainForceTrials trials_{network_, std::vector<double>(network_.trains.size(), 0), 0};  ///< for the balance at the velocities
+  /// What trains with losses do: the first balance is without losses, the second one, if that has no answer, with gears that stand still.
+  enum class Losses : char { none, locked, known };
+  Losses losses_ = Losses::known;
   SteadyStart result_;
 };
 

@@ -19,16 +19,14 @@ void SteadyStateSolver::lead(DisjointSets& sets) {
 }
 
 /// Finds the velocities at which all forces balance when springs are rigid, friction has its full force in motion, and nothing
-/// accelerates. False if sliders have broken away under more than their sliding force, or if losses of trains have new bounds. As the
-/// first of these depend on forces that are not known yet, gears with losses stand still at first.
+/// accelerates. False if sliders have broken away under more than their sliding force, or if losses of trains have new bounds.
 bool SteadyStateSolver::find_velocities() {
   DisjointSets rigid(velocity_.size());
   for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
   lead(rigid);
   ConvexNetwork problem = velocity_problem();
   std::vector<int> law_branch(laws_.size(), -1), slider_branch(network_.sliders.size(), -1);
-  double scale = 0;
-  for (double f : load_magnitude_) scale = std::max(scale, f);
+  double scale = largest_load_;
   for (const Law& law : laws_) {
     for (double f : {law.steady.rest, law.steady.bound}) scale = std::isfinite(f) ? std::max(scale, f) : scale;
   }
@@ -53,12 +51,20 @@ bool SteadyStateSolver::find_velocities() {
     }
   }
   add_rates(problem, scale);
-  solve(problem, numerics::unresisted_speed * natural_speed(scale));
+  if (losses_ == Losses::none) {
+    const bool solved = problem.solve() == ConvexNetwork::Outcome::solved;
+    if (!solved) {
+      losses_ = Losses::locked;
+      return false;
+    }
+  } else {
+    solve(problem, numerics::unresisted_speed * natural_speed(scale));
+  }
 
-  if (locks_trains_) {
-    locks_trains_ = false;
+  if (losses_ != Losses::known) {
+    losses_ = Losses::known;
     state_.train_force = problem.forces_of_equations();
-    trials_ = TrainForceTrials(network_, state_.train_force);
+    trials_ = TrainForceTrials(network_, state_.train_force, scale);
     inputs_.transmit(state_.train_force);
     return false;
   }
@@ -73,7 +79,7 @@ bool SteadyStateSolver::find_velocities() {
     laws_[j].direction = laws_[j].steady.rest > 0 && law_branch[j] >= 0 ? problem.direction(law_branch[j]) : 0;
   }
   take_velocities(problem);
-  TrainForceTrials trials(network_, state_.train_force);
+  TrainForceTrials trials(network_, state_.train_force, scale);
   while (!refine_velocities(scale, trials)) {
   }
   refuse_torn_trains();
@@ -88,7 +94,7 @@ bool SteadyStateSolver::find_velocities() {
 /// True if the forces of the trains are those that the bounds of their losses were found from. If not, there are new bounds.
 bool SteadyStateSolver::agree(TrainForceTrials& trials) {
   if (trials.agree(state_.train_force)) return true;
-  if (trials.endless()) report_undecided(network_, kind() + ":");
+  if (trials.endless()) report_losses(network_, kind() + ":");
   inputs_.transmit(trials.trial());
   return false;
 }

@@ -11,6 +11,7 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/format_list.hpp"
 #include "core/base/index.hpp"
+#include "core/dae/train_force_trials.hpp"
 #include "core/network/adjacent_elements.hpp"
 
 namespace rheonet {
@@ -124,10 +125,44 @@ void StickForces::solve(double t, const std::vector<double>& left, std::vector<d
       if (network_.sliders[k].varying.empty() && !network_.sliders[k].contact && network_.sliders[k].train < 0) continue;
       shared.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
     }
-    if (!shared.solve()) report_unbalanced(t, shared);
+    if (!(lossy(shared) ? solve_with_losses(shared, train_force) : shared.solve())) report_unbalanced(t, shared);
     for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];
     for (std::size_t k = 0; k < shared.trains.size(); ++k) train_force[shared.trains[k]] = shared.force[shared.sliders.size() + k];
   }
+}
+
+bool StickForces::lossy(const Shared& shared) const {
+  return std::any_of(shared.sliders.begin(), shared.sliders.end(), [&](std::size_t k) { return network_.sliders[k].train >= 0; });
+}
+
+/// Forces within bounds that follow from the forces of the trains. The first ones are those without these bounds. `found`: the forces of
+/// the trains that sliders do not lock.
+bool StickForces::solve_with_losses(Shared& shared, std::vector<double> found) const {
+  const auto bounds = [&](const std::vector<double>* forces) {
+    for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
+      const int train = network_.sliders[shared.sliders[i]].train;
+      if (train < 0) continue;
+      const auto most = [&](int side) { return forces ? network_.trains[at(train)].loss->lost(side, (*forces)[at(train)]) : std::numeric_limits<double>::infinity(); };
+      shared.bound(i, -most(-1), most(1));
+    }
+  };
+  const auto solve = [&] {
+    if (!shared.solve()) return false;
+    for (std::size_t k = 0; k < shared.trains.size(); ++k) found[shared.trains[k]] = shared.force[shared.sliders.size() + k];
+    return true;
+  };
+  bounds(nullptr);
+  if (!solve()) return false;
+  double size = 0;
+  for (const double load : shared.load) size = std::max(size, std::abs(load));
+  TrainForceTrials trials(network_, found, size);
+  while (!trials.endless()) {
+    const std::vector<double> trial = trials.trial();
+    bounds(&trial);
+    if (!solve()) return false;
+    if (trials.agree(found)) return true;
+  }
+  return true;
 }
 
 void StickForces::Shared::bound(std::size_t slider, double low, double high) {

@@ -35,6 +35,8 @@ class StickForces {
     void bound(std::size_t slider, double low, double high);
     bool solve();
   };
+  bool lossy(const Shared& shared) const;
+  bool solve_with_losses(Shared& shared, std::vector<double> found) const;
   [[noreturn]] void report_unbalanced(double t, const Shared& shared) const;
   const Network& network_;
   const Structure& structure_;

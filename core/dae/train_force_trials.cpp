@@ -9,12 +9,12 @@
 
 namespace rheonet {
 
-TrainForceTrials::TrainForceTrials(const Network& network, const std::vector<double>& first)
-    : network_(&network), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))) {}
+TrainForceTrials::TrainForceTrials(const Network& network, const std::vector<double>& first, double forces)
+    : network_(&network), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))) {}
 
 bool TrainForceTrials::agree(const std::vector<double>& found) {
   Eigen::VectorXd miss = Eigen::VectorXd::Zero(trial_.size());
-  double size = 0;
+  double size = forces_;
   for (Eigen::Index k = 0; k < trial_.size(); ++k) {
     const std::optional<Loss>& loss = network_->trains[static_cast<std::size_t>(k)].loss;
     const double force = found[static_cast<std::size_t>(k)];

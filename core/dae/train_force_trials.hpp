@@ -12,7 +12,8 @@ namespace rheonet {
 /// through two trials (D. G. Anderson, Journal of the ACM 12 (1965) 547) meets them.
 class TrainForceTrials {
  public:
-  TrainForceTrials(const Network& network, const std::vector<double>& first);
+  /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
+  TrainForceTrials(const Network& network, const std::vector<double>& first, double forces);
 
   /// Of each train [N].
   std::vector<double> trial() const { return {trial_.begin(), trial_.end()}; }
@@ -23,6 +24,7 @@ class TrainForceTrials {
 
  private:
   const Network* network_;
+  double forces_;
   int count_ = 0;
   Eigen::VectorXd trial_, before_, miss_before_;
 };

@@ -39,4 +39,18 @@ void report_undecided(const Network& network, const std::string& what) {
       what, format_list(names)));
 }
 
+void report_losses(const Network& network, const std::string& what) {
+  std::vector<std::string> names;
+  int first = -1;
+  for (const Network::Train& train : network.trains) {
+    if (!train.loss) continue;
+    names.push_back(network.scene->elements[static_cast<std::size_t>(train.element)].name);
+    if (first < 0) first = train.element;
+  }
+  throw SimulationError(network.spot_of(first), fmt::format(
+      "{} no motion was found in which the losses of {} fit the forces there: a self-locking gear may jam where the inertia in front of it is "
+      "small beside that behind it, divided by the square of its ratio; give its first node more inertia",
+      what, format_list(names)));
+}
+
 }  // namespace rheonet

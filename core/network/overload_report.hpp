@@ -15,4 +15,7 @@ namespace rheonet {
 /// names all candidates and says how to mend the scene.
 [[noreturn]] void report_undecided(const Network& network, const std::string& what);
 
+/// Throws SimulationError: no forces of the transmissions were found that fit the losses that they cause. `what`: as above.
+[[noreturn]] void report_losses(const Network& network, const std::string& what);
+
 }  // namespace rheonet

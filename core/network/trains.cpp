@@ -34,6 +34,7 @@ class Trains {
   }
 
   void assign() {
+    find_train_forces();
     eliminate();
     find_forces();
     find_groups();
@@ -56,15 +57,36 @@ class Trains {
   double mass(NodeId head) { return mass_[at(sets_.find(head))]; }
   const std::string& name(const Network::Train& train) const { return network_.scene->elements[at(train.element)].name; }
 
+  /// The side to which the friction of a train slips; 0 if it sticks, or has none.
+  int slips(const Network::Train& train) const {
+    return modes_ && train.friction >= 0 && !s_.stuck[at(train.friction)] ? modes_->slider[at(train.friction)] : 0;
+  }
+
+  /// The force at each node of a train, for a force 1 that it hands on: losses that slip change it at the first node and at the support.
+  void find_train_forces() {
+    for (std::size_t k = 0; k < network_.trains.size(); ++k) {
+      const Network::Train& train = network_.trains[k];
+      s_.train_forces.push_back(train.factor);
+      if (slips(train) == 0) continue;
+      const double more = train.loss->line(slips(train), modes_->b_drives[k] != 0).factor - 1;
+      s_.train_forces.back()[0] += more;
+      s_.train_forces.back()[2] -= more;
+    }
+  }
+
   /// Brings the equations into reduced row echelon form. The lightest node of each is its pivot.
   void eliminate() {
     std::vector<Row> rows;
-    for (const Network::Train& train : network_.trains) {
-      Row row;
+    for (std::size_t t = 0; t < network_.trains.size(); ++t) {
+      const Network::Train& train = network_.trains[t];
+      Row row, forces;
       double largest = 0;
       for (std::size_t k = 0; k < train.node.size(); ++k) {
         if (train.node[k] == ground) continue;
-        if (head(train.node[k]) != ground) row[head(train.node[k])] += train.factor[k];
+        if (head(train.node[k]) != ground) {
+          row[head(train.node[k])] += train.factor[k];
+          forces[head(train.node[k])] += s_.train_forces[t][k];
+        }
         largest = std::max(largest, std::abs(train.factor[k]));
       }
       for (std::size_t r = 0; r < rows.size(); ++r) subtract(rows[r], s_.tied[r].pivot, row);
@@ -72,7 +94,11 @@ class Trains {
       double least = 0;
       for (const auto& [node, factor] : row) {
         if (known(node) || std::abs(factor) <= numerics::equal_given_values * largest) continue;
-        const double weight = mass(node) / (factor * factor);
+        // With an efficiency of 0 the first node does not feel the force of the train.
+        const auto own = forces.find(node);
+        const double force = own == forces.end() ? factor : own->second;
+        if (std::abs(force) <= numerics::equal_given_values * largest) continue;
+        const double weight = mass(node) / std::abs(factor * force);
         if (pivot >= 0 && weight >= least) continue;
         pivot = node;
         least = weight;
@@ -86,7 +112,7 @@ class Trains {
       std::erase_if(row, [](const auto& term) { return term.second == 0; });
       for (Row& other : rows) subtract(row, pivot, other);
       rows.push_back(std::move(row));
-      s_.tied.push_back({pivot, {}, {}, static_cast<int>(&train - network_.trains.data())});
+      s_.tied.push_back({pivot, {}, {}, static_cast<int>(t)});
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (const auto& [node, factor] : rows[r]) {
@@ -95,19 +121,10 @@ class Trains {
     }
   }
 
-  /// Losses that slip change the forces at the first node and at the support. The balances of the pivots then give the forces of the trains
-  /// by a system of their own, and these go to all other nodes.
+  /// With losses that slip, the balances of the pivots give the forces of the trains by a system of their own, and these go to all other
+  /// nodes.
   void find_forces() {
-    bool any = false;
-    for (const Network::Train& train : network_.trains) {
-      s_.train_forces.push_back(train.factor);
-      const int side = modes_ && train.friction >= 0 && !s_.stuck[at(train.friction)] ? modes_->slider[at(train.friction)] : 0;
-      if (side == 0) continue;
-      const double more = train.loss->line(side, modes_->b_drives[s_.train_forces.size() - 1] != 0).factor - 1;
-      s_.train_forces.back()[0] += more;
-      s_.train_forces.back()[2] -= more;
-      any = true;
-    }
+    const bool any = std::any_of(network_.trains.begin(), network_.trains.end(), [&](const Network::Train& train) { return slips(train) != 0; });
     for (Structure::Tied& tied : s_.tied) {
       std::copy_if(tied.terms.begin(), tied.terms.end(), std::back_inserter(tied.shares), [&](const Structure::Tied::Term& term) { return !known(term.node); });
     }
@@ -147,7 +164,7 @@ class Trains {
     bool free = false;
     for (const NodeId node : train.node) free = free || !known(head(node));
     for (const Network::Train& other : network_.trains) {
-      if (&other == &train) break;
+      if (&other == &train) continue;
       others.push_back(name(other));
     }
     const std::string why = free ? fmt::format("the motion of its nodes follows from {} already: it could only repeat or contradict that", format_list(others))
