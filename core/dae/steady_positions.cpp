@@ -51,14 +51,23 @@ SteadyStateSolver::Forces SteadyStateSolver::forces_at_start() {
   return forces;
 }
 
-/// The displacements under these forces and those of the contacts, with the forces of sliders that slide in a given direction.
-ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch) {
+/// The displacements under these forces and those of the contacts, with the forces of sliders that slide in a given direction. With the
+/// displacements that were `found`, each law counts by its tangent there.
+ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, const std::vector<int>& direction, std::vector<int>& slider_branch,
+                                                  const ConvexNetwork* found) {
   ConvexNetwork problem(static_cast<int>(velocity_.size()));
   for (std::size_t n = 0; n < velocity_.size(); ++n) problem.load(slot(static_cast<NodeId>(n)), forces.load[n]);
   for (std::size_t j = 0; j < laws_.size(); ++j) {
     const Law& law = laws_[j];
     if (!law.elastic()) continue;
     const double p = state_.p[j], f0 = forces.elastic[j];
+    if (found) {
+      double slope = 0;
+      const double step = found->difference(slot(network_.deflections[j].a), slot(network_.deflections[j].b));
+      const double f = law.batch->force_along(law.i, p, step, slope) - f0 - slope * step;
+      problem.add(slot(network_.deflections[j].a), slot(network_.deflections[j].b), {.low = f, .high = f, .backward = slope, .forward = slope, .rounding = std::abs(f0)});
+      continue;
+    }
     problem.add(slot(network_.deflections[j].a), slot(network_.deflections[j].b),
                 {.backward = law.batch->slope(law.i, p, -1),
                  .forward = law.batch->slope(law.i, p, 1),
@@ -105,9 +114,9 @@ bool SteadyStateSolver::find_positions() {
     direction[k] = slid[k] = problem.direction(slider_branch[k]);
   }
   if (break_away(slid)) return false;
-  // Once more, with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.
-  for (again = direction != slip_; again; again = !agree(trials)) {
-    ConvexNetwork refined = position_problem(forces, direction, slider_branch);
+  // Once more, with tangents and with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.
+  for (again = true; again; again = !agree(trials)) {
+    ConvexNetwork refined = position_problem(forces, direction, slider_branch, &problem);
     fix_positions(refined, forces.hang);
     if (refined.solve() != ConvexNetwork::Outcome::solved) break;
     problem = std::move(refined);

@@ -144,6 +144,16 @@ void Tolerances::find_rounding(const Dae::View& view) {
       rounding_[i] = eps * loads.force[at(part_of(structure.rates[k]))];
     }
   }
+  // Each node of a train has the round-off of the others.
+  for (const Structure::Tied& tied : structure.tied) {
+    std::vector<std::pair<int, double>> unknowns{{dae_->velocity_unknown(tied.pivot), 1}};
+    for (const auto& [node, factor] : tied.terms) unknowns.emplace_back(dae_->velocity_unknown(node), std::abs(factor));
+    double sum = 0;
+    for (const auto& [unknown, factor] : unknowns) sum += unknown < 0 ? 0 : factor * rounding_[at(unknown)];
+    for (const auto& [unknown, factor] : unknowns) {
+      if (unknown >= 0) rounding_[at(unknown)] = std::max(rounding_[at(unknown)], sum / factor);
+    }
+  }
   rounding_at_rest_ = plain_rounding_;
   find_dashpot_rounding(view);
   if (!block_rounding_.empty()) {
