@@ -23,8 +23,8 @@ inline std::optional<Misfit> beyond_bound(double f0, double Fc) {
   return Misfit{"f0", "lies beyond `coulomb`: a force that it cannot have"};
 }
 
-/// What cannot be where signals give some of these parameters: the others infinite, or a start force f0 [N] without a constant stiffness
-/// sigma [N/m].
+/// The error of parameters of which signals give some: another one is infinite, or there is a start force f0 [N] without a constant
+/// stiffness sigma [N/m].
 inline std::optional<Misfit> misfit_of_varying(std::initializer_list<std::pair<const char*, double>> parameters, double sigma, double f0) {
   for (const auto& [name, value] : parameters) {
     if (std::isinf(value)) return Misfit{name, "must be finite where another parameter varies"};
@@ -38,9 +38,10 @@ inline double start_of_varying(double sigma, double f0) { return std::isnan(sigm
 
 /// Solid friction with parameters that vary, where the deflection z changes with the velocity `rate`: z' = u^i rate.
 inline VaryingLaw varying_solid_friction(const std::string& rate, double sigma, double f0) {
+  // (u^2)^(i/2) in place of abs(u)^i: abs keeps its side until the event at which u changes its sign.
   const std::string u = "(1 - sign(w)*stiffness*z/coulomb)";
   return {.force = "stiffness*z", .stored = "stiffness*z^2/2",
-          .states = {{"z", "sign(" + u + ")*abs(" + u + ")^exponent*(" + rate + ")", start_of_varying(sigma, f0)}}};
+          .states = {{"z", "sign(" + u + ")*(" + u + "^2)^(exponent/2)*(" + rate + ")", start_of_varying(sigma, f0)}}};
 }
 
 /// Below 1 the bound is reached in finite time, as an event of a law whose bound is constant.

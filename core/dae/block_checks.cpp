@@ -156,10 +156,12 @@ void BlockSignals::refuse_undefined(double since) const {
 
 void BlockSignals::refuse_steady(int index, const char* why) const {
   const int element = blocks_->blocks[at(index)].element;
+  const SceneElement& of = network_->scene->elements[at(element)];
+  const bool law = network_->places[at(element)].role == Role::force;
   throw SimulationError(network_->spot_of(element),
                         fmt::format("a start from rest or in steady motion is not known here: {} {}; start from "
                                     "given values, and give it time to settle",
-                                    block_in_words(network_->scene->elements[at(element)]), why));
+                                    law ? "`" + of.name + "`, with a parameter that varies," : block_in_words(of), why));
 }
 
 }  // namespace rheonet

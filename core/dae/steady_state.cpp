@@ -160,8 +160,17 @@ void SteadyStateSolver::hold_what_is_free() {
   }
 }
 
-void SteadyStateSolver::report_acceleration(const std::vector<NodeId>& nodes) const {
+void SteadyStateSolver::report_acceleration(std::vector<NodeId> nodes) const {
   std::vector<std::string> names, loads;
+  // Trains carry loads from node to node.
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    for (const Network::Train& train : network_.trains) {
+      if (std::find(train.node.begin(), train.node.end(), nodes[k]) == train.node.end()) continue;
+      for (const NodeId node : train.node) {
+        if (!known(node) && std::find(nodes.begin(), nodes.end(), node) == nodes.end()) nodes.push_back(node);
+      }
+    }
+  }
   for (NodeId node : nodes) names.push_back(network_.node_name(node));
   const auto there = [&](NodeId node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
   for (const Network::Force& force : network_.forces) {

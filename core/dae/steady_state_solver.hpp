@@ -88,7 +88,7 @@ class SteadyStateSolver {
   void enter_inputs();
   void refuse_stretching() const;
   [[noreturn]] void report_stretching(NodeId first, NodeId last, const std::vector<const Branch*>& from) const;
-  [[noreturn]] void report_acceleration(const std::vector<NodeId>& nodes) const;
+  [[noreturn]] void report_acceleration(std::vector<NodeId> nodes) const;
   void hold_what_is_free();
   void note_what_gave_way();
 

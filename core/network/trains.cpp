@@ -167,7 +167,8 @@ class Trains {
       if (&other == &train) continue;
       others.push_back(name(other));
     }
-    const std::string why = free ? fmt::format("the motion of its nodes follows from {} already: it could only repeat or contradict that", format_list(others))
+    const std::string why = free ? fmt::format("the motion of its nodes follows from {} already: it could only repeat or contradict that",
+                                               others.empty() ? "other transmissions" : format_list(others))
                                  : std::string("the motion of all its nodes is given: it could only repeat or contradict that");
     throw SimulationError(network_.spot_of(train.element), fmt::format("transmission `{}` is too many: {}; leave it out{}", name(train), why,
                                                                        free ? "" : ", or leave one of its nodes free"));

@@ -284,6 +284,7 @@ double OutputSampler::value(std::size_t operand, const Dae::View& view, const st
     case Record::Channel::acceleration:
       return acceleration(record.index, view, rates);
     case Record::Channel::power:
+      if (network_.places[at(record.index)].role == Role::train) return dissipated_power(record.index, view);
       return element_force(record.index, view) * element_velocity(record.index, view);
     case Record::Channel::dissipated:
       return dissipated_power(record.index, view);

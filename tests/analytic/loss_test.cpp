@@ -178,3 +178,103 @@ TEST_CASE("losses: bad values are refused") {
   CHECK(message("ratio = 2, bearing = \"1 kg\"").find("`bearing`") != std::string::npos);
   CHECK(message("ratio = 2, efficiency_b = 0.5").find("unknown key `efficiency_b`") != std::string::npos);
 }
+
+TEST_CASE("losses: with an efficiency of 0 nothing of what drives b is felt at a") {
+  // While b drives, a turns under its own torque alone, and b is carried along.
+  const double Ta = 0.2, Ja = 0.5, Jb = 0.25, Tb = 2.5, i = -0.5, w0 = -2;
+  for (const double efficiency : {0.0, 1e-13, -1e-13}) {
+    CAPTURE(efficiency);
+    const RunTable rows = simulate(fmt::format(R"~(
+domain = "rotation"
+[elements]
+Ta = {{ type = "torque", at = "a", torque = {} }}
+Ja = {{ type = "inertia", at = "a", inertia = {} }}
+g = {{ type = "gear", between = ["a", "b"], ratio = {}, efficiency = [0.3, {}], bearing = [0, 0.5] }}
+Jb = {{ type = "inertia", at = "b", inertia = {} }}
+Tb = {{ type = "torque", at = "b", torque = {} }}
+[nodes]
+a = {{ velocity = {} }}
+b = {{ velocity = {} }}
+)~", Ta, Ja, i, efficiency, Jb, Tb, w0, w0 / i) + simulate_until(1));
+    CHECK(error_of(rows, "a.velocity", [&](double t) { return w0 + Ta / Ja * t; }) < 1e-9);
+    CHECK(error_of(rows, "b.velocity", [&](double t) { return (w0 + Ta / Ja * t) / i; }) < 1e-9);
+  }
+}
+
+TEST_CASE("losses: two gears in series that stick share a load that both can bear") {
+  // Between the gears the torque is within [3.2, 5] for the first, and within [16/3 eta2, 16/3/eta2] for the second.
+  for (const std::string start : {"given", "rest"}) {
+    CAPTURE(start);
+    const RunTable rows = simulate(R"~(
+domain = "rotation"
+[elements]
+Ja = { type = "inertia", at = "a", inertia = 1 }
+Jb = { type = "inertia", at = "b", inertia = 1 }
+Ta = { type = "torque", at = "a", torque = 2 }
+Tb = { type = "torque", at = "b", torque = -16 }
+g1 = { type = "gear", between = ["a", "m"], ratio = 2, efficiency = 0.8 }
+g2 = { type = "gear", between = ["m", "b"], ratio = 3, efficiency = 0.9 }
+[simulate]
+start_from = ")~" + start + "\"\nstop = 1\noutput = { points = 5 }\n");
+    for (std::size_t k = 0; k < rows.time().size(); ++k) {
+      CHECK(rows["a.velocity"][k] == 0);
+      CHECK(rows["g1.force"][k] == doctest::Approx(2).epsilon(1e-12));
+      CHECK(rows["g2.force"][k] >= 4.8 * (1 - 1e-12));
+      CHECK(rows["g2.force"][k] <= 5 * (1 + 1e-12));
+    }
+  }
+}
+
+TEST_CASE("losses: the driving side changes while the force of the gear passes 0") {
+  // Without friction of bearings all bounds are 0 at that moment. The same gear the other way round has its efficiencies exchanged.
+  const auto run = [](const std::string& gear) {
+    return simulate("domain = \"rotation\"\n[elements]\n" + gear + R"~(
+ta = { type = "torque", at = "a", torque = { sine = 10, frequency = 1 } }
+ja = { type = "inertia", at = "a", inertia = 0.1 }
+m = { type = "inertia", at = "d", inertia = 2 }
+k = { type = "spring", between = ["d", "ground"], stiffness = 30 }
+[simulate]
+stop = 2
+accuracy = 1e-9
+output = { points = 21 }
+record = ["a.velocity", "d.velocity", "g.dissipated", "d.position"]
+)~");
+  };
+  const RunTable one = run("g = { type = \"gear\", between = [\"d\", \"a\"], ratio = 0.25, efficiency = [0.4, 0.7] }");
+  const RunTable other = run("g = { type = \"gear\", between = [\"a\", \"d\"], ratio = 4, efficiency = [0.7, 0.4] }");
+  CHECK(largest_error(one, other) < 1e-7);
+}
+
+TEST_CASE("losses: a self-locking gear stands, however light the motor") {
+  for (const double Ja : {1.0, 0.01, 1e-6}) {
+    CAPTURE(Ja);
+    const RunTable rows = simulate(fmt::format(R"~(
+domain = "rotation"
+[elements]
+Ja = {{ type = "inertia", at = "a", inertia = {} }}
+g = {{ type = "gear", between = ["a", "b"], ratio = 2, efficiency = [0.5, -0.8] }}
+Jb = {{ type = "inertia", at = "b", inertia = 4 }}
+Tb = {{ type = "torque", at = "b", torque = {{ ramp = 3 }} }}
+)~", Ja) + simulate_until(1));
+    for (const double v : rows["b.velocity"]) CHECK(v == 0);
+  }
+}
+
+TEST_CASE("losses: gears in series, and a torque that rises from 0, are one gear with the product of the efficiencies") {
+  const auto run = [](const std::string& gears) {
+    return simulate("domain = \"rotation\"\n[elements]\n" + gears + R"~(
+ta = { type = "torque", at = "a", torque = { sine = 10, frequency = 1 } }
+ja = { type = "inertia", at = "a", inertia = 0.1 }
+jb = { type = "inertia", at = "b", inertia = 7.2 }
+tb = { type = "torque", at = "b", torque = { sine = 30, frequency = 1.7 } }
+[simulate]
+stop = 2
+accuracy = 1e-9
+output = { points = 21 }
+record = ["a.velocity", "b.velocity"]
+)~");
+  };
+  const RunTable two = run("g1 = { type = \"gear\", between = [\"a\", \"m\"], ratio = 2, efficiency = [0.8, 0.5] }\ng2 = { type = \"gear\", between = [\"m\", \"b\"], ratio = -3, efficiency = [0.9, 0.7] }");
+  const RunTable one = run("g = { type = \"gear\", between = [\"a\", \"b\"], ratio = -6, efficiency = [0.72, 0.35] }");
+  CHECK(largest_error(two, one) < 1e-7);
+}

@@ -156,3 +156,40 @@ TEST_CASE("starts with trains: what starts at rest or in steady motion goes on l
   CHECK(moving > 100);
   CHECK(resting > 100);
 }
+
+TEST_CASE("starts with trains: motions drive gears with losses from either side, and laws with kinks rest exactly") {
+  // A motion at a turns a dashpot at b, and the other way round.
+  const auto driven = [](const char* motion, const char* dashpot) {
+    return simulate(fmt::format(R"~(
+domain = "rotation"
+[elements]
+g = {{ type = "gear", between = ["a", "b"], ratio = 4, efficiency = [0.5, 0.6], bearing = 0.3 }}
+Ja = {{ type = "inertia", at = "a", inertia = 1 }}
+Jb = {{ type = "inertia", at = "b", inertia = 1 }}
+m = {{ type = "motion", at = "{}", velocity = 8 }}
+c = {{ type = "dashpot", between = ["{}", "ground"], damping = 5 }}
+)~", motion, dashpot) + start_from("steady", 1));
+  };
+  const RunTable from_a = driven("a", "b"), from_b = driven("b", "a");
+  CHECK(error_of(from_a, "b.velocity", [](double) { return 2; }) < 1e-12);
+  // While a drives: i (eta f_a - bearing) = c w_b.
+  CHECK(error_of(from_a, "g.force", [](double) { return (10.0 / 4 + 0.3) / 0.5; }) < 1e-12);
+  CHECK(error_of(from_b, "a.velocity", [](double) { return 32; }) < 1e-12);
+  CHECK(error_of(from_b, "g.force", [](double) { return -160; }) < 1e-12);
+  for (const char* law : {"st = { type = \"stop\", between = [\"r\", \"ground\"], lower = -0.1, upper = 0.1, stiffness = 1000 }\n",
+                          "st = { type = \"sfm\", between = [\"r\", \"ground\"], stiffness = 1000, coulomb = 30 }\n"}) {
+    CAPTURE(law);
+    Summary summary;
+    const RunTable rows = simulate(scene_of(std::string("domain = \"rotation\"\n[elements]\n") + law + R"~(
+p = { type = "planetary", between = ["s", "c", "r"], ratio = 3 }
+js = { type = "inertia", at = "s", inertia = 1 }
+jc = { type = "inertia", at = "c", inertia = 1 }
+jr = { type = "inertia", at = "r", inertia = 1 }
+t = { type = "torque", at = "s", torque = 3 }
+cc = { type = "spring", between = ["c", "ground"], stiffness = 10 }
+)~" + start_from("rest", 1)), &summary);
+    CHECK(error_of(rows, "c.position", [](double) { return 1.2; }) < 1e-12);
+    CHECK(error_of(rows, "st.force", [](double) { return -9; }) < 1e-12);
+    CHECK(summary.steps < 100);
+  }
+}

@@ -79,6 +79,24 @@ decay = {{ type = "function", in = ["drive.velocity"], out = "F0*exp(-t/T)" }}
   CHECK(error_of(rows, "f.force", exact) < 1e-8);
 }
 
+TEST_CASE("varying friction: a bound that swings, with any exponent, gives certified results") {
+  for (const double exponent : {1.0, 1.5, 2.5}) {
+    CAPTURE(exponent);
+    const Scene scene = scene_of(fmt::format(R"~(
+[elements]
+F = {{ type = "force", at = "a", force = {{ sine = 3, frequency = 1.3 }} }}
+m = {{ type = "mass", at = "a", mass = 0.05 }}
+k = {{ type = "spring", between = ["a", "ground"], stiffness = 5 }}
+x = {{ type = "sfm", between = ["a", "ground"], stiffness = 40, exponent = {}, coulomb = {{ sine = 1, frequency = 1, offset = 2 }} }}
+[simulate]
+stop = 1.5
+accuracy = 1e-6
+output = {{ points = 16 }}
+)~", exponent));
+    CHECK(certify(scene, {}).holds);
+  }
+}
+
 TEST_CASE("varying friction: the energy of a stop that stiffens while it is pressed") {
   // A prescribed motion presses it: the force is k(t) (d - d2), and the rest of the energy comes from what stiffens it.
   const double V = 0.5, d2 = 0.2, k0 = 40, b = 30;
