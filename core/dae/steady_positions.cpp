@@ -115,6 +115,7 @@ bool SteadyStateSolver::find_positions() {
   }
   if (break_away(slid)) return false;
   // Once more, with tangents and with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.
+  trials = TrainForceTrials(network_, state_.train_force, largest_load_);
   for (again = true; again; again = !agree(trials)) {
     ConvexNetwork refined = position_problem(forces, direction, slider_branch, &problem);
     fix_positions(refined, forces.hang);

@@ -22,7 +22,9 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
     miss[k] = force - trial_[k];
     size = std::max({size, std::abs(force), std::abs(trial_[k]), loss->lost(1, force), loss->lost(-1, force)});
   }
-  if (miss.lpNorm<Eigen::Infinity>() <= numerics::balance_roundoff * size) return true;
+  // Within round-off it goes on as long as that brings more digits.
+  const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
+  if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off > before / 2)) return true;
   Eigen::VectorXd next = trial_ + miss;
   if (count_++ > 0) {
     const Eigen::VectorXd turn = miss - miss_before_;

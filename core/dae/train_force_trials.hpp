@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "core/network/network.hpp"
@@ -24,7 +25,7 @@ class TrainForceTrials {
 
  private:
   const Network* network_;
-  double forces_;
+  double forces_, off_ = std::numeric_limits<double>::infinity();
   int count_ = 0;
   Eigen::VectorXd trial_, before_, miss_before_;
 };

@@ -151,6 +151,8 @@ void Tolerances::see(const std::vector<double>& y, const Dae::View& view) {
   for (std::size_t k = 0; k < slide_seen_.size(); ++k) {
     slide_seen_[k] = std::max(slide_seen_[k], std::abs(view.slider_velocity[k]));
     held_seen_[k] = std::max(held_seen_[k], std::abs(view.slider_force[k]));
+    // The bounds of losses have the round-off of the force of their train.
+    if (const int train = network_.sliders[k].train; train >= 0) held_seen_[k] = std::max(held_seen_[k], std::abs(view.train_force[at(train)]));
     meet(structure.sliders[k], view.slider_velocity[k]);
     see_rest(k, view.slider_velocity[k]);
     if (!(slide_seen_[k] > 0)) continue;
