@@ -16,7 +16,7 @@ class TrainForceTrials {
   /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
   TrainForceTrials(const Network& network, const std::vector<double>& first, double forces);
 
-  /// Of each train [N].
+  /// The trial forces of all trains [N].
   std::vector<double> trial() const { return {trial_.begin(), trial_.end()}; }
   /// Takes the forces that a balance with this trial has. True if both agree to round-off; otherwise `trial` is the next one.
   bool agree(const std::vector<double>& found);
