@@ -31,6 +31,8 @@ Declaration declared(const char* type, const char* summary, const char* ratio) {
                      {.name = "bearing_b", .quantity = Quantity::force, .lower_open = false, .second_of = "bearing", .same_as = "bearing", .symbol = "f_b",
                       .description = "the second value of `bearing`"}},
       .check = zero_ratio,
+      .effects = {{Effect::dry_friction, "efficiency", 1, true}, {Effect::dry_friction, "efficiency_b", 1, true},
+                  {Effect::dry_friction, "bearing", 0}, {Effect::dry_friction, "bearing_b", 0}},
       .summary = summary,
       .law = "v_a - v_s = i (v_b - v_s), f_b = -i f_a but for losses",
       .equation = R"(v_a - v_s = i\,(v_b - v_s),\qquad f_b = -i\,(\eta_a f_a \mp f_{\text{bearing}}) \text{ or } -i\,(f_a/\eta_b \mp f_{\text{bearing}}))",

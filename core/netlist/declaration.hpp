@@ -87,6 +87,7 @@ struct Brought {
   Effect effect;
   std::string parameter;
   std::optional<double> absent = {};
+  bool otherwise = false;  ///< the element has the effect with every value but `absent`
 };
 
 /// Values of further parameters, used when all of `effects` that the element has are left out.

@@ -131,7 +131,8 @@ std::vector<Effect> declared_effects(const Declaration& declaration, std::span<c
                                         [&](const Parameter& p) { return p.name == brought.parameter; });
     const double value = values[static_cast<std::size_t>(parameter - declaration.parameters.begin())];
     // A parameter that varies in time has no value here. A contact remains one where it is rigid.
-    if (!(value <= 0) && (!std::isinf(value) || brought.effect == Effect::contact)) result.push_back(brought.effect);
+    const bool there = brought.otherwise ? value != *brought.absent : !(value <= 0) && (!std::isinf(value) || brought.effect == Effect::contact);
+    if (there && std::find(result.begin(), result.end(), brought.effect) == result.end()) result.push_back(brought.effect);
   }
   return result;
 }

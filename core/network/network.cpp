@@ -214,7 +214,7 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::train: {
       const auto node = [&](NodeId n) { return network.node_of[static_cast<std::size_t>(n)]; };
       place_in(network.trains);
-      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row, components()[static_cast<std::size_t>(element.declaration)]->loss(element.values)});
+      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row, components()[static_cast<std::size_t>(element.declaration)]->loss(resolved_values(scene, element))});
       if (Network::Train& train = network.trains.back(); train.loss) {
         train.friction = static_cast<int>(network.sliders.size());
         const auto bounds = [&](int side) { return Bounds{train.loss->lost(side, 0), train.loss->lost(side, 0)}; };

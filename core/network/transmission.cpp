@@ -14,6 +14,7 @@
 #include "core/netlist/records.hpp"
 #include "core/network/component.hpp"
 #include "core/network/error.hpp"
+#include "core/network/resolved.hpp"
 
 namespace rheonet {
 
@@ -28,10 +29,10 @@ double ratio_of(const SceneElement& element) { return component_of(element).rati
 
 bool joins_two_nodes(const SceneElement& element) { return !element.at && element.a != ground && element.b != ground; }
 
-bool has_losses(const SceneElement& element) { return component_of(element).loss(element.values).has_value(); }
+bool has_losses(const Scene& scene, const SceneElement& element) { return component_of(element).loss(resolved_values(scene, element)).has_value(); }
 
 /// Its support is at rest, and it has no losses: it may be a change of units.
-bool is_two_port(const SceneElement& element) { return is_transmission(element) && element.support == ground && !has_losses(element); }
+bool is_two_port(const Scene& scene, const SceneElement& element) { return is_transmission(element) && element.support == ground && !has_losses(scene, element); }
 
 /// The elements on a shortest path between two nodes, from the first node on, along elements that `may_pass`. Empty if none.
 template <class MayPass>
@@ -69,12 +70,12 @@ class Scales {
       const SceneElement& element = scene.elements[e];
       if (joins_two_nodes(element) && !is_transmission(element)) regions_.join(element.a, element.b);
       // Losses are friction between the first node and the support.
-      if (is_transmission(element) && has_losses(element) && element.a != ground && element.support != ground) regions_.join(element.a, element.support);
+      if (is_transmission(element) && has_losses(scene, element) && element.a != ground && element.support != ground) regions_.join(element.a, element.support);
     }
     for (std::size_t e = 0; e < scene.elements.size(); ++e) {
       const SceneElement& element = scene.elements[e];
-      row_[e] = is_transmission(element) && !is_two_port(element);
-      if (!joins_two_nodes(element) || !is_two_port(element)) continue;
+      row_[e] = is_transmission(element) && !is_two_port(scene, element);
+      if (!joins_two_nodes(element) || !is_two_port(scene, element)) continue;
       across_[at(regions_.find(element.a))].push_back(static_cast<int>(e));
       across_[at(regions_.find(element.b))].push_back(static_cast<int>(e));
     }
@@ -112,7 +113,7 @@ class Scales {
   /// Refuses a loop of transmissions alone that this one closes.
   void refuse_contradiction(int e) const {
     const SceneElement& closing = scene_.elements[at(e)];
-    const auto transmits = [&](int other) { return other != e && is_two_port(scene_.elements[at(other)]); };
+    const auto transmits = [&](int other) { return other != e && is_two_port(scene_, scene_.elements[at(other)]); };
     const std::vector<int> loop = path_between(scene_, closing.a, closing.b, transmits);
     if (loop.empty()) return;
     double ratio = 1;

@@ -278,3 +278,26 @@ record = ["a.velocity", "b.velocity"]
   const RunTable one = run("g = { type = \"gear\", between = [\"a\", \"b\"], ratio = -6, efficiency = [0.72, 0.35] }");
   CHECK(largest_error(two, one) < 1e-7);
 }
+
+TEST_CASE("losses: without dry friction a gear with losses is one without") {
+  const auto text = [](const std::string& losses, const std::string& effects) {
+    return effects + R"~(
+[elements]
+Ta = { type = "torque", at = "a", torque = { sine = 10, frequency = 1 } }
+Ja = { type = "inertia", at = "a", inertia = 0.1 }
+g = { type = "gear", between = ["a", "b"], ratio = 3)~" + losses + R"~( }
+Jb = { type = "inertia", at = "b", inertia = 2 }
+c = { type = "dashpot", between = ["b", "ground"], damping = 3 }
+[simulate]
+stop = 1
+record = ["a.velocity", "b.velocity", "g.force"]
+)~";
+  };
+  const std::string rotation = "domain = \"rotation\"\n";
+  const RunTable plain = simulate(text("", rotation)), full = simulate(text(", efficiency = 0.7, bearing = 0.2", rotation));
+  CHECK(largest_error(full, plain) > 0.01);
+  for (const char* losses : {", efficiency = 0.7", ", bearing = 0.2", ", efficiency = [0.6, -0.1], bearing = [0.2, 0.1]", ", efficiency = [1, 0]"}) {
+    CAPTURE(losses);
+    CHECK(largest_error(simulate(text(losses, rotation + "[effects]\nwithout = [\"dry_friction\"]\n")), plain) == 0);
+  }
+}

@@ -141,11 +141,13 @@ TEST_CASE("contract: every effect that a component declares can be left out, but
     const Declaration& d = component->declaration;
     CAPTURE(d.type);
     std::set<Effect> declared;
+    std::set<std::pair<Effect, std::string>> by;
     for (const Brought& b : d.effects) {
-      CHECK(declared.insert(b.effect).second);
+      declared.insert(b.effect);
+      CHECK(by.insert({b.effect, b.parameter}).second);
       const auto p = std::find_if(d.parameters.begin(), d.parameters.end(), [&](const Parameter& q) { return q.name == b.parameter; });
       REQUIRE(p != d.parameters.end());
-      if (b.absent) CHECK((std::isinf(*b.absent) ? p->may_be_infinite : *b.absent == 0 && !p->lower_open));
+      if (b.absent) CHECK((std::isinf(*b.absent) ? p->may_be_infinite : (p->lower_open ? *b.absent > p->lower : *b.absent >= p->lower) && *b.absent <= p->upper));
     }
     for (const Absence& a : d.absences) {
       for (const Effect effect : a.effects) CHECK(declared.contains(effect));
