@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
@@ -97,15 +99,19 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     for (std::size_t k = 0; k < result.size(); ++k) result[k] += state.train_force[k];
     return result;
   };
-  // Trials that lead nowhere begin anew where all gears with losses stand still: self-locking may hold them.
-  for (const bool locked : {false, true}) {
-    const std::vector<double> first = locked ? forces_of_trains(look_ahead(t, h, fired, state, modes, force, now, {})) : state.train_force;
-    TrainForceTrials trials(network_, first, forces);
+  const auto follow = [&](TrainForceTrials trials) -> std::optional<ModeSelection> {
     while (!trials.endless()) {
       ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now, trials.trial());
       selection.train_force = forces_of_trains(selection);
       if (trials.agree(selection.train_force)) return selection;
     }
+    return {};
+  };
+  if (auto found = follow({network_, state.train_force, forces})) return *std::move(found);
+  // Trials that lead nowhere begin anew where all gears with losses stand still: self-locking may hold them.
+  if (auto found = follow({network_, forces_of_trains(look_ahead(t, h, fired, state, modes, force, now, {})), forces})) return *std::move(found);
+  for (TrainForceTrials& trials : TrainForceTrials::around(network_, forces)) {
+    if (auto found = follow(std::move(trials))) return *std::move(found);
   }
   report_losses(network_, at_time(*network_.scene, t));
 }

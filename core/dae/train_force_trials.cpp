@@ -26,6 +26,7 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
   const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
   if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off > before / 2)) return true;
   Eigen::VectorXd next = trial_ + miss;
+  if (count_ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
   if (count_++ > 0) {
     const Eigen::VectorXd turn = miss - miss_before_;
     const double share = turn.squaredNorm() > 0 ? turn.dot(miss) / turn.squaredNorm() : 0;
@@ -36,6 +37,24 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
   return false;
 }
 
-bool TrainForceTrials::endless() const { return count_ > numerics::loss_trials; }
+bool TrainForceTrials::endless() const { return count_ > (near_ ? numerics::near_loss_trials : numerics::loss_trials); }
+
+std::vector<TrainForceTrials> TrainForceTrials::around(const Network& network, double forces) {
+  std::vector<double> first(network.trains.size(), 0);
+  double* force = nullptr;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    if (!network.trains[k].loss) continue;
+    if (force) return {};
+    force = &first[k];
+  }
+  std::vector<TrainForceTrials> result;
+  for (double size = numerics::largest_trial * forces; size > numerics::smallest_trial * forces; size /= 8) {
+    for (const double sign : {1.0, -1.0}) {
+      *force = sign * size;
+      result.emplace_back(network, first, forces).near_ = true;
+    }
+  }
+  return result;
+}
 
 }  // namespace rheonet

@@ -16,6 +16,10 @@ class TrainForceTrials {
   /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
   TrainForceTrials(const Network& network, const std::vector<double>& first, double forces);
 
+  /// For one train with losses: trials around forces of either sign, from large to small. The relation is linear around each, and one of
+  /// these lines leads to forces that agree if there are any.
+  static std::vector<TrainForceTrials> around(const Network& network, double forces);
+
   /// The trial forces of all trains [N].
   std::vector<double> trial() const { return {trial_.begin(), trial_.end()}; }
   /// Takes the forces that a balance with this trial has. True if both agree to round-off; otherwise `trial` is the next one.
@@ -27,6 +31,7 @@ class TrainForceTrials {
   const Network* network_;
   double forces_, off_ = std::numeric_limits<double>::infinity();
   int count_ = 0;
+  bool near_ = false;  ///< the second trial is near the first
   Eigen::VectorXd trial_, before_, miss_before_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -300,4 +301,32 @@ record = ["a.velocity", "b.velocity", "g.force"]
     CAPTURE(losses);
     CHECK(largest_error(simulate(text(losses, rotation + "[effects]\nwithout = [\"dry_friction\"]\n")), plain) == 0);
   }
+}
+
+TEST_CASE("losses: a light motor lifts, holds and lowers a load by a self-locking gear, and every row obeys the law") {
+  const double J = 0.001, Jb = 46, weight = 1569.6, i = 32, ea = 0.45, eb = -0.3;
+  const RunTable rows = simulate(fmt::format(R"~(
+domain = "rotation"
+[elements]
+motor = {{ type = "torque", at = "a", torque = {{ table = [[0, 125], [1.5, 125], [1.5, 0], [3, 0], [3, -22], [4.5, -22], [4.5, 0], [9, 0]] }} }}
+Ja = {{ type = "inertia", at = "a", inertia = {} }}
+g = {{ type = "gear", between = ["a", "b"], ratio = {}, efficiency = [{}, {}] }}
+Jb = {{ type = "inertia", at = "b", inertia = {} }}
+W = {{ type = "torque", at = "b", torque = {} }}
+[simulate]
+stop = 5.5
+accuracy = 1e-8
+output = {{ points = 201 }}
+record = ["a.velocity", "a.acceleration", "g.force"]
+)~", J, i, ea, eb, Jb, -weight));
+  std::array<int, 3> seen{};
+  for (std::size_t k = 0; k < rows.time().size(); ++k) {
+    const double w = rows["a.velocity"][k], f = rows["g.force"][k], m = (weight + Jb * rows["a.acceleration"][k] / i) / i;
+    const double low = std::min(m / ea, eb * m), high = std::max(m / ea, eb * m), rounding = 1e-9 * weight / i;
+    ++seen[w > 0 ? 2 : w < 0 ? 0 : 1];
+    if (w > 0) CHECK(std::abs(f - high) < rounding);
+    if (w < 0) CHECK(std::abs(f - low) < rounding);
+    if (w == 0) CHECK((f > low - rounding && f < high + rounding));
+  }
+  for (const int count : seen) CHECK(count > 20);
 }

@@ -35,6 +35,8 @@ domain = "rotation"
 [elements]
 drive = { type = "motion", at = "drum", velocity = { step = "60 rpm" } }
 c1 = { type = "dashpot", between = ["drum", "ground"], damping = "2 N*cm*s/rad" }
+rotor = { type = "inertia", at = "shaft", inertia = 2 }
+worm = { type = "gear", between = ["shaft", "drum"], ratio = 7, efficiency = [0.6, -0.2], bearing = 3 }
 [elements.pivot]
 between = ["drum", "ground"]
 series = [ { name = "k1", type = "spring", stiffness = 3 }, { type = "dashpot", damping = 4 } ]
@@ -46,7 +48,7 @@ output = { points = 5 }
   for (const std::string part :
        {"drum (rotation)", "0 s to 0.2 s", "5 output times", "velocity = step of 6.283185307 rad/s at 0 s",
         "  never moves", "drum - ground ", "  damping = 0.02 N*m*s/rad", "pivot.k1", "stiffness = 3 N*m/rad",
-        "pivot.dashpot1", "assemblies:", "recorded:\n  "}) {
+        "pivot.dashpot1", "assemblies:", "recorded:\n  ", "efficiency = [0.6, -0.2]  bearing = 3 N*m\n"}) {
     CAPTURE(part);
     CHECK(contains(result.out, part));
   }

@@ -62,6 +62,9 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     } else if (found != with_signal.end()) {
       const auto which = static_cast<std::size_t>(found - with_signal.begin());
       values.push_back(fmt::format("{} = {}", name, in_words(element.signals[which], unit)));
+    } else if (!parameter.second_of.empty()) {
+      if (element.values[i] == element.values[i - 1]) continue;
+      values.back() = fmt::format("{} = [{:.10g}, {:.10g}]{}", parameter.second_of, element.values[i - 1], element.values[i], unit == "1" ? "" : " " + unit);
     } else if (!std::isnan(element.values[i]) && parameter.kind != Parameter::Kind::characteristic) {
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
