@@ -51,14 +51,11 @@ bool SteadyStateSolver::find_velocities() {
     }
   }
   add_rates(problem, scale);
-  if (losses_ == Losses::none) {
-    const bool solved = problem.solve() == ConvexNetwork::Outcome::solved;
-    if (!solved) {
-      losses_ = Losses::locked;
-      return false;
-    }
-  } else {
+  if (losses_ != Losses::none) {
     solve(problem, numerics::unresisted_speed * natural_speed(scale));
+  } else if (problem.solve() != ConvexNetwork::Outcome::solved) {
+    losses_ = Losses::locked;
+    return false;
   }
 
   if (losses_ != Losses::known) {

@@ -25,7 +25,7 @@ class SwitchedFunction {
   virtual std::size_t switches() const = 0;
   /// Whether the function depends on the variable.
   virtual bool uses(std::size_t variable) const = 0;
-  /// What messages call a variable.
+  /// The name of a variable in messages.
   virtual std::string variable(std::size_t k) const { return "u" + std::to_string(k + 1); }
   /// As messages and drawings show it.
   virtual std::string text() const = 0;

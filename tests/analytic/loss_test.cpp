@@ -47,7 +47,7 @@ TEST_CASE("losses: the side that drives loses its share of power") {
   CHECK(error_of(motor, "b.velocity", [&](double t) { return up * t; }) < 1e-11);
   CHECK(error_of(motor, "g.force", [&](double) { return m / forwards; }) < 1e-11);
   CHECK(error_of(motor, "g.dissipated", [&](double t) { return (1 - forwards) * m / forwards * i * up * t; }) < 1e-11);
-  // b drives, backwards: f_a = eta of what b takes, over i.
+  // While b drives backwards, f_a is eta times the torque at b over i.
   const RunTable brake = simulate(drive(J1, J2, "0.2", "-9", gear, 1));
   const double n = (0.2 + J1 * i * 9 / J2) / (J1 * i * i / J2 + backwards), down = (i * n - 9) / J2;
   CHECK(error_of(brake, "b.velocity", [&](double t) { return down * t; }) < 1e-11);
@@ -226,20 +226,22 @@ start_from = ")~" + start + "\"\nstop = 1\noutput = { points = 5 }\n");
   }
 }
 
+namespace {
+
+/// Gears between two shafts for 2 s; the first shaft has a small inertia, and a torque that rises from 0.
+RunTable turned(const std::string& gears, const std::string& second_shaft, const std::string& record) {
+  return simulate("domain = \"rotation\"\n[elements]\nTa = { type = \"torque\", at = \"a\", torque = { sine = 10, frequency = 1 } }\n"
+                  "Ja = { type = \"inertia\", at = \"a\", inertia = 0.1 }\n" + gears + second_shaft +
+                  "[simulate]\nstop = 2\naccuracy = 1e-9\noutput = { points = 21 }\nrecord = [" + record + "]\n");
+}
+
+}  // namespace
+
 TEST_CASE("losses: the driving side changes while the force of the gear passes 0") {
   // Without friction of bearings all bounds are 0 at that moment. The same gear the other way round has its efficiencies exchanged.
   const auto run = [](const std::string& gear) {
-    return simulate("domain = \"rotation\"\n[elements]\n" + gear + R"~(
-ta = { type = "torque", at = "a", torque = { sine = 10, frequency = 1 } }
-ja = { type = "inertia", at = "a", inertia = 0.1 }
-m = { type = "inertia", at = "d", inertia = 2 }
-k = { type = "spring", between = ["d", "ground"], stiffness = 30 }
-[simulate]
-stop = 2
-accuracy = 1e-9
-output = { points = 21 }
-record = ["a.velocity", "d.velocity", "g.dissipated", "d.position"]
-)~");
+    return turned(gear + "\n", "Jd = { type = \"inertia\", at = \"d\", inertia = 2 }\nk = { type = \"spring\", between = [\"d\", \"ground\"], stiffness = 30 }\n",
+                  R"("a.velocity", "d.velocity", "g.dissipated", "d.position")");
   };
   const RunTable one = run("g = { type = \"gear\", between = [\"d\", \"a\"], ratio = 0.25, efficiency = [0.4, 0.7] }");
   const RunTable other = run("g = { type = \"gear\", between = [\"a\", \"d\"], ratio = 4, efficiency = [0.7, 0.4] }");
@@ -263,17 +265,8 @@ Tb = {{ type = "torque", at = "b", torque = {{ ramp = 3 }} }}
 
 TEST_CASE("losses: gears in series, and a torque that rises from 0, are one gear with the product of the efficiencies") {
   const auto run = [](const std::string& gears) {
-    return simulate("domain = \"rotation\"\n[elements]\n" + gears + R"~(
-ta = { type = "torque", at = "a", torque = { sine = 10, frequency = 1 } }
-ja = { type = "inertia", at = "a", inertia = 0.1 }
-jb = { type = "inertia", at = "b", inertia = 7.2 }
-tb = { type = "torque", at = "b", torque = { sine = 30, frequency = 1.7 } }
-[simulate]
-stop = 2
-accuracy = 1e-9
-output = { points = 21 }
-record = ["a.velocity", "b.velocity"]
-)~");
+    return turned(gears + "\n", "Jb = { type = \"inertia\", at = \"b\", inertia = 7.2 }\nTb = { type = \"torque\", at = \"b\", torque = { sine = 30, frequency = 1.7 } }\n",
+                  R"("a.velocity", "b.velocity")");
   };
   const RunTable two = run("g1 = { type = \"gear\", between = [\"a\", \"m\"], ratio = 2, efficiency = [0.8, 0.5] }\ng2 = { type = \"gear\", between = [\"m\", \"b\"], ratio = -3, efficiency = [0.9, 0.7] }");
   const RunTable one = run("g = { type = \"gear\", between = [\"a\", \"b\"], ratio = -6, efficiency = [0.72, 0.35] }");

@@ -295,7 +295,7 @@ TEST_CASE("trains: a support that a motion holds still is ground") {
 }
 
 TEST_CASE("trains: a planetary gear that three sliders lock breaks loose where the power of the loads exceeds theirs") {
-  // The train's force is open while all stick. Of the three motions that could begin, z at rest and w_x = (1 + r) w_y needs the least torque.
+  // The train's force is open while all stick. Three motions could begin. The one with z at rest and w_x = (1 + r) w_y needs the least torque.
   const double r = 2.06, J = 1.22, rise = 2.7, Ty = 0.13, Fx = 1.27, Fy = 0.47, Fz = 1.2;
   const RunTable rows = simulate(fmt::format(R"~(
 domain = "rotation"
