@@ -7,10 +7,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-std::optional<Loss> losses(std::span<const double> v) {
-  if (v[1] == 1 && v[2] == 1 && v[3] == 0 && v[4] == 0) return {};
-  return Loss{v[1], v[2], v[3], v[4]};
-}
+Loss losses(std::span<const double> v) { return {v[1], v[2], v[3], v[4]}; }
 
 std::optional<Misfit> zero_ratio(std::span<const double> v) {
   if (v[0] != 0) return {};
@@ -22,13 +19,13 @@ Declaration declared(const char* type, const char* summary, const char* ratio) {
       .type = type,
       .supported = true,
       .parameters = {{.name = "ratio", .quantity = Quantity::number, .lower = -unlimited, .symbol = "i", .description = ratio},
-                     {.name = "efficiency", .quantity = Quantity::number, .fallback = 1.0, .upper = 1, .symbol = "eta_a",
+                     {.name = "efficiency", .quantity = Quantity::number, .fallback = 1.0, .upper = 1, .over = Quantity::velocity, .may_be_curve = true, .symbol = "eta_a",
                       .description = "share of the power that arrives; or two values, [while a drives, while b drives]; 0 or less for b: self-locking"},
-                     {.name = "efficiency_b", .quantity = Quantity::number, .lower = -unlimited, .upper = 1, .second_of = "efficiency", .same_as = "efficiency", .symbol = "eta_b",
+                     {.name = "efficiency_b", .quantity = Quantity::number, .lower = -unlimited, .upper = 1, .over = Quantity::velocity, .may_be_curve = true, .second_of = "efficiency", .same_as = "efficiency", .symbol = "eta_b",
                       .description = "the second value of `efficiency`"},
-                     {.name = "bearing", .quantity = Quantity::force, .fallback = 0.0, .lower_open = false, .symbol = "f_a",
+                     {.name = "bearing", .quantity = Quantity::force, .fallback = 0.0, .lower_open = false, .over = Quantity::velocity, .may_be_curve = true, .symbol = "f_a",
                       .description = "friction of the bearings, seen at a; or two values, [while a drives, while b drives]"},
-                     {.name = "bearing_b", .quantity = Quantity::force, .lower_open = false, .second_of = "bearing", .same_as = "bearing", .symbol = "f_b",
+                     {.name = "bearing_b", .quantity = Quantity::force, .lower_open = false, .over = Quantity::velocity, .may_be_curve = true, .second_of = "bearing", .same_as = "bearing", .symbol = "f_b",
                       .description = "the second value of `bearing`"}},
       .check = zero_ratio,
       .effects = {{Effect::dry_friction, "efficiency", 1, true}, {Effect::dry_friction, "efficiency_b", 1, true},

@@ -25,7 +25,7 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
 /// on the curve see to it that no step passes over it: from far outside, a step to the other side of rest would not notice it.
 std::optional<MotionExpression> friction_over_speed(const LawValues& v) {
   if (v.size() < 6) return {};  // a rigid link
-  if (v.characteristic && !std::isinf(v[1])) return MotionExpression{.expression = {}, .names = {}, .parameter = 0, .function = std::make_shared<const SpeedCurve>(*v.characteristic)};
+  if (v.characteristic && !std::isinf(v[1])) return MotionExpression{.expression = {}, .names = {}, .parameter = 0, .function = std::make_shared<const SpeedCurve>(*v.characteristic, find_component("slider")->declaration.parameters[0])};
   if (std::isnan(v[4])) return {};
   const double breakaway = (std::isnan(v[1]) ? v[0] : v[1]) * (std::isnan(v[3]) ? 1 : v[3]);
   if (std::isinf(breakaway)) return {};  // a rigid link
@@ -70,7 +70,7 @@ const RegisterComponent register_slider({
                      "With `stribeck` it slides with f = [Fc + (Fs - Fc) exp(-abs(w/vs)^n)] sgn(w): from breakaway at rest down to Fc. Both nodes then "
                      "need a mass or a prescribed motion.\n"
                      "`coulomb` may be a curve over the speed: an expression in w, or points (speed, force). Its value at rest is the breakaway force, "
-                     "unless `breakaway` or `peak` says otherwise. Beyond its points the last value holds. The nodes need a mass or a prescribed motion too.\n"
+                     "unless `breakaway` or `peak` says otherwise. Beyond its points it goes on straight, but not below 0. The nodes need a mass or a prescribed motion too.\n"
                      "A brake or a clutch is a slider with a `normal` that varies. Where it is below 0 the surfaces are apart: no force.",
         },
     .role = Role::slip,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
 #include <span>
 
 #include "core/network/component.hpp"
@@ -14,11 +13,9 @@ inline Box rigid_transmission(std::span<const Dual>) {
   return Box::symmetric({unlimited, unlimited});
 }
 
-inline std::optional<Loss> no_loss(std::span<const double>) { return {}; }
-
 /// The component of a transmission. `ratio`: velocity of the first node over that of the second.
 inline Component transmission(Declaration declaration, std::function<double(std::span<const double>)> ratio, Symbol drawing,
-                              std::function<std::optional<Loss>(std::span<const double>)> loss = no_loss) {
+                              std::function<Loss(std::span<const double>)> loss = {}) {
   declaration.ports = Declaration::Ports::between;
   if (declaration.source.empty()) declaration.source = "definition";
   Component component{.declaration = std::move(declaration), .role = Role::slip, .with_row = "gear train", .box = rigid_transmission, .ratio = std::move(ratio), .loss = std::move(loss)};

@@ -54,6 +54,14 @@ Dae::Dae(const Network& network, const Structure& structure, Inputs& inputs, con
   dc_ = df_;
   view_.train_force.assign(network.trains.size(), 0);
   loss_lines_.assign(network.trains.size(), {});
+  b_drives_.assign(network.trains.size(), 0);
+  train_forces_ = structure.train_forces;
+  equations_ = structure.tied;
+  if (std::any_of(varying_.begin(), varying_.end(), [&](std::size_t k) { return network.sliders[k].train >= 0; }) && !equations_.empty()) {
+    std::vector<NodeId> sharing;
+    for (const auto& [node, share] : equations_.front().shares) sharing.push_back(node);
+    train_shares_.emplace(network, equations_, structure.rigid, std::move(sharing));
+  }
   view_.velocity = view_.acceleration = view_.nodal = view_.applied = view_.position = v_;
   view_.p = view_.f = view_.creep = view_.flow = view_.dp = df_;
   view_.rate_velocity = view_.rate_force = rate_in_;
@@ -115,6 +123,7 @@ void Dae::build_pattern() {
   for (const int z : iz_) drafts.put_mass(z, z, 1);
   build_couplings(drafts.builder);
   share_balances_of_pivots(drafts);
+  couple_shares(drafts.builder);
   find_parallels();
   for (Follower& f : followers_) {
     f.own_entry = drafts.builder.ticket(f.row, ip_[at(f.branch)]);
@@ -153,12 +162,9 @@ void Dae::draft_balances(Drafts& drafts) const {
 }
 
 void Dae::share_balances_of_pivots(Drafts& drafts) {
-  if (structure_->tied.empty()) return;
-  std::map<int, const Structure::Tied*> of_row;
-  for (const Structure::Tied& tied : structure_->tied) of_row.emplace(iv_[at(tied.pivot)], &tied);
-  const auto share = [&](const Structure::Tied& tied, auto visit) {
-    for (const auto& [node, factor] : tied.shares) visit(iv_[at(node)], -factor);
-  };
+  if (equations_.empty()) return;
+  std::map<int, std::size_t> of_row;  // the equation of each pivot's row
+  for (std::size_t r = 0; r < equations_.size(); ++r) of_row.emplace(iv_[at(equations_[r].pivot)], r);
   std::vector<Constant> masses;
   std::swap(masses, drafts.masses);
   for (const Constant& mass : masses) {
@@ -166,8 +172,11 @@ void Dae::share_balances_of_pivots(Drafts& drafts) {
     const auto found = of_row.find(place.row);
     if (found == of_row.end()) {
       drafts.masses.push_back(mass);
-    } else {
-      share(*found->second, [&](int row, double factor) { drafts.put_mass(row, place.column, factor * mass.value); });
+      continue;
+    }
+    const std::vector<Structure::Tied::Term>& shares = equations_[found->second].shares;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      shared_masses_.push_back({drafts.builder.ticket(iv_[at(shares[i].node)], place.column), found->second, i, mass.value});
     }
   }
   std::set<std::pair<int, int>> places;  // row and column
@@ -175,13 +184,15 @@ void Dae::share_balances_of_pivots(Drafts& drafts) {
     if (of_row.contains(place.row)) places.emplace(place.row, place.column);
   }
   for (const auto& [from, column] : places) {
-    share(*of_row.at(from), [&](int row, double factor) {
-      shared_entries_.push_back({drafts.builder.ticket(from, column), drafts.builder.ticket(row, column), factor});
-    });
+    const std::size_t r = of_row.at(from);
+    const std::vector<Structure::Tied::Term>& shares = equations_[r].shares;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      shared_entries_.push_back({drafts.builder.ticket(from, column), drafts.builder.ticket(iv_[at(shares[i].node)], column), r, i});
+    }
   }
-  for (const auto& [row, tied] : of_row) {
+  for (const auto& [row, r] : of_row) {
     tied_.push_back({drafts.builder.ticket(row, row), 1});
-    for (const auto& [node, factor] : tied->terms) {
+    for (const auto& [node, factor] : equations_[r].terms) {
       if (iv_[at(node)] >= 0) tied_.push_back({drafts.builder.ticket(row, iv_[at(node)]), factor});
     }
   }
@@ -189,7 +200,7 @@ void Dae::share_balances_of_pivots(Drafts& drafts) {
 
 /// Shares the balances of pivots, and writes the equations of the trains in their rows.
 void Dae::tie(double* values) const {
-  for (const SharedEntry& s : shared_entries_) values[s.to] += s.factor * values[s.from];
+  for (const SharedEntry& s : shared_entries_) values[s.to] -= equations_[s.equation].shares[s.share].factor * values[s.from];
   for (const int entry : pivot_entries_) values[entry] = 0;
   for (const Constant& c : tied_) values[c.entry] += c.value;
 }
@@ -254,7 +265,11 @@ void Dae::take_entries(Drafts& drafts) {
   masses_ = copy(drafts.masses);
   scatter_ = copy(drafts.scatter);
   flow_entries_ = copy(flow_entries_);
-  for (SharedEntry& s : shared_entries_) s = {entry[at(s.from)], entry[at(s.to)], s.factor};
+  take(shared_masses_);
+  for (SharedEntry& s : shared_entries_) {
+    s.from = entry[at(s.from)];
+    s.to = entry[at(s.to)];
+  }
   take(tied_);
   std::vector<char> of_pivot(at(size_), 0);
   for (const Structure::Tied& tied : structure_->tied) of_pivot[at(iv_[at(tied.pivot)])] = 1;
@@ -265,6 +280,7 @@ void Dae::take_entries(Drafts& drafts) {
   take(felt_entries_);
   take(couplings_);
   for (SlidingCoupling& c : sliding_couplings_) c.coupling.entry = entry[at(c.coupling.entry)];
+  for (ShareCoupling& c : share_couplings_) c.coupling.entry = entry[at(c.coupling.entry)];
   for (Follower& f : followers_) {
     f.own_entry = entry[at(f.own_entry)];
     f.leader_entry = entry[at(f.leader_entry)];
@@ -273,7 +289,7 @@ void Dae::take_entries(Drafts& drafts) {
     }
   }
   std::vector<char> with_mass(at(pattern_.entries()), 0);
-  for (const Constant& mass : masses_) with_mass[at(mass.entry)] = 1;
+  for_each_mass([&](int e, double) { with_mass[at(e)] = 1; });
   const auto begin = [&](int column) { return with_mass.begin() + pattern_.column_start[at(column)]; };
   differentiated_.resize(at(size_));
   for (int i = 0; i < size_; ++i) {
@@ -288,17 +304,14 @@ void Dae::enter(double t, const State& state, const Modes& modes, std::vector<do
   update_holds();
   inputs_->evaluate(t);
   offset_ = state.offset;
+  b_drives_ = modes.b_drives;
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
     const Branch& b = network_->sliders[k].branch;
     slip_side_[k] = structure_->stuck[k] ? static_cast<signed char>(Modes::stuck) : modes.slider[k];
     slip_force_[k] = slip_side_[k] == 0 ? 0 : slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
-    // The friction of losses is a share of the force of their train (Structure::train_forces), and a constant. This is the constant.
-    if (const int train = network_->sliders[k].train; train >= 0 && slip_side_[k] != 0) {
-      loss_lines_[at(train)] = network_->trains[at(train)].loss->line(slip_side_[k], modes.b_drives[at(train)] != 0);
-      slip_force_[k] = loss_lines_[at(train)].offset;
-    }
     slider_shift_[k] = network_->sliders[k].contact ? rheonet::displacement(network_->sliders[k], state) : state.position[at(b.a)] - state.position[at(b.b)];
   }
+  follow_losses();
   y.assign(at(size_), 0);
   for (std::size_t j = 0; j < ip_.size(); ++j) {
     const Branch& b = structure_->deflections[j];

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "core/dae/stick_forces.hpp"
 #include "core/network/network.hpp"
 #include "core/network/structure.hpp"
+#include "core/network/train_shares.hpp"
 
 namespace rheonet {
 
@@ -232,6 +235,8 @@ class Dae {
   };
   /// The same through a varying parameter of a slipping slider: times the slope of its sliding force.
   struct SlidingCoupling { Coupling coupling; std::size_t slider, parameter; };
+  /// The same through the share of a pivot's balance, on which the losses of a train have an influence (TrainShares).
+  struct ShareCoupling { Coupling coupling; std::size_t slider, parameter; Eigen::Index share, pivot; };
   struct AtomTerm { int column; double factor; Coupling::By by; std::size_t branch; };
   std::vector<AtomTerm> terms_of_atom(std::size_t atom) const;
   std::vector<Coupling> entries_of(PatternBuilder& builder, int row, bool of_rate, std::size_t source, double factor) const;
@@ -240,6 +245,11 @@ class Dae {
   void build_couplings(PatternBuilder& builder);
   void couple_motions(PatternBuilder& builder);
   void couple_sliders(PatternBuilder& builder);
+  // varying_losses.cpp
+  void couple_shares(PatternBuilder& builder);
+  void follow_losses();
+  void shares_jacobian(const double* yp, double* values);
+  double slope(const Coupling& coupling) const;
   void move_by_blocks(const double* y);
   double acceleration_by(const Network::Motion& motion) const;
   double known_acceleration(NodeId node) const;
@@ -270,6 +280,7 @@ class Dae {
   // residual.cpp
   void gather(double t, const double* y);
   void sum_forces();
+  void balances(const double* yp, double* r) const;
   void evaluate_forces(double t, const double* y);
   // loose_dashpots.cpp
   void find_loose_dashpots();
@@ -294,6 +305,7 @@ class Dae {
   int deflections_begin_ = 0, deflections_end_ = 0;  ///< those of ip_ are one after the other
   std::vector<Coupling> couplings_;
   std::vector<SlidingCoupling> sliding_couplings_;
+  std::vector<ShareCoupling> share_couplings_;
   std::vector<Row> rows_;
   /// For each delayed branch, the negated present velocity of its free ends. These ends are masses (otherwise no step is longer
   /// than the delay).
@@ -306,8 +318,10 @@ class Dae {
   struct Constant { int entry; double value; };
   std::vector<Constant> constants_;        ///< of dF/dy
   /// Entries of the balances of pivots, which other rows share; then they make way for the equations of the trains.
-  struct SharedEntry { int from, to; double factor; };
+  struct SharedEntry { int from, to; std::size_t equation, share; };
   std::vector<SharedEntry> shared_entries_;
+  struct SharedMass { int entry; std::size_t equation, share; double mass; };
+  std::vector<SharedMass> shared_masses_;  ///< those in the balances of pivots, in the rows that share them
   std::vector<int> pivot_entries_;         ///< in the rows of pivots
   std::vector<Constant> tied_;             ///< the coefficients of these equations
   std::vector<Constant> masses_;           ///< of dF/dy', except for flow_entries_
@@ -329,7 +343,12 @@ class Dae {
   std::vector<double> slip_force_;     ///< of each slider: 0 while it sticks
   std::vector<signed char> slip_side_; ///< of each slider: the direction in which it slips; 0 while it sticks
   std::vector<std::size_t> varying_;   ///< slipping sliders whose sliding force varies
+  // Losses of trains. While some depend on the speed, the last three change with it.
+  std::vector<char> b_drives_;         ///< of each train
+  std::optional<TrainShares> train_shares_;  ///< if some depend on the speed
   std::vector<Loss::Line> loss_lines_; ///< of each train whose losses slip
+  std::vector<std::array<double, 3>> train_forces_;  ///< as in Structure
+  std::vector<Structure::Tied> equations_;           ///< of the trains, with the present shares
   std::vector<char> by_force_;         ///< of each rate branch: these equations need its law as w = rate(f)
   // Work space of the residual.
   std::vector<double> work_, v_, a_, rate_in_, rate_out_, rate_d_, df_, dc_;
@@ -348,6 +367,7 @@ class Dae {
 template <class Visit>
 void Dae::for_each_mass(Visit visit) const {
   for (const Constant& mass : masses_) visit(mass.entry, mass.value);
+  for (const SharedMass& m : shared_masses_) visit(m.entry, -equations_[m.equation].shares[m.share].factor * m.mass);
   for (const FlowEntry& f : flow_entries_) visit(f.entry, f.sign * moving_[at(f.branch)]);
 }
 

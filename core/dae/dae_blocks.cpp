@@ -184,16 +184,20 @@ void Dae::block_jacobian(double* values) const {
   if (couplings_.empty() && sliding_couplings_.empty()) return;
   BlockSignals& blocks = inputs_->blocks();
   blocks.update_slopes(inputs_->history());
-  const auto derivative = [&](const Coupling& c) {
-    const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
-    const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;
-    return c.factor * slope * by;
-  };
-  for (const Coupling& c : couplings_) values[c.entry] += derivative(c);
+  for (const Coupling& c : couplings_) values[c.entry] += slope(c);
   for (const auto& [c, slider, parameter] : sliding_couplings_) {
-    const int side = slip_side_[slider];
-    values[c.entry] += side * inputs_->sliding_slope(slider, side, parameter) * derivative(c);
+    const int side = slip_side_[slider], train = network_->sliders[slider].train;
+    const double rate = train < 0 ? side * inputs_->sliding_slope(slider, side, parameter) : inputs_->loss_slope(slider, side, b_drives_[at(train)] != 0, parameter).offset;
+    values[c.entry] += rate * slope(c);
   }
+}
+
+/// An entry of the Jacobian due to a block, at the slopes last updated.
+double Dae::slope(const Coupling& c) const {
+  const BlockSignals& blocks = inputs_->blocks();
+  const double slope = c.of_rate ? blocks.rate_slope(c.source, c.atom) : blocks.slope(static_cast<int>(c.source), c.atom);
+  const double by = c.by == Coupling::By::slope ? df_[c.branch] : c.by == Coupling::By::damping ? rate_d_[c.branch] : 1;
+  return c.factor * slope * by;
 }
 
 void Dae::choose_limits(double t, const double* y, const double* yp) {

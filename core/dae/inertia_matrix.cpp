@@ -17,14 +17,13 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
     : network_(network), structure_(structure) {
   if (network.inerters.empty() && network.trains.empty()) return;
   row_.assign(structure.kind.size(), -1);
-  std::vector<Eigen::Triplet<double>> entries;
   const auto row = [&](NodeId node) {
     if (structure.kind[at(node)] != Kind::massive) return -1;
     int& r = row_[at(node)];
     if (r < 0) {
       r = static_cast<int>(nodes_.size());
       nodes_.push_back(node);
-      entries.emplace_back(r, r, structure.mass[at(node)]);
+      entries_.emplace_back(r, r, structure.mass[at(node)]);
     }
     return r;
   };
@@ -33,11 +32,11 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
     if (b.a == b.b) continue;
     const double inertance = network.inerters[k].inertance;
     const int i = row(b.a), j = row(b.b);
-    if (i >= 0) entries.emplace_back(i, i, inertance);
-    if (j >= 0) entries.emplace_back(j, j, inertance);
+    if (i >= 0) entries_.emplace_back(i, i, inertance);
+    if (j >= 0) entries_.emplace_back(j, j, inertance);
     if (i < 0 || j < 0) continue;
-    entries.emplace_back(i, j, -inertance);
-    entries.emplace_back(j, i, -inertance);
+    entries_.emplace_back(i, j, -inertance);
+    entries_.emplace_back(j, i, -inertance);
   }
   for (const Structure::Tied& tied : structure.tied) {
     row(tied.pivot);
@@ -46,19 +45,24 @@ InertiaMatrix::InertiaMatrix(const Network& network, const Structure& structure)
   for (std::size_t k = 0; k < structure.tied.size(); ++k) {
     const int r = static_cast<int>(nodes_.size() + k);
     const Structure::Tied& tied = structure.tied[k];
-    entries.emplace_back(r, row_[at(tied.pivot)], 1);
+    entries_.emplace_back(r, row_[at(tied.pivot)], 1);
     for (const auto& [node, factor] : tied.terms) {
-      if (row_[at(node)] >= 0) entries.emplace_back(r, row_[at(node)], factor);
+      if (row_[at(node)] >= 0) entries_.emplace_back(r, row_[at(node)], factor);
     }
     const std::array<NodeId, 3>& nodes = network.trains[at(tied.train)].node;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const int place = row_[at(structure.rigid[at(nodes[i])])];
-      if (place >= 0) entries.emplace_back(place, r, structure.train_forces[at(tied.train)][i]);
+      if (place >= 0) train_entries_.push_back({place, r, at(tied.train), i});
     }
   }
   factors_ = std::make_unique<Factors>();
-  if (nodes_.empty()) return;
-  const auto size = static_cast<Eigen::Index>(nodes_.size() + structure.tied.size());
+  if (!nodes_.empty()) take_train_forces(structure.train_forces);
+}
+
+void InertiaMatrix::take_train_forces(const std::vector<std::array<double, 3>>& train_forces) {
+  std::vector<Eigen::Triplet<double>> entries = entries_;
+  for (const TrainEntry& e : train_entries_) entries.emplace_back(e.row, e.column, train_forces[e.train][e.end]);
+  const auto size = static_cast<Eigen::Index>(nodes_.size() + structure_.tied.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   factors_->of.compute(matrix);

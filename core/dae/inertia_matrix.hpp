@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -22,6 +24,8 @@ class InertiaMatrix {
   ~InertiaMatrix();
 
   bool coupled() const { return !nodes_.empty(); }
+  /// Where losses depend on the speed: the present forces of the trains at their nodes (Structure::train_forces).
+  void take_train_forces(const std::vector<std::array<double, 3>>& train_forces);
   /// Solves M a + D f = force - (the inerters' forces due to the accelerations of prescribed nodes) with C a = 0, for the coupled
   /// nodes alone. `acceleration` holds those of prescribed nodes [m/s^2], `force` the sum of the forces that act on each node [N];
   /// `train_force` gets the force of each train [N].
@@ -29,10 +33,13 @@ class InertiaMatrix {
 
  private:
   struct Factors;
+  struct TrainEntry { int row, column; std::size_t train, end; };
   const Network& network_;
   const Structure& structure_;
   std::vector<NodeId> nodes_;  ///< the coupled ones
   std::vector<int> row_;       ///< of each node, -1
+  std::vector<Eigen::Triplet<double>> entries_;  ///< without the forces of trains
+  std::vector<TrainEntry> train_entries_;
   std::unique_ptr<Factors> factors_;
 };
 

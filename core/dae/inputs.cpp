@@ -39,6 +39,8 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
     box_.push_back(network.sliders[k].box);
     if (!network.sliders[k].varying.empty()) varying_sliders_.push_back(k);
   }
+  for (const Network::Train& train : network.trains) losses_.push_back(train.loss.value_or(Loss()));
+  train_force_.assign(network.trains.size(), 0);
   position.resize(motions_.size());
   velocity = acceleration = steps_ = position;
   force.resize(forces_.size());
@@ -183,17 +185,38 @@ void Inputs::apply_blocks() {
     for (const Network::VaryingParameter& v : slider.varying) {
       values[static_cast<std::size_t>(v.parameter)] = Dual(v.sign) * blocks_.out(v.block);
     }
-    box_[k] = slider.component->box(values);
+    if (slider.train < 0) {
+      box_[k] = slider.component->box(values);
+      continue;
+    }
+    std::vector<double> present;
+    for (const Dual& value : values) present.push_back(value.value);
+    losses_[at(slider.train)] = loss_law(slider)(present);
+    bound_losses(at(slider.train));
   }
 }
 
+const std::function<Loss(std::span<const double>)>& Inputs::loss_law(const Network::Slider& slider) const {
+  return components()[at(network_->element_of(slider.branch).declaration)]->loss;
+}
+
+Loss::Line Inputs::loss_slope(std::size_t k, int side, bool b_drives, std::size_t which) const {
+  const Network::Slider& slider = network_->sliders[k];
+  std::vector<double> one(slider.values.size(), 0);
+  one[at(slider.varying[which].parameter)] = slider.varying[which].sign;
+  return losses_[at(slider.train)].slope(side, b_drives, loss_law(slider)(one));
+}
+
+void Inputs::bound_losses(std::size_t k) {
+  const Network::Train& train = network_->trains[k];
+  if (train.friction < 0) return;
+  const Dual forward = losses_[k].lost(1, train_force_[k]), backward = losses_[k].lost(-1, train_force_[k]);
+  box_[at(train.friction)] = {{forward, forward}, {backward, backward}};
+}
+
 void Inputs::transmit(const std::vector<double>& train_force) {
-  for (std::size_t k = 0; k < network_->trains.size(); ++k) {
-    const Network::Train& train = network_->trains[k];
-    if (train.friction < 0) continue;
-    const Dual forward = train.loss->lost(1, train_force[k]), backward = train.loss->lost(-1, train_force[k]);
-    box_[at(train.friction)] = {{forward, forward}, {backward, backward}};
-  }
+  train_force_ = train_force;
+  for (std::size_t k = 0; k < network_->trains.size(); ++k) bound_losses(k);
 }
 
 double Inputs::sliding_slope(std::size_t k, int side, std::size_t which) const {

@@ -94,8 +94,12 @@ class Inputs {
   }
   /// Bounds of the losses of trains with these forces [N].
   void transmit(const std::vector<double>& train_force);
+  /// Losses of a train at its present speed.
+  const Loss& loss(std::size_t train) const { return losses_[train]; }
   /// Derivative of the sliding force of a slider to one side by its varying parameter number `which`.
   double sliding_slope(std::size_t slider, int side, std::size_t which) const;
+  /// Derivative of Loss::line by this parameter of the slider that stands for the losses of a train.
+  Loss::Line loss_slope(std::size_t slider, int side, bool b_drives, std::size_t which) const;
 
   /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.
   struct Reach { double force = 0, velocity = 0; };
@@ -116,6 +120,8 @@ class Inputs {
   };
   struct Force { int element; Signal signal; Piece piece; };
   double position_of(const Motion& m, TimePoint t) const;
+  const std::function<Loss(std::span<const double>)>& loss_law(const Network::Slider& slider) const;
+  void bound_losses(std::size_t train);
   void mark(double t, bool fresh);
   void look_ahead(double t);
   void sense_network(const State& state);
@@ -131,6 +137,8 @@ class Inputs {
   std::vector<Force> forces_;
   std::vector<Box> box_;                      ///< of each slider
   std::vector<std::size_t> varying_sliders_;  ///< those whose box varies
+  std::vector<Loss> losses_;                  ///< of each train
+  std::vector<double> train_force_;           ///< that the losses have their bounds for [N]
   std::map<std::pair<int, int>, Search> searches_;  ///< the last one for each pair of motions, on the present pieces
   std::vector<double> steps_;
   TimePoint next_break_;  ///< of the signals

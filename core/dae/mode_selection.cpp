@@ -83,7 +83,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   rest_beside_sliders(fired, state, modes);
   for (std::size_t k = 0; k < network_.trains.size(); ++k) {
     const Network::Train& train = network_.trains[k];
-    if (train.loss) modes.b_drives[k] = train.loss->b_drives(modes.slider[at(train.friction)], selection.train_force[k]);
+    if (train.loss) modes.b_drives[k] = inputs_.loss(k).b_drives(modes.slider[at(train.friction)], selection.train_force[k]);
   }
   return broken;
 }
@@ -107,10 +107,10 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     }
     return {};
   };
-  if (auto found = follow({network_, state.train_force, forces})) return *std::move(found);
+  if (auto found = follow({network_, inputs_, state.train_force, forces})) return *std::move(found);
   // Trials that lead nowhere begin anew where all gears with losses stand still: self-locking may hold them.
-  if (auto found = follow({network_, forces_of_trains(look_ahead(t, h, fired, state, modes, force, now, {})), forces})) return *std::move(found);
-  for (TrainForceTrials& trials : TrainForceTrials::around(network_, forces)) {
+  if (auto found = follow({network_, inputs_, forces_of_trains(look_ahead(t, h, fired, state, modes, force, now, {})), forces})) return *std::move(found);
+  for (TrainForceTrials& trials : TrainForceTrials::around(network_, inputs_, forces)) {
     if (auto found = follow(std::move(trials))) return *std::move(found);
   }
   report_losses(network_, at_time(*network_.scene, t));
@@ -259,7 +259,7 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
       continue;
     }
     const auto change = [&](int side) {
-      return train < 0 ? selection.h * bound_rate(k, side) : network_.trains[at(train)].loss->lost(side, selection.train_force[at(train)]) - bound(k, side);
+      return train < 0 ? selection.h * bound_rate(k, side) : inputs_.loss(at(train)).lost(side, selection.train_force[at(train)]) - bound(k, side);
     };
     const double forward = change(1), backward = change(-1);
     ConvexNetwork::Law law{.low = -bound(k, -1) - force - backward, .high = bound(k, 1) - force + forward};

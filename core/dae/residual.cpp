@@ -40,6 +40,7 @@ void Dae::gather(double t, const double* y) {
   }
   if (inputs_->blocks().any()) feel_blocks(y);
   for (const std::size_t k : varying_) slip_force_[k] = slip_side_[k] * inputs_->box(k).at(slip_side_[k]).sliding.value;
+  if (train_shares_) follow_losses();
 }
 
 /// Sums the forces of the branches and the applied forces, at the nodes that represent joined ones.
@@ -88,10 +89,8 @@ double Dae::sum_of(const Terms& terms, const double* yp) const {
   return sum;
 }
 
-void Dae::residual(double t, const double* y, const double* yp, double* r) {
-  evaluate_forces(t, y);
-
-  if (idle_) r[0] = yp[0];
+/// The balance of forces in the row of each velocity.
+void Dae::balances(const double* yp, double* r) const {
   for (std::size_t n = 0; n < iv_.size(); ++n) {
     if (iv_[n] >= 0) r[iv_[n]] = view_.nodal[n] - view_.applied[n] + structure_->mass[n] * yp[iv_[n]];
   }
@@ -103,6 +102,13 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     if (iv_[at(b.a)] >= 0) r[iv_[at(b.a)]] += f;
     if (iv_[at(b.b)] >= 0) r[iv_[at(b.b)]] -= f;
   }
+}
+
+void Dae::residual(double t, const double* y, const double* yp, double* r) {
+  evaluate_forces(t, y);
+
+  if (idle_) r[0] = yp[0];
+  balances(yp, r);
   for (std::size_t g = 0; g < group_row_.size(); ++g) {
     double sum = 0;
     for (NodeId node : structure_->groups[g].nodes) sum += view_.nodal[at(node)] - view_.applied[at(node)];
@@ -120,7 +126,7 @@ void Dae::residual(double t, const double* y, const double* yp, double* r) {
     r[row.row] += (now == 0 ? 0 : now * sum_of(felt_terms_[at(row.delayed)], yp)) - inputs_->felt[at(row.delayed)];
   }
   for (std::size_t k = 0; k < iz_.size(); ++k) r[iz_[k]] = yp[iz_[k]] - inputs_->blocks().rate(k);
-  for (const Structure::Tied& tied : structure_->tied) {
+  for (const Structure::Tied& tied : equations_) {
     double& row = r[iv_[at(tied.pivot)]];
     double sum = v_[at(tied.pivot)];
     for (const auto& [node, factor] : tied.terms) sum += factor * v_[at(node)];
@@ -205,6 +211,7 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
   for (const FeltEntry& f : felt_entries_) values[f.entry] += f.sign * inputs_->felt_now[at(f.delayed)];
   block_jacobian(values);
   tie(values);
+  shares_jacobian(yp, values);
   share_jacobian(cj, yp, values, false);
 }
 

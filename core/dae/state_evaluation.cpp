@@ -34,7 +34,7 @@ void Dae::share_among_joined(double t) {
   }
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
-    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += structure_->train_forces[k][i] * view_.train_force[k];
+    for (std::size_t i = 0; i < train.node.size(); ++i) left[at(train.node[i])] += train_forces_[k][i] * view_.train_force[k];
   }
   stick_forces_.solve(t, left, view_.slider_force, view_.train_force);
   for (std::size_t k = 0; k < slip_force_.size(); ++k) {
@@ -57,6 +57,7 @@ const Dae::View& Dae::view(double t, const double* y, const double* yp) {
   }
   std::fill(view_.train_force.begin(), view_.train_force.end(), 0.0);
   if (inertia_.coupled()) {
+    if (train_shares_) inertia_.take_train_forces(train_forces_);
     for (std::size_t n = 0; n < v_.size(); ++n) work_[n] = view_.applied[n] - view_.nodal[n];
     inertia_.accelerate(work_, view_.acceleration, view_.train_force);
   }
@@ -173,7 +174,7 @@ double Dae::reaction(NodeId node) const {
   for (std::size_t k = 0; k < network_->trains.size(); ++k) {
     const Network::Train& train = network_->trains[k];
     for (std::size_t i = 0; i < train.node.size(); ++i) {
-      if (train.node[i] == node) force += structure_->train_forces[k][i] * view_.train_force[k];
+      if (train.node[i] == node) force += train_forces_[k][i] * view_.train_force[k];
     }
   }
   return force;

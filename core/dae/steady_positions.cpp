@@ -98,7 +98,7 @@ bool SteadyStateSolver::find_positions() {
   std::vector<int> slider_branch(slip_.size(), -1);
   ConvexNetwork problem(0);
   std::vector<std::string> open;
-  TrainForceTrials trials(network_, state_.train_force, largest_load_);
+  TrainForceTrials trials(network_, inputs_, state_.train_force, largest_load_);
   bool again = true;
   for (int n = 0; again; ++n) {
     problem = position_problem(forces, slip_, slider_branch);
@@ -115,7 +115,7 @@ bool SteadyStateSolver::find_positions() {
   }
   if (break_away(slid)) return false;
   // Once more, with tangents and with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.
-  trials = TrainForceTrials(network_, state_.train_force, largest_load_);
+  trials = TrainForceTrials(network_, inputs_, state_.train_force, largest_load_);
   for (again = true; again; again = !agree(trials)) {
     ConvexNetwork refined = position_problem(forces, direction, slider_branch, &problem);
     fix_positions(refined, forces.hang);

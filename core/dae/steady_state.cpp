@@ -43,7 +43,7 @@ SteadyStart SteadyStateSolver::go() {
   follow_pairs(network_, state_);
   for (std::size_t k = 0; k < network_.trains.size(); ++k) {
     const Network::Train& train = network_.trains[k];
-    if (train.loss) result_.modes.b_drives[k] = train.loss->b_drives(result_.modes.slider[at(train.friction)], state_.train_force[k]);
+    if (train.loss) result_.modes.b_drives[k] = inputs_.loss(k).b_drives(result_.modes.slider[at(train.friction)], state_.train_force[k]);
   }
   return std::move(result_);
 }

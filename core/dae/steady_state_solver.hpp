@@ -139,7 +139,7 @@ class SteadyStateSolver {
   std::vector<double> pressed_;   ///< of each slider with a gauge: estimate of its force [N]
   double contact_stiffness_ = 0;  ///< of these estimates [N/m]
   double largest_load_ = 0;
-  TrainForceTrials trials_{network_, std::vector<double>(network_.trains.size(), 0), 0};  ///< for the balance at the velocities
+  TrainForceTrials trials_{network_, inputs_, std::vector<double>(network_.trains.size(), 0), 0};  ///< for the balance at the velocities
   /// What trains with losses do: the first balance is without losses, the second one, if that has no answer, with gears that stand still.
   enum class Losses : char { none, locked, known };
   Losses losses_ = Losses::known;

@@ -61,7 +61,7 @@ bool SteadyStateSolver::find_velocities() {
   if (losses_ != Losses::known) {
     losses_ = Losses::known;
     state_.train_force = problem.forces_of_equations();
-    trials_ = TrainForceTrials(network_, state_.train_force, scale);
+    trials_ = TrainForceTrials(network_, inputs_, state_.train_force, scale);
     inputs_.transmit(state_.train_force);
     return false;
   }
@@ -76,7 +76,7 @@ bool SteadyStateSolver::find_velocities() {
     laws_[j].direction = laws_[j].steady.rest > 0 && law_branch[j] >= 0 ? problem.direction(law_branch[j]) : 0;
   }
   take_velocities(problem);
-  TrainForceTrials trials(network_, state_.train_force, scale);
+  TrainForceTrials trials(network_, inputs_, state_.train_force, scale);
   while (!refine_velocities(scale, trials)) {
   }
   refuse_torn_trains();

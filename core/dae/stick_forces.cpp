@@ -142,7 +142,7 @@ bool StickForces::solve_with_losses(Shared& shared, std::vector<double> found) c
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const int train = network_.sliders[shared.sliders[i]].train;
       if (train < 0) continue;
-      const auto most = [&](int side) { return forces ? network_.trains[at(train)].loss->lost(side, (*forces)[at(train)]) : std::numeric_limits<double>::infinity(); };
+      const auto most = [&](int side) { return forces ? inputs_.loss(at(train)).lost(side, (*forces)[at(train)]) : std::numeric_limits<double>::infinity(); };
       shared.bound(i, -most(-1), most(1));
     }
   };
@@ -155,7 +155,7 @@ bool StickForces::solve_with_losses(Shared& shared, std::vector<double> found) c
   if (!solve()) return false;
   double size = 0;
   for (const double load : shared.load) size = std::max(size, std::abs(load));
-  TrainForceTrials trials(network_, found, size);
+  TrainForceTrials trials(network_, inputs_, found, size);
   while (!trials.endless()) {
     const std::vector<double> trial = trials.trial();
     bounds(&trial);

@@ -9,18 +9,18 @@
 
 namespace rheonet {
 
-TrainForceTrials::TrainForceTrials(const Network& network, const std::vector<double>& first, double forces)
-    : network_(&network), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))) {}
+TrainForceTrials::TrainForceTrials(const Network& network, const Inputs& inputs, const std::vector<double>& first, double forces)
+    : network_(&network), inputs_(&inputs), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))) {}
 
 bool TrainForceTrials::agree(const std::vector<double>& found) {
   Eigen::VectorXd miss = Eigen::VectorXd::Zero(trial_.size());
   double size = forces_;
   for (Eigen::Index k = 0; k < trial_.size(); ++k) {
-    const std::optional<Loss>& loss = network_->trains[static_cast<std::size_t>(k)].loss;
+    if (!network_->trains[static_cast<std::size_t>(k)].loss) continue;
+    const Loss& loss = inputs_->loss(static_cast<std::size_t>(k));
     const double force = found[static_cast<std::size_t>(k)];
-    if (!loss) continue;
     miss[k] = force - trial_[k];
-    size = std::max({size, std::abs(force), std::abs(trial_[k]), loss->lost(1, force), loss->lost(-1, force)});
+    size = std::max({size, std::abs(force), std::abs(trial_[k]), loss.lost(1, force), loss.lost(-1, force)});
   }
   // Within round-off it goes on as long as that brings more digits.
   const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
@@ -39,7 +39,7 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
 
 bool TrainForceTrials::endless() const { return count_ > (near_ ? numerics::near_loss_trials : numerics::loss_trials); }
 
-std::vector<TrainForceTrials> TrainForceTrials::around(const Network& network, double forces) {
+std::vector<TrainForceTrials> TrainForceTrials::around(const Network& network, const Inputs& inputs, double forces) {
   std::vector<double> first(network.trains.size(), 0);
   double* force = nullptr;
   for (std::size_t k = 0; k < first.size(); ++k) {
@@ -51,7 +51,7 @@ std::vector<TrainForceTrials> TrainForceTrials::around(const Network& network, d
   for (double size = numerics::largest_trial * forces; size > numerics::smallest_trial * forces; size /= 8) {
     for (const double sign : {1.0, -1.0}) {
       *force = sign * size;
-      result.emplace_back(network, first, forces).near_ = true;
+      result.emplace_back(network, inputs, first, forces).near_ = true;
     }
   }
   return result;

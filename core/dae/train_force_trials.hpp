@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/dae/inputs.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
@@ -14,11 +15,11 @@ namespace rheonet {
 class TrainForceTrials {
  public:
   /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
-  TrainForceTrials(const Network& network, const std::vector<double>& first, double forces);
+  TrainForceTrials(const Network& network, const Inputs& inputs, const std::vector<double>& first, double forces);
 
   /// For one train with losses: trials around forces of either sign, from large to small. The relation is linear around each, and one of
   /// these lines leads to forces that agree if there are any.
-  static std::vector<TrainForceTrials> around(const Network& network, double forces);
+  static std::vector<TrainForceTrials> around(const Network& network, const Inputs& inputs, double forces);
 
   /// The trial forces of all trains [N].
   std::vector<double> trial() const { return {trial_.begin(), trial_.end()}; }
@@ -29,6 +30,7 @@ class TrainForceTrials {
 
  private:
   const Network* network_;
+  const Inputs* inputs_;
   double forces_, off_ = std::numeric_limits<double>::infinity();
   int count_ = 0;
   bool near_ = false;  ///< the second trial is near the first

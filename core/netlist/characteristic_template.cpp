@@ -41,15 +41,15 @@ CharacteristicTemplate::CharacteristicTemplate(const TomlValue& source, const To
   };
   if (smooth) take(*smooth);
   if (const TomlEntry* inside = source.is_table() ? source.find("smooth") : nullptr) {
-    if (smooth) refuse_both(*smooth, *inside, "`" + parameter.name + "`", context.diagnostics);
+    if (smooth) refuse_both(*smooth, *inside, "`" + name() + "`", context.diagnostics);
     take(*inside);
   }
   sound_ = context.diagnostics.errors() == before;
 }
 
 void CharacteristicTemplate::read_table(const TomlValue& source, Context& context) {
-  TableReader reader(source, "`" + parameter_->name + "`");
-  const TomlEntry* table = reader.require("table", source.spot, fmt::format("{} = {{ table = {} }}", parameter_->name, example_of(*parameter_)));
+  TableReader reader(source, "`" + name() + "`");
+  const TomlEntry* table = reader.require("table", source.spot, fmt::format("{} = {{ table = {} }}", name(), example_of(*parameter_)));
   const TomlEntry* columns = reader.find("columns");
   reader.find("smooth");
   reader.finish(context.diagnostics);
@@ -66,17 +66,22 @@ void CharacteristicTemplate::read_columns(const TomlEntry& columns, Context& con
   columns_ = read_column_names(columns, file_name_.has_value(), argument(), parameter_->may_be_curve ? "\"w\", \"mu\"" : "\"d\", \"force\"", context.diagnostics);
 }
 
-bool CharacteristicTemplate::may_be_friction(const TomlValue& value) {
-  if (!value.is_string()) return value.is_array();
+bool CharacteristicTemplate::may_be(const TomlValue& value, const Parameter& parameter) {
+  if (!value.is_string()) return value.is_array() || (value.is_table() && !parameter.may_vary);
   const std::vector<std::string> names = identifiers_of(value.text);
   return value.text.ends_with(".csv") || std::find(names.begin(), names.end(), "w") != names.end();
 }
 
+bool CharacteristicTemplate::are_several(const TomlValue& value) {
+  return value.is_array() && !std::all_of(value.items.begin(), value.items.end(), [](const TomlValue& item) {
+    return item.is_array() && std::none_of(item.items.begin(), item.items.end(), [](const TomlValue& inside) { return inside.is_array(); });
+  });
+}
+
 void CharacteristicTemplate::read_points(const TomlValue& source, Context& context) {
-  const std::string& name = parameter_->name;
   if (!source.is_array()) {
-    context.diagnostics.error(source.spot, fmt::format("`{}` must be an array of points or the name of a CSV file, but is {}", name, describe(source)),
-                              fmt::format("{} = {}", name, example_of(*parameter_)));
+    context.diagnostics.error(source.spot, fmt::format("`{}` must be an array of points or the name of a CSV file, but is {}", name(), describe(source)),
+                              fmt::format("{} = {}", name(), example_of(*parameter_)));
     return;
   }
   points_ = read_table_points(source, argument(), name_of(quantity_, context.domain), context.diagnostics);
@@ -109,7 +114,7 @@ std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers_o
   if (!file) return {};
   const auto factor = as_quantity(file->unit, quantity_, context.domain);
   if (const auto* wrong = std::get_if<TextError>(&factor)) {
-    context.diagnostics.error(file_name_->spot, fmt::format("`{}`: {}", parameter_->name, wrong->message), "the unit is that of the header of the file");
+    context.diagnostics.error(file_name_->spot, fmt::format("`{}`: {}", name(), wrong->message), "the unit is that of the header of the file");
     return {};
   }
   Numbers result;
@@ -122,7 +127,7 @@ std::optional<CharacteristicTemplate::Numbers> CharacteristicTemplate::numbers_o
 
 std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(const Environment& environment, Context& context) const {
   const auto refuse = [&](std::size_t at, const std::string& what, const std::string& hint) {
-    context.diagnostics.error(context.diagnostics.inside(*source_, at), fmt::format("`{}`: {}", parameter_->name, what), hint);
+    context.diagnostics.error(context.diagnostics.inside(*source_, at), fmt::format("`{}`: {}", name(), what), hint);
     return nullptr;
   };
   const std::string variable = parameter_->over == Quantity::velocity ? "w" : "d", over = argument();
@@ -142,7 +147,7 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
   if (!std::isfinite(function(0, slope)) || !std::isfinite(slope)) return refuse(0, fmt::format("has no finite value or slope at {} = 0", variable), "");
   for (const double x : Characteristic::samples()) {
     const double force = function(x, slope);
-    if (parameter_->may_be_curve && x > 0 && force < 0) return refuse(0, is(force, x) + ": friction is at least 0", "");
+    if (const std::string wrong = parameter_->may_be_curve && x >= 0 ? outside(force) : ""; !wrong.empty()) return refuse(0, is(force, x) + wrong, "");
     if (!parameter_->resists || std::isnan(force)) continue;  // not defined everywhere
     if (x == 0 && force != 0) return refuse(0, is(force, 0) + ", where it must be 0", "");
     if (force * x < 0) return refuse(0, is(force, x) + ": it must resist the motion", "");
@@ -163,9 +168,16 @@ std::shared_ptr<const Characteristic> CharacteristicTemplate::of_expression(cons
     if (at > 0) return refuse(0, fmt::format("{}, but {:.4g} in the other direction", is(there, at), back), "friction is the same in both directions: write `abs(w)` for `w`");
     const double at_rest = function(0, slope), slow = function(1 / numerics::far_out, slope);
     if (std::abs(slow - at_rest) > (1 - numerics::rest_jump) * std::max(std::abs(slow), std::abs(at_rest)))
-      return refuse(0, "jumps where the motion begins", "give the value at rest as `breakaway`");
+      return refuse(0, "jumps where the motion begins", parameter_->may_vary ? "give the value at rest as `breakaway`" : "");
   }
   return result;
+}
+
+/// ": it must be at least 0", or nothing.
+std::string CharacteristicTemplate::outside(double value) const {
+  const Parameter& p = *parameter_;
+  if (p.lower_open ? value <= p.lower : value < p.lower) return fmt::format(": it must be {} {:g}", p.lower_open ? "greater than" : "at least", p.lower);
+  return value > p.upper ? fmt::format(": it must be at most {:g}", p.upper) : "";
 }
 
 Spot CharacteristicTemplate::spot_of(std::size_t point) const {
@@ -173,13 +185,12 @@ Spot CharacteristicTemplate::spot_of(std::size_t point) const {
 }
 
 bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) const {
-  const std::string& name = parameter_->name;
   const std::string over = argument();
   const auto refuse = [&](std::size_t point, const std::string& what, const std::string& hint = {}) {
-    context.diagnostics.error(spot_of(point), fmt::format("`{}` {}", name, what), hint);
+    context.diagnostics.error(spot_of(point), fmt::format("`{}` {}", name(), what), hint);
     return false;
   };
-  if (numbers.x.size() < 2) return refuse(0, "needs at least two points", fmt::format("{} = {}", name, example_of(*parameter_)));
+  if (numbers.x.size() < 2) return refuse(0, "needs at least two points", fmt::format("{} = {}", name(), example_of(*parameter_)));
   const auto resists = [&](std::size_t i) {
     return !parameter_->resists || numbers.x[i] * numbers.force[i] >= 0 ||
            refuse(i, fmt::format("is {} at a {} of {}: it must resist the motion", number_text(numbers.force[i]), over, number_text(numbers.x[i])));
@@ -188,7 +199,8 @@ bool CharacteristicTemplate::check(const Numbers& numbers, Context& context) con
   if (parameter_->may_be_curve) {
     if (numbers.x.front() != 0) return refuse(0, fmt::format("begins at a speed of {}, and its value at rest is not known", number_text(numbers.x.front())), "let the first point be at 0");
     for (std::size_t i = 0; i < numbers.force.size(); ++i)
-      if (numbers.force[i] < 0) return refuse(i, fmt::format("is {} at a speed of {}: friction is at least 0", number_text(numbers.force[i]), number_text(numbers.x[i])));
+      if (const std::string wrong = outside(numbers.force[i]); !wrong.empty())
+        return refuse(i, fmt::format("is {} at a speed of {}{}", number_text(numbers.force[i]), number_text(numbers.x[i]), wrong));
   }
   for (std::size_t i = 1; i < numbers.x.size(); ++i) {
     const double slope = (numbers.force[i] - numbers.force[i - 1]) / (numbers.x[i] - numbers.x[i - 1]);

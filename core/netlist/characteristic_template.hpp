@@ -21,8 +21,10 @@ class CharacteristicTemplate {
   CharacteristicTemplate(const TomlValue& source, const TomlEntry* smooth, const TomlEntry* columns, const Parameter& parameter, Quantity quantity,
                          Context& context);
 
-  /// Whether a value may be friction over the speed: points, the name of a CSV file, or an expression over `w`.
-  static bool may_be_friction(const TomlValue& value);
+  /// Whether a value may be a function over the speed: points, the name of a CSV file, or an expression over `w`.
+  static bool may_be(const TomlValue& value, const Parameter& parameter);
+  /// Whether a value is an array of values, each of which may be points; points are an array too.
+  static bool are_several(const TomlValue& value);
 
   /// nullptr, with a mistake, if anything in it is wrong.
   std::shared_ptr<const Characteristic> evaluate(const Environment& environment, Context& context) const;
@@ -30,6 +32,7 @@ class CharacteristicTemplate {
  private:
   struct Numbers { std::vector<double> x, force; };
 
+  const std::string& name() const { return parameter_->second_of.empty() ? parameter_->name : parameter_->second_of; }
   std::string argument() const { return parameter_->may_be_curve ? "speed" : parameter_->over == Quantity::velocity ? "velocity" : "displacement"; }
   void read_columns(const TomlEntry& columns, Context& context);
   void read_table(const TomlValue& source, Context& context);
@@ -37,6 +40,7 @@ class CharacteristicTemplate {
   std::optional<Numbers> numbers(const Environment& environment, Context& context) const;
   std::optional<Numbers> numbers_of_file(Context& context) const;
   bool check(const Numbers& numbers, Context& context) const;
+  std::string outside(double value) const;
   std::shared_ptr<const Characteristic> of_expression(const Environment& environment, Context& context) const;
   Spot spot_of(std::size_t point) const;
 

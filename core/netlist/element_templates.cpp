@@ -131,6 +131,31 @@ const ElementTemplate* Scope::find(const std::string& name) const {
   return found == entry_index.end() ? nullptr : &entries[found->second];
 }
 
+/// Reads a signal, a function of the motion, or a value.
+void TemplateReader::read_value(ElementTemplate& plan, std::size_t i, const TomlValue& value, const std::string& name, TableReader& reader) {
+  const Declaration& declaration = *context_.declarations[static_cast<std::size_t>(plan.declaration)];
+  const Parameter& parameter = declaration.parameters[i];
+  DiagnosticList& diagnostics = context_.diagnostics;
+  if (parameter.may_be_curve && CharacteristicTemplate::may_be(value, parameter)) {
+    plan.characteristics.try_emplace(i, value, reader.find("smooth"), reader.find("columns"), parameter, plan.quantity_of(parameter), context_);
+    if (!value.is_string() || value.text.ends_with(".csv")) return;  // else `w` may be a parameter
+  }
+  if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && value.is_table())) {
+    if (const TomlEntry* feed = find_feed(value)) {
+      if (auto connection = read_feed(*feed, value, declaration, i, context_)) plan.feeds.push_back(std::move(*connection));
+      return;
+    }
+    const bool any_unit = parameter.unit != Parameter::Unit::quantity;
+    plan.signals.emplace_back(value, name, any_unit ? std::nullopt : std::optional(plan.quantity_of(parameter)), context_);
+    plan.signal_parameters.push_back(static_cast<int>(i));
+  } else if (value.is_table()) {
+    diagnostics.error(value.spot, "`" + name + "` is constant in time, but is " + describe(value), what_may_vary(declaration, context_.declarations));
+  } else {
+    const bool coefficient = plan.quantity_of(parameter) != parameter.quantity;
+    plan.values[i] = Formula(value, "`" + name + "`" + (coefficient ? " (which multiplies `" + parameter.coefficient_with + "`)" : ""), diagnostics);
+  }
+}
+
 void TemplateReader::read_elements(const TomlValue& table, Scope& scope, bool in_model) {
   if (!expect_table(table, "`elements`", context_.diagnostics)) return;
   scope.entries.reserve(table.entries.size());
@@ -274,12 +299,8 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
     }
     if (among(declaration.one_of, parameter.name)) given.push_back(entry);
     if (parameter.kind == Parameter::Kind::characteristic) {
-      plan.characteristic.emplace(entry->value, reader.find("smooth"), nullptr, parameter, parameter.quantity, context_);
+      plan.characteristics.try_emplace(i, entry->value, reader.find("smooth"), nullptr, parameter, parameter.quantity, context_);
       continue;
-    }
-    if (parameter.may_be_curve && CharacteristicTemplate::may_be_friction(entry->value)) {
-      plan.characteristic.emplace(entry->value, reader.find("smooth"), reader.find("columns"), parameter, plan.quantity_of(parameter), context_);
-      if (!entry->value.is_string() || entry->value.text.ends_with(".csv")) continue;  // else `w` may be a parameter
     }
     if (parameter.kind == Parameter::Kind::expression) {
       if (expect_string(entry->value, "`" + name + "`", diagnostics, function_example)) plan.function = &entry->value;
@@ -293,27 +314,14 @@ void TemplateReader::read_element(ElementTemplate& plan, const TomlEntry& type, 
       plan.coefficients.emplace_back(entry->value, i, name, diagnostics);
       continue;
     }
-    if (parameter.kind == Parameter::Kind::signal || (parameter.may_vary && entry->value.is_table())) {
-      if (const TomlEntry* feed = find_feed(entry->value)) {
-        if (auto connection = read_feed(*feed, entry->value, declaration, i, context_)) plan.feeds.push_back(std::move(*connection));
-        continue;
-      }
-      const bool any_unit = parameter.unit != Parameter::Unit::quantity;
-      plan.signals.emplace_back(entry->value, name, any_unit ? std::nullopt : std::optional(plan.quantity_of(parameter)), context_);
-      plan.signal_parameters.push_back(static_cast<int>(i));
-    } else if (const bool two = i + 1 < declaration.parameters.size() && declaration.parameters[i + 1].second_of == parameter.name; two && entry->value.kind == TomlValue::Kind::array) {
-      const auto& items = entry->value.items;
-      if (items.size() != 2) {
-        diagnostics.error(entry->value.spot, "`" + name + "` takes one value or two, but has " + std::to_string(items.size()),
-                          name + " = [" + parameter.symbol + ", " + declaration.parameters[i + 1].symbol + "]");
-        continue;
-      }
-      for (std::size_t k = 0; k < 2; ++k) plan.values[i + k] = Formula(items[k], "`" + name + "`", diagnostics);
-    } else if (entry->value.is_table()) {
-      diagnostics.error(entry->value.spot, "`" + name + "` is constant in time, but is " + describe(entry->value), what_may_vary(declaration, context_.declarations));
+    const bool may_be_two = i + 1 < declaration.parameters.size() && declaration.parameters[i + 1].second_of == parameter.name;
+    if (!may_be_two || !CharacteristicTemplate::are_several(entry->value)) {
+      read_value(plan, i, entry->value, name, reader);
+    } else if (entry->value.items.size() != 2) {
+      diagnostics.error(entry->value.spot, "`" + name + "` takes one value or two, but has " + std::to_string(entry->value.items.size()),
+                        name + " = [" + parameter.symbol + ", " + declaration.parameters[i + 1].symbol + "]");
     } else {
-      const bool coefficient = plan.quantity_of(parameter) != parameter.quantity;
-      plan.values[i] = Formula(entry->value, "`" + name + "`" + (coefficient ? " (which multiplies `" + parameter.coefficient_with + "`)" : ""), diagnostics);
+      for (std::size_t k = 0; k < 2; ++k) read_value(plan, i + k, entry->value.items[k], name, reader);
     }
   }
   if (given.size() > 1) refuse_both(*given[0], *given[1], article(type.value.text), diagnostics);

@@ -56,7 +56,7 @@ struct ElementTemplate {
   std::vector<SignalTemplate> signals;  ///< of an element, one for each of signal_parameters
   std::vector<int> signal_parameters;
   std::vector<std::size_t> default_signals;  ///< signals that are not given and have a default
-  std::optional<CharacteristicTemplate> characteristic;  ///< of an element
+  std::map<std::size_t, CharacteristicTemplate> characteristics;  ///< of an element, by the number of their parameter
   std::vector<SignalConnection> inputs;  ///< of a block; of an instance of a law those that are connected, with their names
   const TomlValue* function = nullptr;   ///< of a block: the expression of its output
   std::optional<LookupTemplate> lookup;  ///< of a block: the table of its output
@@ -130,6 +130,7 @@ class TemplateReader {
   void read_instance(ElementTemplate& plan, Model& model, Scope* scope, TableReader& reader);
   void read_law_input(ElementTemplate& plan, const TomlEntry& entry);
   void read_group(ElementTemplate& plan, const TomlEntry& group, TableReader& reader);
+  void read_value(ElementTemplate& plan, std::size_t i, const TomlValue& value, const std::string& name, TableReader& reader);
   void read_place(ElementTemplate& plan, Scope* scope, std::size_t ports, bool may_be_at, bool may_be_between, TableReader& reader);
   void read_support(ElementTemplate& plan, Scope* scope, TableReader& reader);
   void read_domain(ElementTemplate& plan, TableReader& reader);

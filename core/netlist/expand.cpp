@@ -193,12 +193,14 @@ bool Expander::element_value(const ElementTemplate& plan, const Environment& env
   const Parameter& parameter = context_.declarations[static_cast<std::size_t>(plan.declaration)]->parameters[i];
   const Formula& formula = plan.values[i];
   const bool curve = parameter.kind == Parameter::Kind::characteristic || (parameter.may_be_curve && !(formula.given() && environment.find("w")));
-  if (curve && plan.characteristic) {
-    element.characteristic = plan.characteristic->evaluate(environment, context_);
+  const auto characteristic = plan.characteristics.find(i);
+  if (curve && characteristic != plan.characteristics.end()) {
+    const auto made = characteristic->second.evaluate(environment, context_);
     element.given.set(i);
     double slope;
-    if (element.characteristic) values_[i] = parameter.may_be_curve ? element.characteristic->force(0, slope) : 1;
-    return element.characteristic != nullptr;
+    if (made) values_[i] = parameter.may_be_curve ? made->force(0, slope) : 1;
+    characteristics_[i] = made;
+    return made != nullptr;
   }
   if (!formula.given()) {
     if (parameter.fallback && parameter.kind == Parameter::Kind::value && !plan.varies(i)) values_[i] = *parameter.fallback;
@@ -234,6 +236,7 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
   };
   bool good = true;
   values_.assign(parameters.size(), not_given);
+  characteristics_.clear();
   for (std::size_t i = 0; i < parameters.size(); ++i)
     if (parameters[i].flow_index.empty()) good = element_value(plan, environment, i, 1, element) && good;
   // Parameters whose unit depends on a flow index, or that default to another parameter, come after those parameters.
@@ -242,11 +245,15 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     const double n = values_[index_of(parameters[i].flow_index)];
     if (!std::isnan(n)) good = element_value(plan, environment, i, n, element) && good;
   }
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].same_as.empty() || plan.values[i].given() || plan.varies(i) || characteristics_.contains(i)) continue;
+    const auto same = characteristics_.find(index_of(parameters[i].same_as));
+    if (same != characteristics_.end() && !parameters[i].second_of.empty()) characteristics_[i] = same->second;
+    values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
+  }
   for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (!parameters[i].same_as.empty() && !plan.values[i].given() && !plan.varies(i))
-      values_[i] = (parameters[i].opposite ? -1 : 1) * values_[index_of(parameters[i].same_as)];
-  for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i)
-    if (parameters[i].may_be_curve) values_[i] = not_given;  // as of a signal
+    if (parameters[i].may_be_curve && characteristics_.contains(i)) values_[i] = not_given;  // as of a signal
+  if (!characteristics_.empty()) element.characteristics = std::make_shared<const Characteristics>(characteristics_);
   if (good && declaration.check) {
     if (const std::optional<Misfit> misfit = declaration.check(values_)) {
       const Formula& formula = plan.values[index_of(misfit->parameter)];
@@ -256,11 +263,12 @@ bool Expander::element_values(const ElementTemplate& plan, const Environment& en
     }
   }
   element.values = shared_values(plan.declaration);
-  for (std::size_t i = 0; element.characteristic && i < parameters.size(); ++i) {
+  const Characteristic* curve = characteristics_.empty() ? nullptr : characteristics_.begin()->second.get();
+  for (std::size_t i = 0; curve && i < parameters.size(); ++i) {
     const double force = values_[i];
     if (parameters[i].kind != Parameter::Kind::initial || parameters[i].quantity != Quantity::force || std::isnan(force)) continue;
-    const bool never = std::isinf(element.characteristic->where(force));
-    if (!never && !element.characteristic->falls_at()) continue;
+    const bool never = std::isinf(curve->where(force));
+    if (!never && !curve->falls_at()) continue;
     context_.diagnostics.error(plan.values[i].source().spot, fmt::format("`{}` is a force that the curve {}", parameters[i].name, never ? "never has" : "may have at several displacements"),
                                "give the displacement at the start, `d0`");
     good = false;

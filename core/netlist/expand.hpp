@@ -110,6 +110,7 @@ class Expander {
   std::deque<TomlValue> patched_values_;
   std::deque<ElementTemplate> patched_plans_;
   std::vector<double> values_;        ///< of the element being made
+  Characteristics characteristics_;   ///< of the element being made
   std::vector<Shared<double>> made_;  ///< for each declaration, the values of its last element
   std::set<std::string> failed_;
   bool without_values_ = false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,9 @@
 namespace rheonet {
 
 class Characteristic;
+
+/// Functions that an element has in place of values, by the number of their parameter.
+using Characteristics = std::map<std::size_t, std::shared_ptr<const Characteristic>>;
 
 /// Index into Scene::nodes. Ground is always node 0.
 using NodeId = int;
@@ -60,7 +64,7 @@ struct SceneElement {
   std::bitset<32> given;        ///< for each declared parameter: the value is given by the netlist, not a default
   Shared<Signal> signals;       ///< signals of the parameters in signal_parameters, in order of declaration
   Shared<int> signal_parameters;  ///< indices into Declaration::parameters
-  std::shared_ptr<const Characteristic> characteristic;  ///< of its parameter of that kind; nullptr if not given
+  std::shared_ptr<const Characteristics> characteristics;  ///< nullptr if it has none
   Spot spot;           ///< of its name
   std::optional<Domain> domain = {};  ///< that of its first node, if not that of the scene: see domain_of
   double scale = 1;    ///< its velocity is multiplied by this: core/network/transmission.hpp
@@ -69,6 +73,11 @@ struct SceneElement {
   std::array<double, 3> row{};
 
   bool has_row() const { return row[0] != 0; }
+  /// The function that a parameter has in place of a value; nullptr if it has none.
+  std::shared_ptr<const Characteristic> characteristic(std::size_t parameter) const {
+    const auto found = characteristics ? characteristics->find(parameter) : Characteristics::const_iterator();
+    return characteristics && found != characteristics->end() ? found->second : nullptr;
+  }
 };
 
 /// Calls visit(node) for each node of an element.

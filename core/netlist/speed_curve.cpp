@@ -40,22 +40,35 @@ std::vector<double> bends(const Characteristic& curve) {
 
 }  // namespace
 
-SpeedCurve::SpeedCurve(const Characteristic& curve) : curve_(curve) {
+SpeedCurve::SpeedCurve(const Characteristic& curve, const Parameter& bounds)
+    : curve_(curve), least_(bounds.lower), most_(bounds.upper), open_(bounds.lower_open) {
   if (curve.expression()) {
     marks_ = bends(curve);
   } else if (curve.lines()) {
     marks_ = curve.lines()->ends();
-    marks_.push_back(curve.points().back());
   } else {
     marks_.assign(curve.points().begin() + 1, curve.points().end());
   }
+  if (!curve.expression()) mark_bound();
   own_ = marks_.empty() ? 0 : 1;
+}
+
+/// Where the last line reaches a bound.
+void SpeedCurve::mark_bound() {
+  const double last = curve_.points().back();
+  double slope;
+  const double value = curve_.force(last, slope), rate = curve_.last_slope(1);
+  const double reach = rate > 0 ? (most_ - value) / rate : rate < 0 ? (least_ - value) / rate : 0;
+  if (reach > 0 && std::isfinite(reach)) marks_.push_back(last + reach);
 }
 
 std::size_t SpeedCurve::switches() const { return own_ + (curve_.expression() ? curve_.expression()->switches() : 0); }
 
 /// Rounded off at rest, where a curve may have a corner: the slider has an event there anyway.
-double SpeedCurve::speed(double w) const { return std::hypot(w, numerics::rounded_rest * (marks_.empty() ? 1 : marks_.front())); }
+double SpeedCurve::speed(double w) const {
+  const double first = !marks_.empty() ? marks_.front() : curve_.expression() ? 1 : curve_.points().back();
+  return std::hypot(w, numerics::rounded_rest * first);
+}
 
 std::size_t SpeedCurve::number_at(double x, std::span<const double> sides) const {
   if (own_ > 0 && !sides.empty() && !std::isnan(sides[0])) return static_cast<std::size_t>(sides[0]);
@@ -69,18 +82,13 @@ double SpeedCurve::along(double w, std::span<const double> sides, double& slope)
     slope *= by_x;
     return force;
   }
-  const std::size_t number = number_at(x, sides);
-  if (number == marks_.size()) {
-    const double force = curve_.force(marks_.back(), slope);
-    slope = 0;
-    return force;
-  }
   if (!curve_.lines()) {
     const double force = curve_.force(x, slope);
     slope *= by_x;
     return force;
   }
-  const Polyline::Line& line = curve_.lines()->lines()[number];
+  const std::vector<Polyline::Line>& lines = curve_.lines()->lines();
+  const Polyline::Line& line = lines[std::min(number_at(x, sides), lines.size() - 1)];
   slope = line.slope * by_x;
   return line.at(x);
 }
@@ -88,16 +96,16 @@ double SpeedCurve::along(double w, std::span<const double> sides, double& slope)
 std::optional<double> SpeedCurve::value(std::span<const double> arguments, std::span<const double> sides) const {
   double slope;
   const double force = along(arguments[1], sides, slope);
-  return std::isfinite(force) ? std::optional(std::max(force, 0.0)) : std::nullopt;
+  return has_value(force) ? std::optional(std::clamp(force, least_, most_)) : std::nullopt;
 }
 
 std::optional<double> SpeedCurve::value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const {
   std::fill(partials.begin(), partials.end(), 0.0);
   double slope;
   const double force = along(arguments[1], sides, slope);
-  if (!std::isfinite(force) || !std::isfinite(slope)) return {};
-  if (force > 0) partials[1] = slope;
-  return std::max(force, 0.0);
+  if (!has_value(force) || !std::isfinite(slope)) return {};
+  if (force > least_ && force < most_) partials[1] = slope;
+  return std::clamp(force, least_, most_);
 }
 
 bool SpeedCurve::complete_sides(std::span<const double> arguments, std::span<double> sides) const {

@@ -9,14 +9,14 @@
 namespace rheonet {
 
 /// Friction as a function of the velocity w, the same for w and -w: the second of the three variables d, w and t. A curve through
-/// points holds its last value beyond them. Values below 0 count as 0.
+/// points goes on straight beyond them.
 ///
 /// Switches stand at the corners of the curve, and at the *marks* of a smooth one: speeds at which it begins to bend. Without them a
 /// step from far outside could pass over the curve, where friction is nearly constant, and not notice it.
 class SpeedCurve final : public SwitchedFunction {
  public:
-  /// `curve` must outlive it.
-  explicit SpeedCurve(const Characteristic& curve);
+  /// `curve` must outlive it. Its values stay within these bounds of a parameter; at an open bound it has none.
+  SpeedCurve(const Characteristic& curve, const Parameter& bounds);
 
   std::size_t variables() const override { return 3; }
   std::size_t switches() const override;
@@ -33,12 +33,16 @@ class SpeedCurve final : public SwitchedFunction {
   const std::vector<double>& marks() const { return marks_; }
 
  private:
+  void mark_bound();
   double speed(double w) const;
+  bool has_value(double force) const { return std::isfinite(force) && !(open_ && force <= least_); }
   std::size_t number_at(double x, std::span<const double> sides) const;
   std::span<const double> own(std::span<const double> sides) const { return sides.empty() ? sides : sides.subspan(own_); }
   double along(double w, std::span<const double> sides, double& slope) const;
 
   const Characteristic& curve_;
+  double least_, most_;
+  bool open_;  ///< `least_` is not among its values
   std::vector<double> marks_;
   std::size_t own_ = 0;  ///< number of the first switch that the expression of the curve has of its own
 };

@@ -9,6 +9,7 @@
 
 #include "core/base/index.hpp"
 #include "core/netlist/run_time_expression.hpp"
+#include "core/netlist/speed_curve.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
@@ -132,6 +133,13 @@ class Finder {
   /// value: a limiter sees to it.
   void add_parameter(const Network::Slider& slider, Network::VaryingParameter& varying) {
     const int e = slider.branch.element;
+    if (slider.train >= 0) {
+      const SceneElement& gear = scene_.elements[at(e)];
+      const std::size_t k = at(varying.parameter);
+      const Parameter& bounds = components()[at(gear.declaration)]->declaration.parameters[k];
+      varying.block = add_function(slider.branch, {.expression = {}, .names = {}, .function = std::make_shared<const SpeedCurve>(*gear.characteristic(k), bounds)});
+      return;
+    }
     if (const auto over = over_velocity(*slider.component, slider.law_values());
         over && over->parameter == varying.parameter) {
       varying.block = add_function(slider.branch, *over);

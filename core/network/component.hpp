@@ -208,6 +208,8 @@ struct Loss {
   double efficiency_a = 1, efficiency_b = 1;  ///< while a drives, while b drives; 0 or less: b cannot drive
   double bearing_a = 0, bearing_b = 0;        ///< friction of the bearings, seen at a [N]
 
+  bool none() const { return efficiency_a == 1 && efficiency_b == 1 && bearing_a == 0 && bearing_b == 0; }
+
   /// Force at the first node: factor m + offset.
   struct Line {
     double factor, offset;
@@ -215,6 +217,11 @@ struct Loss {
   };
   Line line(int side, bool b_drives) const {
     return b_drives ? Line{efficiency_b, side * efficiency_b * bearing_b} : Line{1 / efficiency_a, side * bearing_a / efficiency_a};
+  }
+  /// Rate of the line where the four numbers have the rates `by`.
+  Line slope(int side, bool b_drives, const Loss& by) const {
+    if (b_drives) return {by.efficiency_b, side * (by.efficiency_b * bearing_b + efficiency_b * by.bearing_b)};
+    return {-by.efficiency_a / (efficiency_a * efficiency_a), side * (by.bearing_a - by.efficiency_a * bearing_a / efficiency_a) / efficiency_a};
   }
   /// By how much a drives, while it turns to this side [N]: the difference of both lines.
   double lead_of_a(int side, double m) const { return side * (line(side, false).at(m) - line(side, true).at(m)); }
@@ -321,7 +328,8 @@ struct Component {
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
-  std::function<std::optional<Loss>(std::span<const double>)> loss = {};  ///< of a transmission; absent if it has none
+  /// Of a transmission that may have losses: four of its values, or those of the characteristics in their place at the present speed.
+  std::function<Loss(std::span<const double>)> loss = {};
   /// For Role::slip: a parameter that depends on the velocity; absent if none does.
   std::function<std::optional<MotionExpression>(const LawValues&)> over_velocity = {};
   /// For Role::deflection: a force beside that of the law, which dissipates; absent if there is none.

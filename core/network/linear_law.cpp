@@ -35,7 +35,7 @@ Reduced law_of(const Scene& scene, const SceneElement& element) {
   const bool varies = declared->varying && std::any_of(element.signal_parameters.begin(), element.signal_parameters.end(), [&](int k) { return std::isnan(values[at(k)]); });
   if (varies && law.component == declared) law.component = find_component("law");
   if (varies && law.component && law.component->role != Role::force) refuse_varying(element, law);
-  if (law.component) law.characteristic = element.characteristic;
+  if (law.component && element.characteristics) law.characteristic = element.characteristics->begin()->second;
   if (law.characteristic && !law.component->with_characteristic.empty()) {
     law.component = find_component(law.component->with_characteristic);
     law.values.resize(law.component->declaration.parameters.size(), not_given);

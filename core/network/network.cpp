@@ -1,3 +1,4 @@
+#include "core/netlist/characteristic.hpp"
 #include "core/network/network.hpp"
 
 #include <fmt/format.h>
@@ -160,6 +161,29 @@ std::vector<int> varying_parameters(const SceneElement& element, const Reduced& 
   return result;
 }
 
+/// Gives a train that has losses the slider that stands for them.
+void place_losses(Network& network, Network::Train& train, int index) {
+  const SceneElement& element = network.scene->elements[static_cast<std::size_t>(train.element)];
+  const Component& declared = *components()[static_cast<std::size_t>(element.declaration)];
+  if (!declared.loss) return;
+  std::vector<double> values = resolved_values(*network.scene, element);
+  if (declared.loss(values).none()) return;
+  Network::Slider slider{{train.element, train.node[0], train.node[2]}, {}, find_component(declared.with_row)};
+  slider.train = index;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (!std::isnan(values[k]) || !element.characteristic(k)) continue;
+    double slope;
+    values[k] = element.characteristic(k)->force(0, slope);
+    slider.varying.push_back({static_cast<int>(k), -1, 1});
+  }
+  train.loss = declared.loss(values);
+  train.friction = static_cast<int>(network.sliders.size());
+  const auto bounds = [&](int side) { return Bounds{train.loss->lost(side, 0), train.loss->lost(side, 0)}; };
+  slider.box = {bounds(1), bounds(-1)};
+  slider.values = std::move(values);
+  network.sliders.push_back(std::move(slider));
+}
+
 /// Stores an element in the list of its role.
 void place_element(Network& network, int index, Reduced& law, const Branch& ends, Gathered& gathered) {
   const Scene& scene = *network.scene;
@@ -214,14 +238,8 @@ void place_element(Network& network, int index, Reduced& law, const Branch& ends
     case Role::train: {
       const auto node = [&](NodeId n) { return network.node_of[static_cast<std::size_t>(n)]; };
       place_in(network.trains);
-      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row, components()[static_cast<std::size_t>(element.declaration)]->loss(resolved_values(scene, element))});
-      if (Network::Train& train = network.trains.back(); train.loss) {
-        train.friction = static_cast<int>(network.sliders.size());
-        const auto bounds = [&](int side) { return Bounds{train.loss->lost(side, 0), train.loss->lost(side, 0)}; };
-        network.sliders.push_back({{index, ends.a, train.node[2]}, {bounds(1), bounds(-1)}});
-        network.sliders.back().component = law.component;
-        network.sliders.back().train = place.index;
-      }
+      network.trains.push_back({index, {ends.a, ends.b, node(element.support)}, element.row});
+      place_losses(network, network.trains.back(), place.index);
       break;
     }
     case Role::motion:

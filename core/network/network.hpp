@@ -43,7 +43,7 @@ struct Network {
     int element;
     std::array<NodeId, 3> node;
     std::array<double, 3> factor;
-    std::optional<Loss> loss = {};
+    std::optional<Loss> loss = {};  ///< at rest; at the present speed: Inputs::loss
     int friction = -1;  ///< of its losses: index into `sliders`, between its first node and its support; -1: none
   };
   /// With a `block`, the velocity is `sign` times its output, and the position begins at `from` [m] if that is given. A given

@@ -14,6 +14,7 @@
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
 #include "core/network/rigid_links.hpp"
+#include "core/network/train_shares.hpp"
 
 namespace rheonet {
 
@@ -129,24 +130,23 @@ class Trains {
       std::copy_if(tied.terms.begin(), tied.terms.end(), std::back_inserter(tied.shares), [&](const Structure::Tied::Term& term) { return !known(term.node); });
     }
     if (!any) return;
-    const auto rows = static_cast<Eigen::Index>(s_.tied.size());
-    std::map<NodeId, Eigen::RowVectorXd> forces;  // at each head, of each train that has an equation
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const std::size_t train = at(s_.tied[static_cast<std::size_t>(r)].train);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const NodeId node = head(network_.trains[train].node[k]);
-        forces.try_emplace(node, Eigen::RowVectorXd::Zero(rows)).first->second[r] += s_.train_forces[train][k];
+    std::set<NodeId> nodes;
+    for (const Structure::Tied& tied : s_.tied) {
+      for (const NodeId node : network_.trains[at(tied.train)].node) {
+        if (!known(head(node))) nodes.insert(head(node));
       }
     }
-    Eigen::MatrixXd of_pivots(rows, rows);
-    for (Eigen::Index r = 0; r < rows; ++r) of_pivots.row(r) = forces.at(s_.tied[static_cast<std::size_t>(r)].pivot);
-    const Eigen::FullPivLU<Eigen::MatrixXd> factors(of_pivots.transpose());
-    for (Structure::Tied& tied : s_.tied) tied.shares.clear();
-    for (const auto& [node, row] : forces) {
-      if (known(node) || std::any_of(s_.tied.begin(), s_.tied.end(), [&](const Structure::Tied& tied) { return tied.pivot == node; })) continue;
-      const Eigen::RowVectorXd shares = factors.solve(row.transpose()).transpose();
-      for (Eigen::Index r = 0; r < rows; ++r) {
-        if (shares[r] != 0) s_.tied[static_cast<std::size_t>(r)].shares.push_back({node, shares[r]});
+    for (const Structure::Tied& tied : s_.tied) nodes.erase(tied.pivot);
+    std::vector<NodeId> heads;
+    for (std::size_t n = 0; n < head_.size(); ++n) heads.push_back(head(static_cast<NodeId>(n)));
+    const TrainShares shares(network_, s_.tied, heads, {nodes.begin(), nodes.end()});
+    const Eigen::MatrixXd values = shares.at(s_.train_forces);
+    const bool vary = std::any_of(network_.sliders.begin(), network_.sliders.end(), [](const Network::Slider& slider) { return slider.train >= 0 && !slider.varying.empty(); });
+    for (std::size_t r = 0; r < s_.tied.size(); ++r) {
+      s_.tied[r].shares.clear();
+      for (std::size_t i = 0; i < shares.nodes().size(); ++i) {
+        const double share = values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r));
+        if (share != 0 || vary) s_.tied[r].shares.push_back({shares.nodes()[i], share});
       }
     }
   }

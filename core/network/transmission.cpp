@@ -29,7 +29,10 @@ double ratio_of(const SceneElement& element) { return component_of(element).rati
 
 bool joins_two_nodes(const SceneElement& element) { return !element.at && element.a != ground && element.b != ground; }
 
-bool has_losses(const Scene& scene, const SceneElement& element) { return component_of(element).loss(resolved_values(scene, element)).has_value(); }
+bool has_losses(const Scene& scene, const SceneElement& element) {
+  const Component& component = component_of(element);
+  return component.loss && !component.loss(resolved_values(scene, element)).none();
+}
 
 /// Its support is at rest, and it has no losses: it may be a change of units.
 bool is_two_port(const Scene& scene, const SceneElement& element) { return is_transmission(element) && element.support == ground && !has_losses(scene, element); }
@@ -204,9 +207,11 @@ class Converter {
       element.scale = scale_at(element, true);
       std::vector<double> values = element.values;
       for (std::size_t k = 0; k < values.size(); ++k) {
-        if (element.has_row()) values[k] /= own_unit(component.declaration.parameters[k].quantity, element.scale);
+        // Losses are the same in both directions.
+        if (element.has_row()) values[k] /= own_unit(component.declaration.parameters[k].quantity, std::abs(element.scale));
       }
       element.values = std::move(values);
+      if (element.has_row()) scale_characteristics(element, [&](std::size_t k) { return own_unit(component.declaration.parameters[k].quantity, element.scale); });
       return;
     }
     element.scale = node(element.a == ground && !element.at ? element.b : element.a).scale;
@@ -226,13 +231,19 @@ class Converter {
       element.signals.own()[k] = element.signals[k].times(1 / factor(at(element.signal_parameters[k])));
     }
     element.values = std::move(values);
-    if (!element.characteristic) return;
-    for (std::size_t k = 0; k < declaration.parameters.size(); ++k) {
-      const Parameter& parameter = declaration.parameters[k];
-      if (parameter.kind != Parameter::Kind::characteristic && !parameter.may_be_curve) continue;
-      element.characteristic = std::make_shared<const Characteristic>(
-          element.characteristic->scaled(1 / own_unit(parameter.over, element.scale), 1 / factor(k)));
+    scale_characteristics(element, factor);
+  }
+
+  /// `factor`: of the values of a parameter.
+  template <class Factor>
+  static void scale_characteristics(SceneElement& element, Factor factor) {
+    if (!element.characteristics || element.scale == 1) return;
+    Characteristics scaled;
+    for (const auto& [k, function] : *element.characteristics) {
+      const double by_x = std::abs(own_unit(component_of(element).declaration.parameters[k].over, element.scale)), by_value = std::abs(factor(k));
+      scaled[k] = std::make_shared<const Characteristic>(function->scaled(1 / by_x, 1 / by_value));
     }
+    element.characteristics = std::make_shared<const Characteristics>(std::move(scaled));
   }
 
   /// The scale of a transmission at its first or its second end, one of which may be at ground.

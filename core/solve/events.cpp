@@ -108,7 +108,7 @@ double NetworkEvents::limit_function(std::size_t k) const {
 double NetworkEvents::loss_function(std::size_t k, const Dae::View& view) const {
   const std::size_t train = at(losses_[k]);
   const Network::Train& of = dae_.network().trains[train];
-  const double force = view.train_force[train], lead = of.loss->lead_of_a(modes_.slider[at(of.friction)], force);
+  const double force = view.train_force[train], lead = dae_.inputs().loss(train).lead_of_a(modes_.slider[at(of.friction)], force);
   return (modes_.b_drives[train] ? -lead : lead) + numerics::balance_roundoff * std::abs(force) + tolerances_.slip_noise(of.friction) + loss_margin_[k];
 }
 

@@ -16,23 +16,27 @@ using namespace rheonet::test;
 
 namespace {
 
-/// Friction through points, constant beyond the last.
+/// Friction through points, straight on beyond the last, but not below 0.
 struct Points {
   std::vector<double> w, f;
 
+  double slope(std::size_t k) const { return (f[k] - f[k - 1]) / (w[k] - w[k - 1]); }
   double at(double speed) const {
-    for (std::size_t k = 1; k < w.size(); ++k)
-      if (speed < w[k]) return f[k - 1] + (f[k] - f[k - 1]) * (speed - w[k - 1]) / (w[k] - w[k - 1]);
-    return f.back();
+    std::size_t k = 1;
+    while (k + 1 < w.size() && speed >= w[k]) ++k;
+    return std::max(0.0, f[k - 1] + slope(k) * (speed - w[k - 1]));
   }
   /// Time in which a mass slows down from `high` to `low` against friction and a force `extra`: m w' = -F(w) - extra.
   double slowing(double m, double extra, double low, double high) const {
     double sum = 0;
-    for (std::size_t k = 0; k < w.size(); ++k) {
-      const bool last = k + 1 == w.size();
-      const double from = std::max(low, w[k]), to = last ? high : std::min(high, w[k + 1]);
+    std::vector<double> ends(w.begin(), w.end() - 1);
+    const double last = slope(w.size() - 1);
+    ends.push_back(last < 0 ? w.back() - f.back() / last : high);
+    ends.push_back(std::max(high, ends.back()));
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const double from = std::max(low, ends[k]), to = std::min(high, ends[k + 1]);
       if (to <= from) continue;
-      const double slope = last ? 0 : (f[k + 1] - f[k]) / (w[k + 1] - w[k]), first = at(from) + extra;
+      const double slope = (at(to) - at(from)) / (to - from), first = at(from) + extra;
       sum += slope == 0 ? m * (to - from) / first : m / slope * std::log1p(slope * (to - from) / first);
     }
     return sum;
@@ -91,7 +95,7 @@ TEST_CASE("friction curves: a fast mass feels the curve where it reverses, howev
   const double m = 1.7, v0 = 12, F = 50;
   for (const double narrow : {1.0, 1e-3}) {
     const Points points{{0, 0.031 * narrow}, {3.7, 2.3}};
-    const double turn = points.slowing(m, F, 0, v0), plain = m * v0 / (F + 2.3);
+    const double turn = points.slowing(m, F, 0, v0), plain = m * v0 / F;
     REQUIRE_GT(plain - turn, 1e-6 * narrow);
     for (const double s : {1.0, -1.0}) {
       for (const double accuracy : accuracies) {
@@ -125,9 +129,12 @@ TEST_CASE("friction curves: smooth ones, the value at rest, and both sides of br
     const RunTable rows = simulate(sliding_mass(0, 3.7 * (1 + 1e-6), friction, 300), 1e-6);
     CHECK_GT(rows["x.velocity"].back(), 1);
   }
-  // Through the points, and constant beyond the last.
-  const RunTable rows = simulate(sliding_mass(0.9, 0, "smooth = true, coulomb = " + four.toml(), 0.6), 1e-8);
-  CHECK_EQ(rows["rub.force"].front(), doctest::Approx(2.3));
+  // Through the points, straight on beyond the last, and not below 0.
+  const auto at = [&](double w, const std::string& more) { return simulate(sliding_mass(w, 0, more + "coulomb = " + four.toml(), 0.6), 1e-8)["rub.force"].front(); };
+  CHECK_EQ(at(0.3, "smooth = true, "), doctest::Approx(2.3));
+  CHECK_EQ(at(0.9, ""), doctest::Approx(2.3 - 0.8 * 0.6));
+  CHECK_EQ(at(-0.9, ""), doctest::Approx(-2.3 + 0.8 * 0.6));
+  CHECK_EQ(at(5, ""), 0);
 }
 
 // A lever with arms 3 : 1 between the mass and its brake.
@@ -148,7 +155,7 @@ TEST_CASE("friction curves: marks stand where an expression begins to bend, and 
   const auto marks = [](const std::string& expression) {
     const RunTimeExpression::Variable w{"w", {}};
     const Characteristic curve(std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(expression, {&w, 1}, {}))));
-    return SpeedCurve(curve).marks();
+    return SpeedCurve(curve, {.lower_open = false}).marks();
   };
   CHECK_EQ(marks("2 + 3*abs(w)"), std::vector<double>{});
   CHECK_EQ(marks("0.1*w^2"), std::vector<double>{});
@@ -182,11 +189,11 @@ TEST_CASE("friction curves: mistakes and limits") {
   told("coulomb = [[0, 0.3], [1, 0.2]], normal = { ramp = \"2 N/s\" }", "");
   told("coulomb = [[0, 0.3], [1, 0.2]], breakaway = \"inf\"", "");
   refused("coulomb = [[0.1, 1], [1, 2]]", 63, "`coulomb` begins at a speed of 0.1, and its value at rest is not known", "let the first point be at 0");
-  refused("coulomb = [[0, 1], [1, -2]]", 71, "`coulomb` is -2 at a speed of 1: friction is at least 0");
+  refused("coulomb = [[0, 1], [1, -2]]", 71, "`coulomb` is -2 at a speed of 1: it must be at least 0");
   refused("coulomb = [[0, 1]]", 63, "`coulomb` needs at least two points", "coulomb = [[0, 0.5], [0.1, 0.4], [5, 0.35]]");
   refused("coulomb = [[0, \"1 N\"], [1, 2]], normal = 2", 66, "the number of a point: expected a number without a unit, found a force (N)");
   refused("coulomb = \"f + c*w\"", 62, "`coulomb`: is 3 N at a speed of 1 m/s, but 1 in the other direction", "friction is the same in both directions: write `abs(w)` for `w`");
-  refused("coulomb = \"2*f - c*abs(w)\"", 62, "`coulomb`: is -1.623 N at a speed of 5.623 m/s: friction is at least 0");
+  refused("coulomb = \"2*f - c*abs(w)\"", 62, "`coulomb`: is -1.623 N at a speed of 5.623 m/s: it must be at least 0");
   refused("coulomb = \"w == 0 ? 30*f : 2*f\"", 62, "`coulomb`: jumps where the motion begins", "give the value at rest as `breakaway`");
   refused("coulomb = \"2*c*w*zeta\"", 68, "`coulomb`: unknown name `zeta`", "it must be a parameter");
   refused("coulomb = [[0, 1], [1, 2]], stribeck = 0.1", 90, "`stribeck` needs a constant `coulomb`: a `normal` that varies may multiply it");

@@ -254,8 +254,8 @@ Caption caption_of(const Scene& scene, int index, bool with_values, const Typed&
     const auto& signals = element.signal_parameters;
     const auto signal = std::find(signals.begin(), signals.end(), static_cast<int>(i));
     const std::string symbol = in_print(declaration.parameters[i].symbol);
-    if (declaration.parameters[i].kind == Parameter::Kind::characteristic || (declaration.parameters[i].may_be_curve && element.characteristic)) {
-      if (element.characteristic) said.push_back({symbol, {"by its curve"}});
+    if (element.characteristic(i)) {
+      if (declaration.parameters[i].second_of.empty() || element.characteristic(i) != element.characteristic(i - 1)) said.push_back({symbol, {"by its curve"}});
     } else if (signal != signals.end())
       said.emplace_back(symbol, signal_of(scene, index, static_cast<std::size_t>(signal - signals.begin()), typed));
     else if (!goes_without_saying(element, i))

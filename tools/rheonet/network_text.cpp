@@ -62,15 +62,16 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     } else if (found != with_signal.end()) {
       const auto which = static_cast<std::size_t>(found - with_signal.begin());
       values.push_back(fmt::format("{} = {}", name, in_words(element.signals[which], unit)));
-    } else if (!parameter.second_of.empty()) {
-      if (element.values[i] == element.values[i - 1]) continue;
+    } else if (!parameter.second_of.empty() && !std::isnan(element.values[i - 1])) {
+      if (std::isnan(element.values[i]) || element.values[i] == element.values[i - 1]) continue;
       values.back() = fmt::format("{} = [{:.10g}, {:.10g}]{}", parameter.second_of, element.values[i - 1], element.values[i], unit == "1" ? "" : " " + unit);
     } else if (!std::isnan(element.values[i]) && parameter.kind != Parameter::Kind::characteristic) {
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }
   }
-  for (const Parameter& parameter : declaration.parameters)
-    if (element.characteristic && (parameter.kind == Parameter::Kind::characteristic || parameter.may_be_curve)) values.push_back(parameter.name + " by its curve");
+  for (std::size_t i = 0; i < declaration.parameters.size(); ++i)
+    if (const Parameter& parameter = declaration.parameters[i]; element.characteristic(i) && (parameter.second_of.empty() || element.characteristic(i) != element.characteristic(i - 1)))
+      values.push_back((parameter.second_of.empty() ? parameter.name : parameter.second_of + ", second value") + " by its curve");
   const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const SceneBlock& one) { return one.element == index; });
   if (block != scene.blocks.end()) {
     if (block->function) values.push_back("out = " + block->function->text());
