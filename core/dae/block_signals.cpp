@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "core/base/numerics.hpp"
@@ -293,20 +294,60 @@ double BlockSignals::event_function(std::size_t limit) {
   return side_[at(index)] == (upper ? 1 : -1) ? beyond : -beyond;
 }
 
+/// Block by block from the inputs on: an event at one may put the guard of another right that takes it in, as where the output of a
+/// limiter arrives at its bound, and a comparison holds at that bound.
 bool BlockSignals::fire(const std::vector<int>& limits) {
   fired_.clear();
+  jumps_ = false;
   std::vector<std::vector<std::size_t>> switches(functions_.size());
+  std::vector<std::vector<double>> guards(functions_.size());
+  std::map<int, std::pair<bool, double>> limiters;  // of a block: upper, guard
   for (const int k : limits) {
     const auto [block, upper, which] = limits_[at(k)];
     if (function_of_[at(block)] >= 0) {
       switches[at(function_of_[at(block)])].push_back(which);
+    } else {
+      limiters[block] = {upper, event_function(static_cast<std::size_t>(k))};
+    }
+  }
+  for (std::size_t f = 0; f < functions_.size(); ++f) {
+    std::sort(switches[f].begin(), switches[f].end());
+    guards[f] = functions_[f].guards(switches[f]);
+  }
+  if (limits.empty()) {
+    for (FunctionBlock& function : functions_) function.fire({}, {});
+    return false;
+  }
+  std::vector<char> changes(out_.size(), 1);
+  const auto changing = [&](const Blocks::Input& in) { return !in.from_block || changes[at(in.index)]; };
+  for (const int index : run_) {
+    const std::size_t k = at(index);
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (block.law.state || sampler_of_[k] >= 0) continue;
+    if (block.function) {
+      FunctionBlock& function = functions_[at(function_of_[k])];
+      function.begin(network_->scene->start + now_);
+      for (const Blocks::Input& in : block.inputs) function.add(in.argument, Dual(in.sign) * source(in), changing(in));
+      jumps_ = function.fire(switches[at(function_of_[k])], guards[at(function_of_[k])]) || jumps_;
+      out_[k] = function.fired_value();
+      changes[k] = function.changes();
       continue;
     }
-    const signed char beyond = upper ? 1 : -1;
-    fired_.push_back({block, side_[at(block)] == beyond ? static_cast<signed char>(0) : beyond});
+    const double v = block.law.gain * input(block).value;
+    const bool follows = std::any_of(block.inputs.begin(), block.inputs.end(), changing);
+    signed char side = side_[k];
+    if (const auto found = limiters.find(index); found != limiters.end()) {
+      const auto [upper, guard] = found->second;
+      const signed char beyond = upper ? 1 : -1;
+      const double over = upper ? v - block.law.upper : block.law.lower - v, now = side == beyond ? over : -over;
+      if ((now == guard && follows) || now < 0) {
+        side = side == beyond ? static_cast<signed char>(0) : beyond;
+        fired_.push_back({index, side});
+      }
+    }
+    out_[k] = side > 0 ? block.law.upper : side < 0 ? block.law.lower : v;
+    changes[k] = side == 0 && follows;
   }
-  jumps_ = false;
-  for (std::size_t f = 0; f < functions_.size(); ++f) jumps_ = functions_[f].fire(switches[f]) || jumps_;
   return jumps_;
 }
 

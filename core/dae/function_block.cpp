@@ -13,6 +13,7 @@ FunctionBlock::FunctionBlock(const SwitchedFunction& function)
       arguments_(function.variables(), 0),
       rates_(arguments_),
       partials_(arguments_),
+      changing_(arguments_.size(), 1),
       sides_(function.switches(), SwitchedFunction::no_side),
       fresh_(sides_),
       fired_(sides_),
@@ -21,11 +22,14 @@ FunctionBlock::FunctionBlock(const SwitchedFunction& function)
 void FunctionBlock::begin(double time) {
   std::fill(arguments_.begin(), arguments_.end(), 0.0);
   std::fill(rates_.begin(), rates_.end(), 0.0);
+  std::fill(changing_.begin(), changing_.end(), 0);
   arguments_.back() = time;
   rates_.back() = 1;
+  changing_.back() = 1;
 }
 
-void FunctionBlock::add(std::size_t argument, Dual value) {
+void FunctionBlock::add(std::size_t argument, Dual value, bool changes) {
+  if (changes) changing_[argument] = 1;
   arguments_[argument] += value.value;
   rates_[argument] += value.derivative;
 }
@@ -52,17 +56,31 @@ double FunctionBlock::event_function(std::size_t which) {
   return std::isfinite(guards_[which]) ? guards_[which] : 1;
 }
 
-bool FunctionBlock::fire(const std::vector<std::size_t>& switches) {
+std::vector<double> FunctionBlock::guards(const std::vector<std::size_t>& switches) {
+  function_->switching_functions(arguments_, sides_, guards_);
+  std::vector<double> result;
+  for (const std::size_t k : switches) result.push_back(guards_[k]);
+  return result;
+}
+
+bool FunctionBlock::fire(const std::vector<std::size_t>& switches, const std::vector<double>& guards) {
   std::fill(fired_.begin(), fired_.end(), SwitchedFunction::no_side);
-  if (switches.empty()) return false;
   std::vector<double> crossed = sides_;
-  for (const std::size_t k : switches) {
+  for (std::size_t i = 0; i < switches.size(); ++i) {
+    const std::size_t k = switches[i];
+    function_->switching_functions(arguments_, crossed, guards_);
+    const bool same = guards_[k] == guards[i] && function_->switch_follows(k, arguments_, crossed, changing_);
+    if (!same && !(guards_[k] < 0)) continue;
     function_->cross(k, arguments_, crossed);
     fired_[k] = crossed[k];
   }
-  const double before = function_->value(arguments_, sides_).value_or(0), after = function_->value(arguments_, crossed).value_or(0);
-  largest_ = std::max({largest_, std::abs(before), std::abs(after)});
-  return std::abs(after - before) > numerics::function_jump * largest_;
+  const double before = function_->value(arguments_, sides_).value_or(0);
+  fired_value_ = function_->value(arguments_, crossed, partials_).value_or(0);
+  changes_now_ = false;
+  for (std::size_t j = 0; j < partials_.size(); ++j) changes_now_ = changes_now_ || (changing_[j] && partials_[j] != 0);
+  if (switches.empty()) return false;
+  largest_ = std::max({largest_, std::abs(before), std::abs(fired_value_)});
+  return std::abs(fired_value_ - before) > numerics::function_jump * largest_;
 }
 
 bool FunctionBlock::choose() {

@@ -253,6 +253,15 @@ bool RunTimeExpression::cross(std::size_t k, std::span<const double> arguments, 
   return complete_sides(arguments, sides);
 }
 
+bool RunTimeExpression::switch_follows(std::size_t k, std::span<const double> arguments, std::span<const double> sides, std::span<const char> changes) const {
+  std::vector<double> partials(variables_.size());
+  if (!switching_function(k, arguments, sides, partials)) return true;
+  for (std::size_t i = 0; i < partials.size(); ++i) {
+    if (changes[i] && partials[i] != 0) return true;
+  }
+  return false;
+}
+
 bool RunTimeExpression::switching_functions(std::span<const double> arguments, std::span<const double> sides,
                                             std::span<double> values) const {
   Workspace& work = start(arguments);

@@ -52,6 +52,7 @@ class RunTimeExpression final : public SwitchedFunction {
   bool find_sides(std::span<const double> arguments, std::span<double> sides) const;
   bool complete_sides(std::span<const double> arguments, std::span<double> sides) const override;
   bool cross(std::size_t k, std::span<const double> arguments, std::span<double> sides) const override;
+  bool switch_follows(std::size_t k, std::span<const double> arguments, std::span<const double> sides, std::span<const char> changes) const override;
   bool switching_functions(std::span<const double> arguments, std::span<const double> sides, std::span<double> values) const override;
   /// One of the switching functions, with its partial derivatives; absent if one is not finite or the switch is in a branch that is not taken.
   std::optional<double> switching_function(std::size_t k, std::span<const double> arguments, std::span<const double> sides,

@@ -41,9 +41,18 @@ class SwitchedFunction {
   /// Carries switch `k` over its threshold, to the side on which it is about to be. Switches in a branch that is now taken
   /// get their sides at `arguments`. If this made other switching functions jump, these fall below 0 in turn.
   virtual bool cross(std::size_t k, std::span<const double> arguments, std::span<double> sides) const = 0;
+  /// Whether a switching function depends, at these sides, on one of the arguments that `changes`.
+  virtual bool switch_follows(std::size_t k, std::span<const double> arguments, std::span<const double> sides, std::span<const char> changes) const;
   /// The switching functions, times the sides: at least 0 while a side holds, infinite in branches that are not taken.
   /// Returns false if one is not a number.
   virtual bool switching_functions(std::span<const double> arguments, std::span<const double> sides, std::span<double> values) const = 0;
 };
+
+inline bool SwitchedFunction::switch_follows(std::size_t, std::span<const double>, std::span<const double>, std::span<const char> changes) const {
+  for (std::size_t k = 0; k < changes.size(); ++k) {
+    if (changes[k] && uses(k)) return true;
+  }
+  return false;
+}
 
 }  // namespace rheonet
