@@ -225,6 +225,9 @@ void Dae::stiffen_resting_laws() {
       const std::size_t r = at(laws.first) + i;
       if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
       if (rate_d_[r] != 0) continue;
+      // A force that has reached its limit: its own secant will do.
+      if (rate_in_[r] != 0 && rate_out_[r] != 0) rate_d_[r] = rate_out_[r] / rate_in_[r];
+      if (rate_d_[r] != 0) continue;
       if (scale < 0) {
         sum_forces();
         for (std::size_t n = 1; n < v_.size(); ++n) {

@@ -324,6 +324,10 @@ void refuse_falling_friction(const Network& network) {
   firm[ground] = 1;
   for (const Network::Mass& mass : network.masses) firm[static_cast<std::size_t>(mass.node)] = 1;
   for (const Network::Motion& motion : network.motions) firm[static_cast<std::size_t>(motion.node)] = 1;
+  // The equation of a train gives the velocity of a node without mass (assign_trains refuses more of them).
+  for (const Network::Train& train : network.trains) {
+    for (const NodeId node : train.node) firm[static_cast<std::size_t>(node)] = 1;
+  }
   const std::vector<NodeId> held = linked_to(network, firm);
   const auto refuse_massless = [&](const Branch& b, const char* how) {
     for (const NodeId node : {b.a, b.b}) {

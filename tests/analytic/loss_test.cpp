@@ -224,6 +224,20 @@ TEST_CASE("losses: over the speed, a lever between others with losses is a gear 
   CHECK(largest_error(curves, constant) < 1e-7);
 }
 
+TEST_CASE("losses: the node of a gear without a mass may have forces that depend on its velocity") {
+  const auto scene = [](const std::string& between, const std::string& teeth) {
+    return "domain = \"rotation\"\n[elements]\nT = { type = \"torque\", at = \"a\", torque = { sine = 5, frequency = 0.7 } }\n"
+           "J1 = { type = \"inertia\", at = \"a\", inertia = 3 }\ng = { type = \"gear\", between = [\"a\", \"teeth\"], ratio = 2, efficiency = [0.9, 0.8], bearing = [[0, 0.1], [1, 0.2]] }\n" +
+           between + teeth + "J2 = { type = \"inertia\", at = \"b\", inertia = 3 }\n[simulate]\nstop = 2\naccuracy = 1e-8\noutput = { points = 41 }\nrecord = [\"a.velocity\", \"b.velocity\"]\n";
+  };
+  for (const std::string between : {"p = { type = \"stop\", between = [\"b\", \"teeth\"], lower = -0.01, upper = 0.01, stiffness = 1e3, damping = 10 }\n",
+                                    "s = { type = \"slider\", between = [\"b\", \"teeth\"], coulomb = 0.7, breakaway = 1, stribeck = 0.05 }\n",
+                                    "s = { type = \"slider\", between = [\"b\", \"teeth\"], coulomb = [[0, 1], [0.2, 0.6], [2, 0.9]] }\n"}) {
+    CAPTURE(between);
+    CHECK(largest_error(simulate(scene(between, "")), simulate(scene(between, "J3 = { type = \"inertia\", at = \"teeth\", inertia = 1e-9 }\n"))) < 1e-6);
+  }
+}
+
 TEST_CASE("losses: a support that a motion holds still is ground, and the energy account closes") {
   std::mt19937 random(5);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
