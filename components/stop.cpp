@@ -17,24 +17,38 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 double lower_of(std::span<const double> v) { return std::isnan(v[0]) ? -unbounded : v[0]; }
 double upper_of(std::span<const double> v) { return std::isnan(v[1]) ? unbounded : v[1]; }
 
-// Free between two displacements, a spring beyond them. The deflection is the displacement itself.
-struct Stop : MemorylessLaw {
+// A deflection between two bounds. It counts from one of them, so that what happens there has all digits.
+struct BetweenBounds : MemorylessLaw {
   double lower, upper;  // m
-  double k;             // N/m
-  int side = 0;         // memory: the bound that is pressed: -1 lower, 1 upper, 0 none
+  int from = -1;        // memory: the bound from which p counts
+  int side = 0;         // memory: the bound in contact: -1 lower, 1 upper, 0 none
 
-  explicit Stop(std::span<const double> v) : lower(lower_of(v)), upper(upper_of(v)), k(v[2]) {}
+  explicit BetweenBounds(std::span<const double> v) : lower(lower_of(v)), upper(upper_of(v)), from(std::isinf(lower) ? 1 : -1) {}
+
+  double above(double p) const { return from > 0 ? -p : upper - lower - p; }  // way to the upper bound
+  double below(double p) const { return from < 0 ? p : upper - lower + p; }
+  double from_bound(double d) const { return d - (from < 0 ? lower : upper); }
+  int contact() const { return side; }
+  static constexpr bool lossless = true;
+};
+
+// Free between two displacements, a spring beyond them.
+struct Stop : BetweenBounds {
+  double k;  // N/m
+
+  explicit Stop(std::span<const double> v) : BetweenBounds(v), k(v[2]) {}
 
   template <class T>
-  T force(const T& d) const {
-    return side == 0 ? T(0.0) : T(k * (d - bound()));
+  T force(const T& p) const {
+    return side == 0 ? T(0.0) : T(k * (p - zero()));
   }
-  double bound() const { return side < 0 ? lower : upper; }
-  int side_at(double d) const { return d > upper ? 1 : d < lower ? -1 : 0; }
+  double zero() const { return side == from ? 0 : side > 0 ? upper - lower : lower - upper; }  // p at the bound in contact
+  int side_at(double p) const { return above(p) < 0 ? 1 : below(p) < 0 ? -1 : 0; }
 
   double start(double d) {
-    side = side_at(d);
-    return d;
+    const double p = from_bound(d);
+    side = side_at(p);
+    return p;
   }
   double start_with(double f) {
     const double d = f > 0 ? upper + f / k : lower + f / k;
@@ -42,47 +56,42 @@ struct Stop : MemorylessLaw {
   }
   int event_count() const { return 2; }
   // Meets or leaves the upper bound; the same for the lower one.
-  void event_functions(double d, double, double, double, double* g) const {
-    g[0] = std::isinf(upper) ? 1 : side > 0 ? d - upper : upper - d;
-    g[1] = std::isinf(lower) ? 1 : side < 0 ? lower - d : d - lower;
+  void event_functions(double p, double, double, double, double* g) const {
+    g[0] = std::isinf(upper) ? 1 : side > 0 ? -above(p) : above(p);
+    g[1] = std::isinf(lower) ? 1 : side < 0 ? -below(p) : below(p);
   }
   void switch_memory(int which, double, double) {
     const int pressed = which == 0 ? 1 : -1;
     side = side == pressed ? 0 : pressed;
   }
-  int contact() const { return side; }
-  void follow(double d, double step) { side = side_at(d + step); }
-  double jump(double d, double step) {
-    follow(d, step);
+  double recentre(double) {
+    if (side == 0 || side == from) return 0;
+    const double by = zero();
+    from = side;
+    return by;
+  }
+  void follow(double p, double step) { side = side_at(p + step); }
+  double jump(double p, double step) {
+    follow(p, step);
     return 0;
   }
-  double slope_along(double d, int direction) const {
-    const bool meets = side != 0 || (direction > 0 && d >= upper) || (direction < 0 && d <= lower);
+  double slope_along(double p, int direction) const {
+    const bool meets = side != 0 || (direction > 0 && above(p) <= 0) || (direction < 0 && below(p) <= 0);
     return meets ? k : 0;
   }
-  double stored_energy(double d) const { return side == 0 ? 0 : k * (d - bound()) * (d - bound()) / 2; }
-  static constexpr bool lossless = true;
+  double stored_energy(double p) const { return side == 0 ? 0 : k * (p - zero()) * (p - zero()) / 2; }
 };
 
-// Measures the displacement of a rigid stop, and has no force. It counts from the bound that was last in contact, so that a small hop
-// has all digits.
-struct StopGauge : MemorylessLaw {
-  double lower, upper;  // m
-  int from = -1;        // memory: the bound from which p counts
-  int side = 0;         // memory: the bound in contact: -1 lower, 1 upper, 0 none
-
-  explicit StopGauge(std::span<const double> v) : lower(lower_of(v)), upper(upper_of(v)) {}
+// Measures the displacement of a rigid stop, and has no force. It counts from the bound that was last in contact.
+struct StopGauge : BetweenBounds {
+  explicit StopGauge(std::span<const double> v) : BetweenBounds(v) {}
 
   template <class T>
   T force(const T&) const {
     return T(0.0);
   }
-  double above(double p) const { return from > 0 ? -p : upper - lower - p; }  // way to the upper bound
-  double below(double p) const { return from < 0 ? p : upper - lower + p; }
-
   double start(double d) {
-    from = std::isinf(lower) ? 1 : -1;
-    const double p = d - (from < 0 ? lower : upper);
+    const double p = from_bound(d);
     follow(p, 0);
     return p;
   }
@@ -94,7 +103,6 @@ struct StopGauge : MemorylessLaw {
     g[1] = side != 0 || std::isinf(lower) ? never : below(p);
   }
   void switch_memory(int which, double, double) { side = side != 0 ? 0 : which == 0 ? 1 : -1; }
-  int contact() const { return side; }
   double recentre(double p) {
     if (side == 0) return 0;
     from = side;
@@ -111,7 +119,6 @@ struct StopGauge : MemorylessLaw {
     return 0;
   }
   double stored_energy(double) const { return 0; }
-  static constexpr bool lossless = true;
   bool constant() const { return true; }
   DeflectionBatch::Steady steady() const { return {0, 0, 0}; }
 };
