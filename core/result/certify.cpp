@@ -182,7 +182,8 @@ class Certification {
         .allowed = scene_.accuracy, .shift = shift_, .factor = 1 / (1 - numerics::certificate_own_error)};
     const Trajectory& trajectory = measured->reference.trajectory;
     std::vector<RecordError> errors = record_errors(scene_, trajectory, tighter.reference, as_promised);
-    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised));
+    const Summary& summary = tighter.reference.trajectory.summary;
+    if (tighter.other) count_other(errors, record_errors(scene_, trajectory, *tighter.other, as_promised), 2 * summary.finest_steps > summary.steps);
     const std::optional<Imbalance> imbalance = balances_.raise(trajectory, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
@@ -202,12 +203,13 @@ class Certification {
 
   /// Raises errors to the estimate from a third run, which is at the distances `others`. If the errors of three runs a, b, c
   /// are independent, the mean of (a - b)(a - c) is the mean square error of a (J. E. Gray and D. W. Allan, 28th Symposium on
-  /// Frequency Control (1974) 243). The error is not estimated below that.
-  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others) const {
+  /// Frequency Control (1974) 243). The error is not estimated below that. `finest`: the steps of b were at the least tolerance, as those of a may be, so that
+  /// both may have one error in common; then a - c is the estimate.
+  void count_other(std::vector<RecordError>& errors, const std::vector<RecordError>& others, bool finest) const {
     for (std::size_t k = 0; k < errors.size(); ++k) {
       RecordError& error = errors[k];
       const RecordError& other = others[k];
-      const double independent = (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
+      const double independent = finest ? other.largest : (1 - numerics::certificate_own_error) * std::sqrt(error.largest) * std::sqrt(other.largest);
       if (independent <= error.largest) continue;
       error.largest = independent;
       error.time = other.time;

@@ -196,6 +196,7 @@ class SideBySide {
       sum.sparse = sum.sparse || s.sparse;
       sum.steps += s.steps;
       sum.rejected_steps += s.rejected_steps;
+      sum.finest_steps += s.finest_steps;
       sum.residual_evaluations += s.residual_evaluations;
       sum.jacobian_evaluations += s.jacobian_evaluations;
       sum.restarts += s.restarts;

@@ -318,6 +318,7 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   summary.sparse = statistics.integrator.sparse;
   summary.steps = statistics.integrator.steps;
   summary.rejected_steps = statistics.integrator.rejected;
+  summary.finest_steps = statistics.finest_steps;
   summary.residual_evaluations = statistics.integrator.residuals;
   summary.jacobian_evaluations = statistics.integrator.jacobians;
   summary.restarts = statistics.integrator.restarts;

@@ -47,6 +47,7 @@ struct Summary {
   bool sparse = false;  ///< KLU rather than dense linear algebra
   long steps = 0;
   long rejected_steps = 0;
+  long finest_steps = 0;  ///< at the least tolerance that double precision allows
   long residual_evaluations = 0;
   long jacobian_evaluations = 0;
   long events = 0;    ///< number of switches of elements: see core/solve/mode_change_log.hpp

@@ -288,6 +288,7 @@ class Run {
       error_model_.follow(t, view);
       tolerances_.trust(true);
       const double local = tolerance(error_model_.local_share());
+      if (local <= numerics::least_step_tolerance) ++statistics_.finest_steps;
       tolerances_.allow(local, network_.bundles ? tolerance(error_model_.dense_share()) : local);
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       if (network_.bundles) deflections_ = view.p;

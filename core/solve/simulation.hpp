@@ -43,6 +43,7 @@ struct SimulationSettings {
 
 struct SimulationStatistics {
   Integrator::Statistics integrator;
+  long finest_steps = 0;  ///< at the least tolerance
   std::vector<std::string> notes;
   std::vector<std::string> chosen;  ///< see StartWords
   std::optional<double> ended;      ///< time at which `simulate.stop_when` ended the run [s]
