@@ -33,11 +33,14 @@ SteadyStart SteadyStateSolver::go() {
   open_contacts();
   refuse_stretching();
   hold_what_is_free();
-  // A slider that breaks away releases the difference to its sliding force: then everything is to be found anew.
+  FixedPoint sensed;
   do {
-    while (!find_velocities()) {
-    }
-  } while (!find_positions());
+    // A slider that breaks away releases the difference to its sliding force: then everything is to be found anew.
+    do {
+      while (!find_velocities()) {
+      }
+    } while (!find_positions());
+  } while (!blocks_agree(sensed));
   if (resting_) refuse_motion();
   note_what_gave_way();
   follow_pairs(network_, state_);
@@ -48,12 +51,69 @@ SteadyStart SteadyStateSolver::go() {
   return std::move(result_);
 }
 
+/// Bounds that blocks give may depend on the motion, as friction over the speed does. True if they are those at the motion that was found; otherwise
+/// they are set to those at a next trial of it.
+bool SteadyStateSolver::blocks_agree(FixedPoint& sensed) {
+  std::vector<std::size_t> varying;
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    if (!network_.sliders[k].varying.empty()) varying.push_back(k);
+  }
+  if (varying.empty() || network_.blocks.sensors.empty()) return true;
+  const auto bounds = [&] {
+    std::vector<double> result;
+    for (const std::size_t k : varying) {
+      const Box& box = inputs_.box(k);
+      for (const Bounds& b : {box.forward, box.backward}) result.insert(result.end(), {b.sliding.value, b.breakaway.value});
+    }
+    return result;
+  };
+  const std::vector<double> before = bounds();
+  State found = state_;
+  found.velocity = velocity_;
+  inputs_.settle_blocks(t_, found);
+  inputs_.transmit(state_.train_force);
+  const std::vector<double> after = bounds();
+  const auto agree = [](double one, double other) {
+    return one == other || std::abs(one - other) <= numerics::balance_roundoff * std::max(std::abs(one), std::abs(other));
+  };
+  if (std::equal(before.begin(), before.end(), after.begin(), agree)) {
+    state_.blocks = found.blocks;
+    return true;
+  }
+  if (++block_trials_ > numerics::block_trials) {
+    std::vector<std::string> names;
+    for (const std::size_t k : varying) names.push_back("`" + name(network_.sliders[k].branch) + "`");
+    throw SimulationError(network_.spot_of(network_.sliders[varying.front()].branch.element), fmt::format(
+        "{}: the bounds of {} depend on the motion, and none was found that fits them; start from given values, and give it time to settle", kind(), format_list(names)));
+  }
+  // The motion as one vector, each kind of quantity in units of its size.
+  const auto as_vector = [&](const State& state) {
+    Eigen::VectorXd result(static_cast<Eigen::Index>(state.velocity.size() + state.position.size() + state.p.size()));
+    Eigen::Index i = 0;
+    for (const std::vector<double>* list : {&state.velocity, &state.position, &state.p}) {
+      for (const double x : *list) result[i++] = x;
+    }
+    return result;
+  };
+  if (block_trials_ == 1) trial_ = begun_;
+  const Eigen::VectorXd next = sensed.next(as_vector(trial_), as_vector(found));
+  trial_ = found;
+  Eigen::Index i = 0;
+  for (std::vector<double>* list : {&trial_.velocity, &trial_.position, &trial_.p}) {
+    for (double& x : *list) x = next[i++];
+  }
+  inputs_.settle_blocks(t_, trial_);
+  inputs_.transmit(state_.train_force);
+  return false;
+}
+
 /// Motions are where they are just after the start: a step there is over.
 void SteadyStateSolver::enter_inputs() {
   std::vector<int> changing;  // elements
   inputs_.enter(t_);
   inputs_.evaluate(t_);
   inputs_.settle_blocks(t_, state_);
+  begun_ = state_;
   for (std::size_t m = 0; m < network_.motions.size(); ++m) {
     const std::size_t n = at(network_.motions[m].node);
     const double step = inputs_.steps()[m];

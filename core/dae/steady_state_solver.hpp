@@ -15,6 +15,7 @@
 #include "core/dae/convex.hpp"
 #include "core/dae/steady_state.hpp"
 #include "core/dae/train_force_trials.hpp"
+#include "core/nonsmooth/fixed_point.hpp"
 #include "core/network/rigid_links.hpp"
 
 namespace rheonet {
@@ -86,6 +87,7 @@ class SteadyStateSolver {
 
   // steady_state.cpp: inputs and messages.
   void enter_inputs();
+  bool blocks_agree(FixedPoint& sensed);
   void refuse_stretching() const;
   [[noreturn]] void report_stretching(NodeId first, NodeId last, const std::vector<const Branch*>& from) const;
   [[noreturn]] void report_acceleration(std::vector<NodeId> nodes) const;
@@ -143,6 +145,8 @@ class SteadyStateSolver {
   /// What trains with losses do: the first balance is without losses, the second one, if that has no answer, with gears that stand still.
   enum class Losses : char { none, locked, known };
   Losses losses_ = Losses::known;
+  State begun_, trial_;   ///< the state that blocks sense: at first, and at the last trial
+  int block_trials_ = 0;  ///< after the first one
   SteadyStart result_;
 };
 

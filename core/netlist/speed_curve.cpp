@@ -41,7 +41,7 @@ std::vector<double> bends(const Characteristic& curve) {
 }  // namespace
 
 SpeedCurve::SpeedCurve(const Characteristic& curve, const Parameter& bounds)
-    : curve_(curve), least_(bounds.lower), most_(bounds.upper), open_(bounds.lower_open) {
+    : curve_(curve), least_(bounds.lower), holds_(std::isfinite(bounds.upper)) {
   if (curve.expression()) {
     marks_ = bends(curve);
   } else if (curve.lines()) {
@@ -49,17 +49,16 @@ SpeedCurve::SpeedCurve(const Characteristic& curve, const Parameter& bounds)
   } else {
     marks_.assign(curve.points().begin() + 1, curve.points().end());
   }
-  if (!curve.expression()) mark_bound();
+  if (!curve.expression()) mark_end();
   own_ = marks_.empty() ? 0 : 1;
 }
 
-/// Where the last line reaches a bound.
-void SpeedCurve::mark_bound() {
-  const double last = curve_.points().back();
+/// The end of the last line: its last point if the value there holds beyond it, else where it falls to the least value.
+void SpeedCurve::mark_end() {
+  const double last = curve_.points().back(), rate = curve_.last_slope(1);
   double slope;
-  const double value = curve_.force(last, slope), rate = curve_.last_slope(1);
-  const double reach = rate > 0 ? (most_ - value) / rate : rate < 0 ? (least_ - value) / rate : 0;
-  if (reach > 0 && std::isfinite(reach)) marks_.push_back(last + reach);
+  const double reach = holds_ ? 0 : (least_ - curve_.force(last, slope)) / rate;
+  if ((holds_ && curve_.lines()) || (reach > 0 && std::isfinite(reach))) marks_.push_back(last + reach);
 }
 
 std::size_t SpeedCurve::switches() const { return own_ + (curve_.expression() ? curve_.expression()->switches() : 0); }
@@ -82,6 +81,11 @@ double SpeedCurve::along(double w, std::span<const double> sides, double& slope)
     slope *= by_x;
     return force;
   }
+  if (holds_ && number_at(x, sides) == marks_.size()) {
+    const double force = curve_.force(marks_.back(), slope);
+    slope = 0;
+    return force;
+  }
   if (!curve_.lines()) {
     const double force = curve_.force(x, slope);
     slope *= by_x;
@@ -96,16 +100,16 @@ double SpeedCurve::along(double w, std::span<const double> sides, double& slope)
 std::optional<double> SpeedCurve::value(std::span<const double> arguments, std::span<const double> sides) const {
   double slope;
   const double force = along(arguments[1], sides, slope);
-  return has_value(force) ? std::optional(std::clamp(force, least_, most_)) : std::nullopt;
+  return std::isfinite(force) ? std::optional(std::max(force, least_)) : std::nullopt;
 }
 
 std::optional<double> SpeedCurve::value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const {
   std::fill(partials.begin(), partials.end(), 0.0);
   double slope;
   const double force = along(arguments[1], sides, slope);
-  if (!has_value(force) || !std::isfinite(slope)) return {};
-  if (force > least_ && force < most_) partials[1] = slope;
-  return std::clamp(force, least_, most_);
+  if (!std::isfinite(force) || !std::isfinite(slope)) return {};
+  if (force > least_) partials[1] = slope;
+  return std::max(force, least_);
 }
 
 bool SpeedCurve::complete_sides(std::span<const double> arguments, std::span<double> sides) const {

@@ -177,13 +177,13 @@ TEST_CASE("losses: efficiency and bearings over the speed, as an independent int
   const double J1 = 0.7, J2 = 1.9, i = 3, stop = 2, w0 = 4;
   const Line eta_a{{0, 0.8}, {3, 0.6}, {9, 0.75}}, eta_b{{0, 0.7}, {2, 0.4}}, bearing_a{{0, 0.3}, {5, 0.9}}, bearing_b{{0, 0.5}, {5, 0.1}};
   const std::string tables =
-      "ratio = 3, efficiency = [[[0, 0.8], [3, 0.6], [9, 0.75]], [[0, 0.7], [2, 0.4], [4, 0.4]]], bearing = [[[0, 0.3], [5, 0.9]], [[0, 0.5], [5, 0.1]]]";
+      "ratio = 3, efficiency = [[[0, 0.8], [3, 0.6], [9, 0.75]], [[0, 0.7], [2, 0.4]]], bearing = [[[0, 0.3], [5, 0.9]], [[0, 0.5], [5, 0.1]]]";
   const auto T1 = [](double t) { return 6 * std::sin(2 * std::numbers::pi * t) + 1; };
   const auto T2 = [](double t) { return -2 + 9 * t; };
   for (const int side : {1, -1}) {
     const auto acceleration = [&](double t, double w) {
-      const double speed = std::abs(w), at_b = speed < 2 ? along(eta_b, speed) : 0.4;
-      const Loss loss{along(eta_a, speed), at_b, along(bearing_a, speed), std::max(0.0, along(bearing_b, speed))};
+      const double speed = std::abs(w);
+      const Loss loss{along(eta_a, std::min(speed, 9.0)), along(eta_b, std::min(speed, 2.0)), along(bearing_a, speed), std::max(0.0, along(bearing_b, speed))};
       for (const bool b_drives : {false, true}) {
         const auto [factor, offset] = loss.line(side, b_drives);
         const double m = (side * T1(t) - offset - J1 * i * side * T2(t) / J2) / (J1 * i * i / J2 + factor);
