@@ -17,7 +17,7 @@ const RegisterComponent register_function({
                      .lower = -std::numeric_limits<double>::infinity(), .symbol = "F",
                      .description = "output, over the inputs u1, u2, ... in their order, the time t and the parameters"},
                 },
-            .summary = "any expression over signals",
+            .summary = "any expression over signals and the time",
             .law = "y = F(u1, u2, ..., t)",
             .equation = R"(y = F(u_1, u_2, \dots, t))",
             .source = "definition",

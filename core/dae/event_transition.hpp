@@ -187,6 +187,7 @@ class EventTransition {
   std::vector<signed char> slipping_;  ///< of each slider: the direction in which it slips already
   std::vector<signed char> came_to_rest_;  ///< of each slider: the direction in which it slipped up to this event
   std::vector<int> hit_;               ///< sliders in contact whose ends moved towards each other at this event
+  double largest_kinetic_ = 0;         ///< at events so far [J]
   std::vector<double> slack_;          ///< of each node: imbalance that is accepted [N]
   std::vector<NodeId> led_by_;         ///< of each node: itself if its motion is known, a known node to which rigid links join it, or -1
   std::vector<char> firm_;             ///< of each node: it, or a node to which rigid links join it, is known or has a mass

@@ -61,8 +61,8 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, c
   }
   std::vector<int> backwards = moving_backwards(state);
   hit_.clear();
+  largest_kinetic_ = std::max(largest_kinetic_, kinetic_energy(state));
   if (backwards.empty()) return turned;
-  const double before = kinetic_energy(state);
   const double lost = std::max(0.0, rebound(t, backwards, settles, state));
   const auto in_contact = [&](int k) { return network_.sliders[at(k)].contact.has_value(); };
   std::copy_if(backwards.begin(), backwards.end(), std::back_inserter(hit_), in_contact);
@@ -78,7 +78,7 @@ double EventTransition::collide(double t, const std::vector<double>& momentum, c
     change.impacts.push_back({slider.branch.element, -side});
   }
   // A freewheel that ceases to run ahead has the round-off of its event as its velocity: no impact.
-  const bool impact = lost > numerics::equal_energies * before;
+  const bool impact = lost > numerics::equal_energies * largest_kinetic_;
   if (t == 0 && impact && !hit_.empty()) {
     change.notes.push_back(fmt::format("{} {} start with an impact, which turns {:.6g} J into heat, before the energy account begins",
                                        at_time(*network_.scene, t), "the ends of " + format_list(names_of(hit_)), lost));

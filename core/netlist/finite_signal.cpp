@@ -22,7 +22,9 @@ bool is_finite_wave(double amplitude, double frequency, double offset) {
 struct FiniteShape {
   bool operator()(const Signal::Constant& s) const { return std::isfinite(s.value); }
   bool operator()(const Signal::Step& s) const { return std::isfinite(s.offset + s.height); }
-  bool operator()(const Signal::Ramp& s) const { return std::isfinite(s.slope); }
+  bool operator()(const Signal::Ramp& s) const {
+    return std::isfinite(s.slope) && (std::isinf(s.duration) || std::isfinite(s.offset + s.slope * s.duration));
+  }
   bool operator()(const Signal::Sine& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
   bool operator()(const Signal::Square& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }
   bool operator()(const Signal::Triangle& s) const { return is_finite_wave(s.amplitude, s.frequency, s.offset); }

@@ -168,7 +168,7 @@ Json element_schema(const Declaration& declaration) {
                           !parameter.same_as.empty();
     if (!optional) requirements.push_back(one_required(names));
   }
-  if (properties.contains("in")) requirements.push_back(one_required({"in"}));
+  if (properties.contains("in") && declaration.inputs.alike) requirements.push_back(one_required({"in"}));
   if (!one_of.empty()) requirements.push_back(one_required(one_of));
   Json schema = object(std::move(properties));
   if (!requirements.empty()) schema["allOf"] = std::move(requirements);
@@ -236,7 +236,7 @@ Json signal_schema() {
       {"amplitude", "factor on the signal"},
       {"frequency", "cycles a second [Hz; rad/s and rpm are converted]"},
       {"end_frequency", "of a chirp [Hz]"},
-      {"duration", "of the sweep of a chirp [s]"},
+      {"duration", "of a ramp, which then keeps its value, or of the sweep of a chirp [s]"},
       {"width", "of a pulse [s]"},
       {"interval", "of noise: the time for which each value holds [s]"},
       {"seed", "of noise: a whole number; signals of one seed have the same values"},

@@ -140,7 +140,9 @@ struct PieceAt {
 
   Stretch operator()(const Signal::Ramp& s) const {
     if (t < s.time) return constant(s.offset, s.time);
-    Stretch piece = constant(s.offset);
+    const double end = s.time + s.duration;
+    if (t >= end) return constant(s.offset + s.slope * s.duration);
+    Stretch piece = constant(s.offset, end);
     piece.origin = s.time;
     piece.slope = s.slope;
     return piece;
@@ -248,7 +250,7 @@ struct Times {
 
   Signal::Shape operator()(Signal::Constant s) const { return Signal::Constant{factor * s.value}; }
   Signal::Shape operator()(Signal::Step s) const { return Signal::Step{factor * s.height, s.time, factor * s.offset}; }
-  Signal::Shape operator()(Signal::Ramp s) const { return Signal::Ramp{factor * s.slope, s.time, factor * s.offset}; }
+  Signal::Shape operator()(Signal::Ramp s) const { return Signal::Ramp{factor * s.slope, s.time, factor * s.offset, s.duration}; }
   Signal::Shape operator()(Signal::Pulse s) const {
     s.height *= factor;
     s.offset *= factor;

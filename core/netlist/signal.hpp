@@ -57,7 +57,8 @@ class Signal {
  public:
   struct Constant { double value; };
   struct Step { double height, time, offset; };
-  struct Ramp { double slope, time, offset; };
+  /// It rises for `duration`, then keeps its value.
+  struct Ramp { double slope, time, offset, duration = std::numeric_limits<double>::infinity(); };
   /// amplitude sin(2 pi frequency (t - time) + phase) from `time` on. A cosine is a sine with phase + pi/2.
   struct Sine { double amplitude, frequency, phase, time, offset; };
   /// +amplitude while the angle 2 pi frequency (t - time) + phase, modulo 2 pi, is below pi, else -amplitude.

@@ -184,7 +184,8 @@ class Connection {
       while (k <= inputs && name != "u" + std::to_string(k)) ++k;
       if (k <= inputs) continue;
       diagnostics_.error(diagnostics_.inside(*function.source, place_of_name(name, text)),
-                         "the output of `" + this->name(function.block) + "`: there is no `" + name + "`: the block takes in " + std::to_string(inputs) + (inputs == 1 ? " signal" : " signals"));
+                         "the output of `" + this->name(function.block) + "`: there is no `" + name + "`: the block takes in " + (inputs == 0 ? "nothing" : std::to_string(inputs) + (inputs == 1 ? " signal" : " signals")),
+                         inputs == 0 ? "name its inputs: in = [\"a.position\", \"b.force\"]" : "");
       return true;
     }
     return false;
@@ -329,7 +330,8 @@ std::vector<SignalConnection> read_inputs(const Declaration& declaration, const 
   const Declaration::Inputs& inputs = declaration.inputs;
   std::vector<SignalConnection> connections;
   if (inputs.most == 0) return connections;
-  const TomlEntry* in = reader.require("in", spot, std::string("an input is ") + source_example);
+  // A function may be one of the time alone.
+  const TomlEntry* in = inputs.alike ? reader.require("in", spot, std::string("an input is ") + source_example) : reader.find("in");
   if (!in) return connections;
   std::vector<const TomlValue*> sources{&in->value};
   std::vector<std::string> names;

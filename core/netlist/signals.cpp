@@ -91,6 +91,9 @@ void SignalTemplate::read_table_signal(const TomlValue& source, Context& context
       required = {frequency};
       optional.push_back(phase);
       break;
+    case Shape::ramp:
+      optional.push_back(duration);
+      break;
     case Shape::chirp:
       required = {frequency, end_frequency, duration};
       optional.push_back(phase);
@@ -309,7 +312,7 @@ std::optional<Signal> SignalTemplate::make(const Environment& environment, Conte
   const auto angle = value_of(phase, environment, context, 0);
   const auto f = value_of(frequency, environment, context, 0);
   const auto f_end = value_of(end_frequency, environment, context, 0);
-  const auto length = value_of(duration, environment, context, 0);
+  const auto length = value_of(duration, environment, context, std::numeric_limits<double>::infinity());
   const auto high = value_of(width, environment, context, 0);
   const auto held = value_of(interval, environment, context, 0);
   const auto number = value_of(seed, environment, context, 0);
@@ -324,7 +327,7 @@ std::optional<Signal> SignalTemplate::make(const Environment& environment, Conte
     case Shape::step:
       return Signal(Signal::Step{*main, *start, *level});
     case Shape::ramp:
-      return Signal(Signal::Ramp{*main, *start, *level});
+      return Signal(Signal::Ramp{*main, *start, *level, *length});
     case Shape::sine:
       return Signal(Signal::Sine{*main, *f, *angle, *start, *level});
     case Shape::cosine:

@@ -128,7 +128,7 @@ scene.toml:26:82: error: `smooth` must be true or false, but is the string "yes"
 scene.toml:27:57: error: unknown key `smooth` of a `ramp` signal
    27 | z = { type = "motion", at = "z", velocity = { ramp = 3, smooth = true } }
       |                                                         ^
-  its keys are `ramp`, `amplitude`, `time` and `offset`
+  its keys are `ramp`, `amplitude`, `time`, `offset` and `duration`
 )~"},
       {"expressions of the time",
        R"~(

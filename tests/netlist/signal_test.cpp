@@ -30,7 +30,7 @@ struct Reference {
 
   long double operator()(const Signal::Constant& s) const { return s.value; }
   long double operator()(const Signal::Step& s) const { return s.offset + (t < s.time ? 0 : s.height); }
-  long double operator()(const Signal::Ramp& s) const { return s.offset + (t < s.time ? 0 : s.slope * (t - s.time)); }
+  long double operator()(const Signal::Ramp& s) const { return s.offset + (t < s.time ? 0 : s.slope * std::min(t - s.time, static_cast<long double>(s.duration))); }
   long double operator()(const Signal::Sine& s) const {
     return s.offset + (t < s.time ? 0 : s.amplitude * std::sin(angle(s.frequency, s.phase, s.time)));
   }
@@ -84,6 +84,7 @@ const std::vector<Signal>& examples() {
       Signal(Signal::Constant{-1.7}),
       Signal(Signal::Step{2.3, 0.71, -0.4}),
       Signal(Signal::Ramp{-1.3, 0.37, 0.9}),
+      Signal(Signal::Ramp{2.1, 0.29, -0.4, 0.53}),
       Signal(Signal::Sine{1.9, 0.83, 0.6, 0.29, 0.31}),
       Signal(Signal::Sine{-1.9, 2.7, -11.3, -5.2, -0.1}),
       Signal(Signal::Sine{1.1, 0, 0.6, 0.4, 0.2}),

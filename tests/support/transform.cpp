@@ -35,7 +35,7 @@ struct Transform {
     return Signal::Step{value * s.height, time * s.time, value * s.offset + add};
   }
   Signal::Shape operator()(Signal::Ramp s) const {
-    return Signal::Ramp{value / time * s.slope, time * s.time, value * s.offset + add};
+    return Signal::Ramp{value / time * s.slope, time * s.time, value * s.offset + add, time * s.duration};
   }
   template <class Periodic>  // Sine, Square, Triangle
   Signal::Shape operator()(Periodic s) const {

@@ -124,7 +124,8 @@ struct Shape {
   }
   std::string operator()(const Signal::Ramp& s) const {
     const std::string per_second = unit + "/s";
-    return "ramp " + (typed.say(s.slope, per_second) ? say(s.slope, per_second, typed) : with("", s.slope) + " per s") + beside(s.offset);
+    return "ramp " + (typed.say(s.slope, per_second) ? say(s.slope, per_second, typed) : with("", s.slope) + " per s") + beside(s.offset) +
+           (std::isfinite(s.duration) ? " for " + number(s.duration) + " s" : "");
   }
   std::string operator()(const Signal::Sine& s) const { return wave(is_cosine(s) ? "cosine " : "sine ", s); }
   std::string operator()(const Signal::Square& s) const { return wave("square ", s); }

@@ -65,6 +65,8 @@ std::array<std::string, 4> row_of(const SceneElement& element, const Scene& scen
     } else if (!parameter.second_of.empty() && !std::isnan(element.values[i - 1])) {
       if (std::isnan(element.values[i]) || element.values[i] == element.values[i - 1]) continue;
       values.back() = fmt::format("{} = [{:.10g}, {:.10g}]{}", parameter.second_of, element.values[i - 1], element.values[i], unit == "1" ? "" : " " + unit);
+    } else if (!parameter.same_as.empty() && !element.given[i]) {
+      continue;  // as that one; a `peak` makes a `breakaway` that differs from it
     } else if (!std::isnan(element.values[i]) && parameter.kind != Parameter::Kind::characteristic) {
       values.push_back(fmt::format("{} = {:.10g}{}", name, element.values[i], unit == "1" ? "" : " " + unit));
     }

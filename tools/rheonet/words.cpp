@@ -30,7 +30,7 @@ struct Words {
     return "step of " + number(s.height, unit) + " at " + number(s.time, "s") + rest(0, 0, s.offset, unit);
   }
   std::string operator()(const Signal::Ramp& s) const {
-    return "ramp of " + number(s.slope, unit) + " per s" + rest(0, s.time, s.offset, unit);
+    return "ramp of " + number(s.slope, unit) + " per s" + (std::isfinite(s.duration) ? " for " + number(s.duration, "s") : "") + rest(0, s.time, s.offset, unit);
   }
   std::string operator()(const Signal::Sine& s) const { return wave("sine", s); }
   std::string operator()(const Signal::Square& s) const { return wave("square", s); }
