@@ -134,15 +134,10 @@ Contact rigid_contact(std::span<const double> v) {
           .restitution = v[2]};
 }
 
-// The damping in contact, within +-k x: 0 at first touch, and never more than the spring gives back.
+// The damping in contact, within the force f of the spring there: 0 at first touch, and never more than the spring gives back.
 std::optional<MotionExpression> contact_damping(std::span<const double> v) {
   if (!(v[3] > 0)) return {};
-  const bool both = !std::isnan(v[0]) && !std::isnan(v[1]);
-  const std::string above = "d > d2 ? max(k*(d2 - d), min(k*(d - d2), c*w)) : ", below = "d < d1 ? max(k*(d - d1), min(k*(d1 - d), c*w)) : ";
-  std::map<std::string, double> names{{"k", v[2]}, {"c", v[3]}};
-  if (!std::isnan(v[0])) names["d1"] = v[0];
-  if (!std::isnan(v[1])) names["d2"] = v[1];
-  return MotionExpression{(both ? above + below : std::isnan(v[0]) ? above : below) + "0", names, -1};
+  return MotionExpression{"max(-abs(f), min(abs(f), c*w))", {{"c", v[3]}}, -1};
 }
 
 // With parameters that vary: the same force, of spring and damping together.

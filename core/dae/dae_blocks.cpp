@@ -166,8 +166,8 @@ void Dae::feel_blocks(const double* y) {
     const Network::Place& place = network_->places[at(sensor.index)];
     if (place.role == Role::deflection) {
       std::size_t i = 0;
-      double slope = 0;
-      blocks.sensed[k] = batch_of(place.index, i).force_along(i, view_.p[at(place.index)], 0, slope);
+      const DeflectionBatch& batch = batch_of(place.index, i);
+      blocks.sensed[k] = batch.force(i, view_.p[at(place.index)]);
     } else if (place.role == Role::rate) {
       std::size_t i = 0;
       const RateBatch& law = network_->rate_of(place.index, i);

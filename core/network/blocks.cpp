@@ -210,6 +210,11 @@ class Finder {
       for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
       std::vector<RunTimeExpression::Variable> variables{{"d", {}}, {"w", {}}};
       for (const auto& [name, from] : parameters) variables.push_back({name, {}});
+      const bool beside = network_.places[at(branch.element)].role == Role::deflection;
+      if (beside) {
+        block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, branch.element, -1, -1}), 1, variables.size()});
+        variables.push_back({"f", {}});
+      }
       variables.push_back({"t", {}});
       block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
     }

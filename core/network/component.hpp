@@ -102,6 +102,11 @@ class DeflectionBatch {
   virtual double release_slope(std::size_t i, double p) const = 0;
   /// Force after the deflection has gone from p to p + step along the law, and its slope there. The memory stays.
   virtual double force_along(std::size_t i, double p, double step, double& slope) const = 0;
+  /// Force at the deflection p, with the memory as it is [N].
+  virtual double force(std::size_t i, double p) const {
+    double slope;
+    return force_along(i, p, 0, slope);
+  }
   /// The force does not depend on the deflection until the next event: friction at its bound.
   virtual bool constant(std::size_t i) const = 0;
 
@@ -286,7 +291,7 @@ struct LawValues : std::span<const double> {
 };
 using Values = std::vector<LawValues>;  ///< of each element of a batch
 
-/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, and over `names`; in SI. Or a function of d, w
+/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, over `names`, and, beside a deflection law, over its force `f` [N]; in SI. Or a function of d, w
 /// and the time.
 struct MotionExpression {
   std::string expression;

@@ -133,6 +133,7 @@ class DeflectionBatchOf final : public DeflectionBatch {
     if constexpr (requires { laws_[i].release_slope(p); }) return laws_[i].release_slope(p);
     return 0;
   }
+  double force(std::size_t i, double p) const override { return laws_[i].force(p); }
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     Law law = laws_[i];
     if constexpr (requires { law.follow(p, step); }) {

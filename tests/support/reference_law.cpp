@@ -9,7 +9,7 @@ namespace rheonet::test {
 
 namespace {
 
-constexpr std::array<const char*, 7> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm", "freewheel"};
+constexpr std::array<const char*, 8> type_names = {"spring", "dashpot", "slider", "sfm", "vfm", "cfm", "freewheel", "stop"};
 
 constexpr double rounding = 4e-16;
 
@@ -34,11 +34,18 @@ ReferenceLaw::ReferenceLaw(const SceneElement& element, const Declaration& decla
     if (name == "coulomb" && type_ != Type::slider) coulomb_ = value;
     if (name == "exponent" || name == "flow_index") exponent_ = value;
     if (name == "rest") rest = value;
+    if (name == "lower" && !std::isnan(value)) lower_ = value;
+    if (name == "upper" && !std::isnan(value)) upper_ = value;
     if (name == "f0") f0 = value;
     if (name == "d0") d0 = value;
   }
   if (type_ == Type::slider) bound(slider_bounds(element, [](const Signal& signal) { return signal.value(0); }));
   if (!std::isnan(f0)) force_ = f0;
+  if (type_ == Type::stop) {
+    stretch_ = std::isnan(d0) ? displacement : d0;
+    force_ = contact(0, 1).force;
+    piece_.direction = piece_.leaving = stretch_ > upper_ ? 1 : stretch_ < lower_ ? -1 : 0;
+  }
   if (type_ == Type::spring) {
     stretch_ = !std::isnan(f0) ? f0 / stiffness_ : (std::isnan(d0) ? displacement : d0) - rest;
     force_ = stiffness_ * stretch_;
@@ -90,6 +97,15 @@ double ReferenceLaw::relaxing(double step, double h, double s) const {
   return u;
 }
 
+ReferenceLaw::Value ReferenceLaw::contact(double step, double h) const {
+  const double d = stretch_ + step, x = d > upper_ ? d - upper_ : d < lower_ ? d - lower_ : 0;
+  if (x == 0) return {0, 0};
+  const double most = stiffness_ * std::abs(x), damped = damping_ * step / h;
+  if (std::abs(damped) <= most) return {stiffness_ * x + damped, stiffness_ + damping_ / h};
+  const bool pressing = damped * x > 0;
+  return {pressing ? 2 * stiffness_ * x : 0, pressing ? 2 * stiffness_ : 0};
+}
+
 ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
   switch (type_) {
     case Type::spring:
@@ -105,6 +121,8 @@ ReferenceLaw::Value ReferenceLaw::value(double step, double h) const {
       return {slip_ < 0 ? -coulomb_ : -breakaway_, 0};
     case Type::freewheel:
       return {step < 0 ? -INFINITY : 0, 0};
+    case Type::stop:
+      return contact(step, h);
     case Type::sfm:
       return solid_friction(step);
     case Type::vfm: {
@@ -135,7 +153,11 @@ double ReferenceLaw::preferred(double h) const {
 void ReferenceLaw::accept(double step, double force, double h) {
   stretch_ += step;
   force_ = force;
-  if (type_ == Type::spring || type_ == Type::dashpot || type_ == Type::vfm) return;
+  if (type_ == Type::stop) {
+    const int side = stretch_ > upper_ ? 1 : stretch_ < lower_ ? -1 : 0;
+    piece_ = {side, side, false};
+  }
+  if (type_ == Type::spring || type_ == Type::dashpot || type_ == Type::vfm || type_ == Type::stop) return;
   const int sign = step > 0 ? 1 : step < 0 ? -1 : 0;
   if (type_ == Type::slider) slip_ = sign;
   // What moves by no more than rounding has not turned; a slider that sticks does not move at all.

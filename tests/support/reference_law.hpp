@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace rheonet::test {
 ///     spring   f = k (d + step - d0)
 ///     dashpot  f = B |step/h|^n sgn
 ///     slider   f = Fc sgn(step), an interval at 0
+///     stop     f = k x beyond a bound by x, and B step/h within +-k x
 ///     freewheel  f = 0 for step > 0, all that is not above 0 at 0, and no step below
 ///     sfm      the closed form between two reversals, in the direction of the step
 ///     vfm      (B/sigma) (f - f_before)/h + f = B step/h
@@ -22,7 +24,7 @@ namespace rheonet::test {
 ///              directions is filled in (Filippov's solution)
 class ReferenceLaw {
  public:
-  enum class Type { spring, dashpot, slider, sfm, vfm, cfm, freewheel };
+  enum class Type { spring, dashpot, slider, sfm, vfm, cfm, freewheel, stop };
   struct Value { double force, slope; };
   struct Interval { double low, high; };
 
@@ -77,12 +79,14 @@ class ReferenceLaw {
 
  private:
   Value solid_friction(double step) const;
+  Value contact(double step, double h) const;
   double relaxing(double step, double h, double direction) const;
 
   Type type_;
   double stiffness_ = 0, damping_ = 0, coulomb_ = 0, breakaway_ = 0, exponent_ = 1;
   double force_ = 0;
-  double stretch_ = 0;  ///< of a spring: d - d0
+  double stretch_ = 0;  ///< of a spring: d - d0; of a stop: d
+  double lower_ = -INFINITY, upper_ = INFINITY;
   int slip_ = 0;
   Piece piece_;
   double velocity_ = 0, h_ = 0;  ///< mean velocity and length of the last step

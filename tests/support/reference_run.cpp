@@ -30,6 +30,7 @@ ReferenceNetwork ReferenceRun::build() {
   std::vector<ReferenceNetwork::Node> nodes(scene_.nodes.size());
   nodes[0].prescribed = true;
   mass_.assign(nodes.size(), 0);
+  std::vector<ReferenceNetwork::Gear> gears;
   for (std::size_t n = 1; n < nodes.size(); ++n) {
     if (!std::isnan(scene_.nodes[n].position)) nodes[n].position = scene_.nodes[n].position;
     if (!std::isnan(scene_.nodes[n].velocity)) nodes[n].velocity = scene_.nodes[n].velocity;
@@ -49,6 +50,10 @@ ReferenceNetwork ReferenceRun::build() {
       masses_.push_back({e.values.at(0), e.a, index});
       nodes[at(e.a)].mass += e.values[0];
       mass_[at(e.a)] += e.values[0];
+    } else if (type_of(e) == "gear") {
+      const double ratio = e.values.at(0);
+      gear_of_[index] = gears.size();
+      gears.push_back({{e.a, e.b, e.support}, {1, -ratio, ratio - 1}});
     } else if (!ReferenceLaw::is_law(type_of(e))) {
       throw std::runtime_error("the reference integrator knows no " + type_of(e));
     }
@@ -69,7 +74,7 @@ ReferenceNetwork ReferenceRun::build() {
   }
   acceleration_.assign(nodes.size(), 0);
   applied_.assign(nodes.size(), 0);
-  return ReferenceNetwork(std::move(nodes), std::move(bundles));
+  return ReferenceNetwork(std::move(nodes), std::move(bundles), std::move(gears));
 }
 
 double ReferenceRun::row_time(std::int64_t k) const {
@@ -285,6 +290,7 @@ double ReferenceRun::element_force(int element) const {
   if (const auto found = law_of_.find(element); found != law_of_.end()) {
     return network_.bundles()[found->second.first].members()[found->second.second].law.force();
   }
+  if (const auto found = gear_of_.find(element); found != gear_of_.end()) return network_.gears()[found->second].force;
   for (const Mass& m : masses_) {
     if (m.element == element) return m.mass * acceleration_[at(m.node)];
   }

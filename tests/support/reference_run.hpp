@@ -70,6 +70,7 @@ class ReferenceRun {
   std::vector<Mass> masses_;
   std::vector<Varying> varying_;  ///< sliders whose bounds vary
   std::map<int, std::pair<std::size_t, std::size_t>> law_of_;  ///< element: bundle, member
+  std::map<int, std::size_t> gear_of_;  ///< element: gear
   std::vector<double> mass_;          ///< of each node
   std::vector<double> acceleration_;  ///< of each node, at the end of the last step
   std::vector<double> applied_;

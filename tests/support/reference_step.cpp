@@ -1,8 +1,11 @@
 #include "tests/support/reference_step.hpp"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace rheonet::test {
 
@@ -49,8 +52,8 @@ void solve(std::vector<double>& a, std::vector<double>& b) {
 
 }  // namespace
 
-ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles)
-    : nodes_(std::move(nodes)), bundles_(std::move(bundles)) {
+ReferenceNetwork::ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles, std::vector<Gear> gears)
+    : nodes_(std::move(nodes)), bundles_(std::move(bundles)), gears_(std::move(gears)) {
   unknown_.assign(nodes_.size(), -1);
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     if (nodes_[n].prescribed) continue;
@@ -92,6 +95,21 @@ void ReferenceNetwork::evaluate(const Input& input) {
     blur_ = std::max(blur_, (K_[k] > 0 ? corrected : 1) * balanced * magnitude);
     if (i >= 0) gradient_[at(i)] += f, size_[at(i)] += magnitude;
     if (j >= 0) gradient_[at(j)] -= f, size_[at(j)] += magnitude;
+  }
+  for (Gear& gear : gears_) {
+    double sum = 0, magnitude = 0;
+    for (std::size_t e = 0; e < 3; ++e) {
+      sum += gear.factor[e] * x_[at(gear.node[e])];
+      magnitude += std::abs(gear.factor[e] * x_[at(gear.node[e])]);
+    }
+    gear.found = gear.force + gear.K * sum;
+    largest_force_ = std::max(largest_force_, std::abs(gear.found));
+    magnitude = std::abs(gear.found) + gear.K * magnitude;
+    blur_ = std::max(blur_, corrected * balanced * magnitude);
+    for (std::size_t e = 0; e < 3; ++e) {
+      const int i = unknown_[at(gear.node[e])];
+      if (i >= 0) gradient_[at(i)] += gear.factor[e] * gear.found, size_[at(i)] += std::abs(gear.factor[e]) * magnitude;
+    }
   }
   double worst = 0;
   for (std::size_t i = 0; i < node_of_.size(); ++i) {
@@ -169,6 +187,14 @@ bool ReferenceNetwork::newton(const Input& input) {
       if (j >= 0) matrix_[at(j) * n + at(j)] += slope;
       if (i >= 0 && j >= 0) matrix_[at(i) * n + at(j)] -= slope, matrix_[at(j) * n + at(i)] -= slope;
     }
+    for (const Gear& gear : gears_) {
+      for (std::size_t e = 0; e < 3; ++e) {
+        for (std::size_t o = 0; o < 3; ++o) {
+          const int i = unknown_[at(gear.node[e])], j = unknown_[at(gear.node[o])];
+          if (i >= 0 && j >= 0) matrix_[at(i) * n + at(j)] += gear.K * gear.factor[e] * gear.factor[o];
+        }
+      }
+    }
     double largest = 0;
     for (std::size_t i = 0; i < n; ++i) {
       matrix_[i * n + i] += nodes_[at(node_of_[i])].mass / (input.h * span(input));
@@ -221,7 +247,22 @@ double ReferenceNetwork::around(std::size_t bundle, double h) const {
   return stiffness > 0 ? stiffness : 1;
 }
 
-/// Where a law is steep, the minimum is sought with a stiff spring in series. The spring is then given the force found as
+/// The same for a gear.
+double ReferenceNetwork::around(const Gear& gear, double h) const {
+  double compliance = 0;
+  for (std::size_t e = 0; e < 3; ++e) {
+    const NodeId node = gear.node[e];
+    if (unknown_[at(node)] < 0) continue;
+    double stiffness = nodes_[at(node)].mass / (h * h);
+    for (const ReferenceBundle& b : bundles_) {
+      if (b.a == node || b.b == node) stiffness += b.typical_slope(h);
+    }
+    if (stiffness > 0) compliance += gear.factor[e] * gear.factor[e] / stiffness;
+  }
+  return compliance > 0 ? 1 / compliance : 1;
+}
+
+/// Where a law is steep, or a gear holds, the minimum is sought with a stiff spring in series. The spring is then given the force found as
 /// its preload, so that it need not stretch for it, and so on until it is not stretched (method of multipliers).
 bool ReferenceNetwork::minimise(const Input& input) {
   const std::vector<double> from = x_;
@@ -239,6 +280,7 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
     K_[k] = free && bundles_[k].steep() ? factor * around(k, input.h) : 0;
     any = any || K_[k] > 0;
   }
+  for (Gear& gear : gears_) gear.K = factor * around(gear, input.h);
   for (int correction = 0; correction < corrections; ++correction) {
     if (!newton(input)) return false;
     typical_step_ = std::max(typical_step_, largest_step_);
@@ -253,10 +295,21 @@ bool ReferenceNetwork::minimise(const Input& input, double factor) {
       }
       preload_[k] = points_[k].force;
     }
+    for (Gear& gear : gears_) {
+      double stretching = 0;
+      for (std::size_t e = 0; e < 3; ++e) stretching += gear.K * std::abs(gear.factor[e] * x_[at(gear.node[e])]);
+      const double change = std::abs(gear.found - gear.force);
+      if (change > 10 * rounding_ + 10 * balanced * stretching &&
+          (change > unstretched * largest_force_ || change > little_stretch * gear.K * typical_step_)) {
+        settled = false;
+      }
+      gear.force = gear.found;
+    }
     if (settled) return true;
     // Where there is little motion, or nothing but friction around, it was not stiff enough.
     if (correction % stiffen_after == stiffen_after - 1) {
       for (double& K : K_) K *= 10;
+      for (Gear& gear : gears_) gear.K *= 10;
     }
   }
   return false;
@@ -298,6 +351,9 @@ bool ReferenceNetwork::step(const Input& input) {
     nodal_[at(b.b)] -= points_[k].force;
     b.accept(points_[k].step, points_[k].force, input.h);
   }
+  for (const Gear& gear : gears_) {
+    for (std::size_t e = 0; e < 3; ++e) nodal_[at(gear.node[e])] += gear.factor[e] * gear.force;
+  }
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     nodes_[n].position += x_[n];
     const double velocity = nodes_[n].prescribed ? input.velocity[n] : x_[n] / input.h;
@@ -334,6 +390,32 @@ bool ReferenceNetwork::follow(const ReferenceNetwork& other, const ReferenceNetw
   return any;
 }
 
+/// With gears: whether the equations of the gears and of what is at rest depend on each other.
+bool ReferenceNetwork::open_at_rest() const {
+  if (gears_.empty()) return false;
+  std::vector<Eigen::VectorXd> rows;
+  const auto add = [&](auto terms) {
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(node_of_.size()));
+    for (const auto& [node, factor] : terms) {
+      if (unknown_[at(node)] >= 0) row[unknown_[at(node)]] += factor;
+    }
+    rows.push_back(row);
+  };
+  for (const Gear& gear : gears_) {
+    std::vector<std::pair<NodeId, double>> terms;
+    for (std::size_t e = 0; e < 3; ++e) terms.emplace_back(gear.node[e], gear.factor[e]);
+    add(terms);
+  }
+  for (std::size_t k = 0; k < bundles_.size(); ++k) {
+    if (std::abs(points_[k].step) > little_stretch * typical_step_ || !bundles_[k].set_valued()) continue;
+    if (unknown_[at(bundles_[k].a)] < 0 && unknown_[at(bundles_[k].b)] < 0) continue;
+    add(std::vector<std::pair<NodeId, double>>{{bundles_[k].a, 1}, {bundles_[k].b, -1}});
+  }
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(node_of_.size()));
+  for (std::size_t r = 0; r < rows.size(); ++r) matrix.row(static_cast<Eigen::Index>(r)) = rows[r];
+  return matrix.fullPivLu().rank() < matrix.rows();
+}
+
 /// Bundles at rest that form a loop (prescribed nodes count as one) can carry any force around it. A cfm there goes on to
 /// relax from its own.
 void ReferenceNetwork::note_ambiguity() {
@@ -360,6 +442,7 @@ void ReferenceNetwork::note_ambiguity() {
     if (b.relaxing() && !given) relaxing = true;
     part[i] = j;
   }
+  loop = loop || open_at_rest();
   ambiguous_ = ambiguous_ || loop;
   forked_ = forked_ || (loop && relaxing);
 }

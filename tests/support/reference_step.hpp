@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/base/index.hpp"
@@ -23,6 +24,14 @@ class ReferenceNetwork {
     double position = 0, velocity = 0;  ///< at the end of the last step
     double acceleration = 0;            ///< in it
   };
+  /// A gear: the sum of factors times displacements is 0. Its force on each node is its own times the factor there.
+  struct Gear {
+    std::array<NodeId, 3> node{};
+    std::array<double, 3> factor{};
+    double force = 0;  ///< at the end of the last step
+    double K = 0;      ///< of the spring that stands for it while a step is sought (see minimise)
+    double found = 0;  ///< its force at the present point
+  };
   /// What a step is given.
   struct Input {
     double h = 0;
@@ -33,7 +42,7 @@ class ReferenceNetwork {
     std::vector<Bound> bounds;         ///< of sliders whose bounds vary, at the end of the step
   };
 
-  ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles);
+  ReferenceNetwork(std::vector<Node> nodes, std::vector<ReferenceBundle> bundles, std::vector<Gear> gears = {});
 
   /// Takes one step. False if there is no minimum: nothing resists what is applied.
   bool step(const Input& input);
@@ -45,6 +54,7 @@ class ReferenceNetwork {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<ReferenceBundle>& bundles() const { return bundles_; }
+  const std::vector<Gear>& gears() const { return gears_; }
   /// Sum of the forces that the bundles exert on a node's surroundings: what must be applied there.
   double nodal_force(NodeId node) const { return nodal_[at(node)]; }
   /// True if a law is on another piece of its map than in `before`, or about to be: a reversal, a stop, a yield.
@@ -65,6 +75,8 @@ class ReferenceNetwork {
   bool minimise(const Input& input);
   bool minimise(const Input& input, double factor);
   double around(std::size_t bundle, double h) const;
+  double around(const Gear& gear, double h) const;
+  bool open_at_rest() const;
   void evaluate(const Input& input);
   double tolerance(double size) const;
   bool newton(const Input& input);
@@ -74,6 +86,7 @@ class ReferenceNetwork {
 
   std::vector<Node> nodes_;
   std::vector<ReferenceBundle> bundles_;
+  std::vector<Gear> gears_;
   double before_ = 0;                   ///< length of the last step, 0 for none
   std::vector<int> unknown_;            ///< of each node; -1 if prescribed
   std::vector<NodeId> node_of_;         ///< of each unknown

@@ -13,7 +13,7 @@ namespace {
 
 using Drive = Wiring::Drive;
 
-constexpr int random_trees = 500, random_graphs = 300, brake_trees = 400, freewheel_trees = 200;
+constexpr int random_trees = 500, random_graphs = 300, brake_trees = 400, freewheel_trees = 200, stop_trees = 250, gear_graphs = 500;
 constexpr unsigned seed = 20260313;
 
 constexpr std::array<std::string_view, 4> drive_names = {"velocity", "position", "force", "force on a mass"};
@@ -64,6 +64,25 @@ class Maker {
       w.name = special + " " + described(*w.tree, w.types);
       add_random(std::move(w), random, k);
     }
+    for (int k = 0; k < stop_trees; ++k) {
+      Wiring w;
+      w.tree = random_tree(random, 2 + k % 5);
+      w.graph = wired(*w.tree);
+      w.types = random_types(random, w.graph.branches.size());
+      for (int stops = 1 + k % 2; stops > 0; --stops) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "stop";
+      w.name = "stop " + described(*w.tree, w.types);
+      add_heavy(std::move(w), random);
+    }
+    for (int k = 0; k < gear_graphs; ++k) {
+      Wiring w;
+      w.graph = random_graph(random);
+      w.types = random_types(random, w.graph.branches.size());
+      // Two gears may hold the nodes of the smallest graphs altogether.
+      for (int gears = w.graph.nodes > 5 ? 1 + k % 2 : 1; gears > 0; --gears) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "gear";
+      if (k % 4 == 0) w.types[static_cast<std::size_t>(random.below(static_cast<int>(w.types.size())))] = "stop";
+      w.name = "gear " + described(w.graph, w.types);
+      add_heavy(std::move(w), random);
+    }
     return std::move(wirings_);
   }
 
@@ -97,6 +116,13 @@ class Maker {
     // A third without, a third with all, a third with some.
     for (char& m : masses) m = k % 3 == 2 ? random.below(2) == 0 : k % 3 == 1;
     add(std::move(w), std::move(masses), Drive(random.below(4)));
+  }
+
+  /// With a mass at each node.
+  void add_heavy(Wiring w, Random& random) {
+    constexpr std::array<Drive, 3> drives{Drive::velocity, Drive::position, Drive::force_on_mass};
+    std::vector<char> masses(node_count(w.graph), 1);
+    add(std::move(w), std::move(masses), drives[static_cast<std::size_t>(random.below(3))]);
   }
 
   static std::size_t node_count(const Graph& graph) { return static_cast<std::size_t>(graph.nodes); }

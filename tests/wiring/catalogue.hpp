@@ -25,7 +25,8 @@ struct Wiring {
 ///    with masses at the nodes between and without, with each drive;
 ///  * random series-parallel trees of 4 to 8 leaves;
 ///  * random graphs that are not series-parallel;
-///  * random trees of 2 to 6 leaves with a slider whose bounds vary, called `brake`, or with a freewheel.
+///  * random trees of 2 to 6 leaves with a slider whose bounds vary, called `brake`, or with a freewheel;
+///  * random trees with one or two elastic stops, and random graphs with one or two gears, whose support may move, and perhaps a stop; with a mass at each node.
 const std::vector<Wiring>& catalogue();
 
 /// The netlist of a wiring: generic values that follow from its number, no two of them equal. `stop` is about 1 s, forces

@@ -28,8 +28,27 @@ std::string parameters(Random& random, const std::string& type) {
   if (type == "dashpot" || type == "vfm" || type == "cfm") add("damping", damping);
   if (type == "slider" || type == "sfm" || type == "cfm") add("coulomb", coulomb);
   if (type == "sfm" || type == "cfm") add("exponent", exponent);
+  if (type == "stop") {
+    const int bounds = random.below(3);
+    if (bounds != 1) add("lower", -random.around(0.03, 3));
+    if (bounds != 2) add("upper", random.around(0.03, 3));
+    add("stiffness", 3 * stiffness);
+    if (random.below(2) == 0) add("damping", 0.5 * damping);
+  }
   if (type == "dashpot" && random.below(5) < 2) add("flow_index", index);
   if (type == "slider" && random.below(3) == 0) add("breakaway", coulomb * random.uniform(1.05, 1.6));
+  return text;
+}
+
+/// Ratio and support of a gear. Between a node and ground it needs a support that moves, or it holds the node.
+std::string gear(Random& random, const Graph& graph, const Graph::Branch& ends) {
+  std::string text = fmt::format(", ratio = {}", random.sign() * random.around(1, 2.5));
+  std::vector<int> others;
+  for (int n = 1; n < graph.nodes; ++n) {
+    if (n != ends.a && n != ends.b) others.push_back(n);
+  }
+  const bool grounded = ends.a == 0 || ends.b == 0;
+  if (!others.empty() && (grounded || random.below(3) == 0)) text += fmt::format(", support = \"{}\"", node_name(others[static_cast<std::size_t>(random.below(static_cast<int>(others.size())))]));
   return text;
 }
 
@@ -117,7 +136,7 @@ std::string netlist_of(const Wiring& wiring, const Graph& graph) {
                       signal(random, wiring.drive, stop));
   for (std::size_t k = 0; k < wiring.types.size(); ++k) {
     const bool varies = wiring.types[k] == "brake";
-    const std::string values = varies ? brake(random, stop) : parameters(random, wiring.types[k]);
+    const std::string values = varies ? brake(random, stop) : wiring.types[k] == "gear" ? gear(random, graph, graph.branches[k]) : parameters(random, wiring.types[k]);
     auto [a, b] = graph.branches[k];
     if (random.below(2) == 0) std::swap(a, b);
     text += fmt::format("e{} = {{ type = \"{}\", between = [\"{}\", \"{}\"]{} }}\n", k + 1, varies ? "slider" : wiring.types[k],

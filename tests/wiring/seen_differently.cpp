@@ -29,6 +29,7 @@ View renamed(const Scene& scene) {
     e.name.insert(0, "y_");
     e.a = node(e.a);
     e.b = node(e.b);
+    e.support = node(e.support);
   }
   for (std::size_t k = 0; k < view.scene.records.size(); ++k) {
     Record& r = view.scene.records[k];
@@ -43,7 +44,8 @@ View renamed(const Scene& scene) {
 View swapped(const Scene& scene) {
   View view{.name = "ends swapped", .scene = scene, .columns = same_columns(scene)};
   for (std::size_t e = 0; e < scene.elements.size(); ++e) {
-    if (scene.elements[e].at || one_way(scene.elements[e])) continue;
+    const bool gear = static_cast<bool>(components()[static_cast<std::size_t>(scene.elements[e].declaration)]->ratio);
+    if (scene.elements[e].at || gear || one_way(scene.elements[e])) continue;
     view.scene = exchanged(std::move(view.scene), static_cast<int>(e));
     for (std::size_t k = 0; k < scene.records.size(); ++k) {
       const Record& r = scene.records[k];
@@ -75,6 +77,7 @@ View from_moving_frame(Scene scene, double v) {
   for (SceneElement& e : scene.elements) {
     if (e.a == ground) e.a = base;
     if (!e.at && e.b == ground) e.b = base;
+    if (components()[static_cast<std::size_t>(e.declaration)]->ratio && e.support == ground) e.support = base;
     // A mass that is not said to move starts at rest.
     if (declarations()[static_cast<std::size_t>(e.declaration)]->type == "mass") {
       scene.nodes[static_cast<std::size_t>(e.a)].velocity = 0;
