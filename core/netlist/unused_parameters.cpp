@@ -16,6 +16,7 @@ constexpr std::string_view keys_without_expressions[] = {"title", "warn", "error
                                                          "type",  "name", "in",    "between",  "record", "plot", "keep",   "without", "only"};
 
 bool holds_expressions(const TomlEntry& entry, bool in_element) {
+  if (entry.value.is_table()) return true;                // a node may have the name of such a key
   if (in_element && entry.key == "at") return false;  // in a claim `at` is a time
   return std::find(std::begin(keys_without_expressions), std::end(keys_without_expressions), entry.key) ==
          std::end(keys_without_expressions);

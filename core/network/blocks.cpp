@@ -13,6 +13,7 @@
 #include "core/network/effects.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
+#include "core/network/sliding_power.hpp"
 #include "core/network/transfer_function.hpp"
 
 namespace rheonet {
@@ -42,6 +43,12 @@ class Finder {
     result_.blocks.insert(result_.blocks.end(), added_.begin(), added_.end());
     for (Network::Slider& slider : network_.sliders) {
       for (Network::VaryingParameter& varying : slider.varying) add_parameter(slider, varying);
+    }
+    for (const auto& [block, slider] : powers_of_sliders_) {
+      for (std::size_t k = 0; k < slider->varying.size(); ++k) {
+        const Network::VaryingParameter& v = slider->varying[k];
+        result_.blocks[at(block)].inputs.push_back({true, v.block, v.sign, k + 1});
+      }
     }
     for (Network::Force& force : network_.forces) {
       if (force.beside) force.block = add_function({force.element, force.a, force.b}, *force.beside);
@@ -234,6 +241,15 @@ class Finder {
     return static_cast<int>(result_.blocks.size()) - 1;
   }
 
+  /// The slider whose quantity a record is, nullptr if it is none, or stands for a contact or for losses.
+  const Network::Slider* plain_slider(const Record& record) const {
+    if (record.subject != Record::Subject::element) return nullptr;
+    const Network::Place& place = network_.places[at(record.index)];
+    if (place.role != Role::slip || place.paired) return nullptr;
+    const Network::Slider& slider = network_.sliders[at(place.index)];
+    return slider.contact || slider.train >= 0 || std::isinf(slider.box.largest()) ? nullptr : &slider;
+  }
+
   /// A power that a block takes in is the output of a function added for it: force times velocity.
   void take_in_power(Blocks::Block& block, const SceneBlock::Input& input, const Record& record) {
     static const auto product = [] {
@@ -242,6 +258,15 @@ class Finder {
     }();
     Blocks::Block power{.element = block.element, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = product};
     Record factor = record;
+    if (const Network::Slider* slider = plain_slider(record)) {
+      power.function = std::make_shared<const SlidingPower>(*slider);
+      factor.channel = Record::Channel::velocity;
+      take_in(power, {.from_block = false, .index = input.index, .sign = 1}, factor);
+      powers_of_sliders_.emplace_back(next_added(), slider);
+      block.inputs.push_back({true, next_added(), input.sign});
+      added_.push_back(std::move(power));
+      return;
+    }
     factor.channel = Record::Channel::force;
     take_in(power, {.from_block = false, .index = input.index, .sign = 1}, factor);
     const std::size_t forces = power.inputs.size();
@@ -434,6 +459,7 @@ class Finder {
   Network& network_;
   const Scene& scene_;
   std::size_t first_added_ = 0;         ///< number of the first of `added_` among all blocks
+  std::vector<std::pair<int, const Network::Slider*>> powers_of_sliders_;  ///< blocks that take them in
   std::vector<Blocks::Block> added_;    ///< powers of elements that blocks take in, and states of transfer functions
   std::vector<char> open_;  ///< blocks whose feedback is left out: they sense no unknown of the network; empty: none
   Blocks result_;

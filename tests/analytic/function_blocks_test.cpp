@@ -229,4 +229,35 @@ TEST_CASE("functions that cannot be evaluated, or switch for ever, end the run w
   }
 }
 
+TEST_CASE("a block takes in the power of sliders: brakes turn the kinetic energy of a mass into heat") {
+  for (const double v0 : {10.0, -7.0}) {
+    const RunTable rows = simulate(fmt::format(R"(
+[parameters]
+m = "2 kg"
+[elements]
+car = {{ type = "mass", at = "a", mass = "m" }}
+brake = {{ type = "slider", between = ["a", "ground"], coulomb = "0.4", normal = {{ ramp = "20 N/s" }} }}
+falling = {{ type = "slider", between = ["ground", "a"], coulomb = "0.5 N", breakaway = "2 N", stribeck = "0.5 m/s" }}
+plain = {{ type = "slider", between = ["a", "ground"], coulomb = "0.7 N" }}
+geared = {{ type = "slider", between = ["b", "ground"], coulomb = "0.2 N" }}
+gear = {{ type = "gear", between = ["a", "b"], ratio = -0.4 }}
+heat1 = {{ type = "integrator", in = "brake.power" }}
+heat2 = {{ type = "integrator", in = "falling.power" }}
+heat3 = {{ type = "integrator", in = "plain.power" }}
+heat4 = {{ type = "integrator", in = "geared.power" }}
+[nodes]
+a = {{ velocity = {} }}
+b = {{ velocity = {} }}
+[simulate]
+stop = 3
+accuracy = 1e-8
+output = {{ points = 31 }}
+record = ["a.velocity", "heat1.out", "heat2.out", "heat3.out", "heat4.out", {{ name = "all", value = "heat1.out + heat2.out + heat3.out + heat4.out + m*a.velocity^2/2" }}]
+)", v0, v0 / -0.4));
+    for (const double all : rows["all"]) CHECK(std::abs(all - v0 * v0) < 1e-6 * v0 * v0);
+    CHECK(rows["a.velocity"].back() == 0);
+    for (const char* heat : {"heat1.out", "heat2.out", "heat3.out", "heat4.out"}) CHECK(rows[heat].back() > 0.1);
+  }
+}
+
 }  // namespace rheonet::test
