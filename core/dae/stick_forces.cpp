@@ -16,12 +16,47 @@
 
 namespace rheonet {
 
+namespace {
+
+/// Trains whose forces are open: those without an equation of their own, as it follows from others, and all that share a node with such a train.
+std::vector<char> open_trains(const Network& network, const Structure& structure) {
+  std::vector<char> open(network.trains.size(), 1);
+  for (const Structure::Tied& tied : structure.tied) open[at(tied.train)] = 0;
+  DisjointSets together(structure.kind.size());
+  const auto first_free = [&](const Network::Train& train) {
+    NodeId first = -1;
+    for (const NodeId node : train.node) {
+      const NodeId head = structure.rigid[at(node)];
+      if (structure.kind[at(head)] == Kind::known) continue;
+      if (first >= 0) together.join(first, head);
+      first = head;
+    }
+    return first;
+  };
+  std::vector<NodeId> first;
+  for (const Network::Train& train : network.trains) first.push_back(first_free(train));
+  std::vector<char> has_open(structure.kind.size(), 0);
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    if (open[k] && first[k] >= 0) has_open[at(together.find(first[k]))] = 1;
+  }
+  for (std::size_t k = 0; k < open.size(); ++k) open[k] = open[k] || (first[k] >= 0 && has_open[at(together.find(first[k]))]);
+  return open;
+}
+
+}  // namespace
+
 // The problem has the nodes that sticking sliders join. It leaves out the leading node of each cluster, as it does known nodes:
-// the balance there is the sum of the balances of the other nodes. The rest falls into separate parts.
+// the balance there is the sum of the balances of the other nodes, unless trains with open forces act on the cluster. The rest falls into separate parts.
 StickForces::StickForces(const Network& network, const Structure& structure, const Inputs& inputs) : network_(network), structure_(structure), inputs_(inputs) {
-  std::vector<char> locked(network.trains.size(), 1);
-  for (const Structure::Tied& tied : structure.tied) locked[at(tied.train)] = 0;
-  const auto inner = [&](NodeId node) { return structure.kind[at(node)] == Kind::joined; };
+  const std::vector<char> locked = open_trains(network, structure);
+  std::vector<char> of_open(structure.kind.size(), 0);
+  for (std::size_t k = 0; k < locked.size(); ++k) {
+    for (const NodeId node : network.trains[k].node) of_open[at(structure.rigid[at(node)])] |= locked[k];
+  }
+  const auto inner = [&](NodeId node) {
+    const NodeId head = structure.rigid[at(node)];
+    return structure.kind[at(node)] == Kind::joined || (of_open[at(head)] && structure.kind[at(head)] != Kind::known);
+  };
   DisjointSets parts(structure.kind.size());
   std::vector<int> branches_at(structure.kind.size(), 0);
   const auto join = [&](NodeId a, NodeId b) {
@@ -110,7 +145,13 @@ StickForces::StickForces(const Network& network, const Structure& structure, con
   }
 }
 
-void StickForces::solve(double t, const std::vector<double>& left, std::vector<double>& force, std::vector<double>& train_force) {
+void StickForces::solve(double t, const std::vector<double>& others, std::vector<double>& force, std::vector<double>& train_force) {
+  std::vector<double> left = others;
+  for (const Shared& shared : shared_) {
+    for (const std::size_t train : shared.trains) {
+      for (std::size_t i = 0; i < 3; ++i) left[at(network_.trains[train].node[i])] -= structure_.train_forces[train][i] * train_force[train];
+    }
+  }
   for (const auto& [slider, node, side] : lone_) force[slider] = side == 0 ? 0 : -side * left[at(node)];
   for (Shared& shared : shared_) {
     double sum = 0;

@@ -18,9 +18,9 @@ class StickForces {
   StickForces(const Network& network, const Structure& structure, const Inputs& inputs);
   bool empty() const { return lone_.empty() && shared_.empty(); }
 
-  /// `left[n]` is the sum of all other forces at node n at time t, inertia included [N]. Writes the forces of the sliders that
+  /// `others[n]` is the sum of all other forces at node n at time t, inertia and the forces of all trains included [N]. Writes the forces of the sliders that
   /// stick, and of trains that they lock. Throws SimulationError if the forces do not meet their conditions to round-off.
-  void solve(double t, const std::vector<double>& left, std::vector<double>& force, std::vector<double>& train_force);
+  void solve(double t, const std::vector<double>& others, std::vector<double>& force, std::vector<double>& train_force);
 
  private:
   /// A slider that alone holds a node, or holds none: it shares no load.

@@ -201,7 +201,8 @@ class Adviser {
         if (!table || table->times.size() < 2) continue;
         const double end = table->time + table->times.back();
         const double before_last = table->values[table->values.size() - 2];
-        // Two equal values at the end mean that the last value is to be held.
+        // Two equal values at the end, or a jump there, mean that the last value is to be held.
+        if (table->times[table->times.size() - 2] == table->times.back()) continue;
         if (end >= scene_.stop - time_rounding * (scene_.stop - scene_.start) || before_last == table->values.back()) continue;
         warn_once(element.spot, fmt::format("the table of `{}` ends at {:.6g} s, before the run does at {:.6g} s: its last value is held from there on",
                                             element.name, end, scene_.stop),

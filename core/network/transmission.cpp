@@ -282,8 +282,12 @@ class Converter {
     switch (record.subject) {
       case Record::Subject::node:
         return factor(node(record.index).scale);
-      case Record::Subject::element:
-        return factor(result_.elements[at(record.index)].scale);
+      case Record::Subject::element: {
+        const SceneElement& element = result_.elements[at(record.index)];
+        const bool motion = record.channel == Record::Channel::displacement || record.channel == Record::Channel::velocity;
+        // A transmission from ground moves with its second node.
+        return factor(motion && element.has_row() && element.a == ground ? node(element.b).scale : element.scale);
+      }
       case Record::Subject::assembly: {
         const SceneAssembly& assembly = result_.assemblies[at(record.index)];
         return record.channel == Record::Channel::force ? 1 : factor(node(assembly.a == ground ? assembly.b : assembly.a).scale);
