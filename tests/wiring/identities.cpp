@@ -37,7 +37,7 @@ double parameter(const SceneElement& e, const std::string& name) {
 }
 
 /// Refusals for a physical reason, which the comparison with the reference judges.
-bool expected(const std::string& refusal) { return says(refusal, overload) || says(refusal, blocked); }
+bool expected(const std::string& refusal) { return says(refusal, overload) || says(refusal, blocked) || says(refusal, jammed); }
 
 /// "" or what is wrong with the energy account of a whole run.
 std::string wrong_energy(const Scene& scene, const Summary& whole) {

@@ -99,6 +99,7 @@ Judgement judge(const Wiring& wiring, bool closer) {
   const Scene scene = scene_of(netlist_of(wiring), closer ? 1e-9 : 0);
   const Attempt run = attempt(scene);
   Judgement result;
+  if (says(run.refusal, jammed)) return {.verdict = Verdict::refused, .text = run.refusal};
   // How sticking sliders share a load the reference does not know; balance and least norm do.
   result.text = wrong_sticking(scene, run.rows);
   if (!result.text.empty()) return result;

@@ -27,6 +27,12 @@ inline constexpr Refusal blocked{
     "Prescribed motions turn the ends of a freewheel backwards against each other. No force ends that.",
     {"that the prescribed motions demand", "that the prescribed motions demand"}};
 
+/// Gears in a loop.
+inline constexpr Refusal jammed{
+    "gears whose ratios contradict each other",
+    "Gears alone make a loop, and no velocity but 0 fits all of their ratios.",
+    {"their ratios contradict each other", "it could only repeat or contradict that"}};
+
 bool says(const std::string& message, const Refusal& refusal);
 
 /// The time that a message gives [s]; NaN if it gives none.
