@@ -137,7 +137,7 @@ Contact rigid_contact(std::span<const double> v) {
 // The damping in contact, within the force f of the spring there: 0 at first touch, and never more than the spring gives back.
 std::optional<MotionExpression> contact_damping(std::span<const double> v) {
   if (!(v[3] > 0)) return {};
-  return MotionExpression{"max(-abs(f), min(abs(f), c*w))", {{"c", v[3]}}, -1};
+  return MotionExpression{"f > 0 ? max(-f, min(f, c*w)) : f < 0 ? max(f, min(-f, c*w)) : 0", {{"c", v[3]}}, -1};
 }
 
 // With parameters that vary: the same force, of spring and damping together.
