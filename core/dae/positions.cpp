@@ -1,5 +1,7 @@
 #include "core/dae/positions.hpp"
 
+#include <variant>
+
 #include "core/base/index.hpp"
 
 namespace rheonet {
@@ -102,10 +104,26 @@ class PositionFinder {
         const Branch& b = network_.deflections[at(j)];
         const NodeId other = b.a == node ? b.b : b.a;
         if (reached_[at(other)]) continue;
+        if (isolated(node, other)) {
+          integrate_alone(other);
+          continue;
+        }
         result_.of[at(other)] = {.sign = b.a == other ? 1.0 : -1.0, .branch = j, .parent = node};
         reach(other);
       }
     }
+  }
+
+  /// A mass may move little beside what moves it: as the difference of a large motion and a large deflection, its position would have
+  /// their errors.
+  bool isolated(NodeId moving, NodeId mass) const {
+    const int m = structure_.motion[at(moving)];
+    return needed_[at(mass)] && structure_.kind[at(mass)] == Kind::massive && m >= 0 && moves(network_.motions[at(m)]);
+  }
+
+  static bool moves(const Network::Motion& motion) {
+    const auto* constant = std::get_if<Signal::Constant>(&motion.signal.shape());
+    return motion.block >= 0 || !constant || (!motion.position && constant->value != 0);
   }
 
   void integrate_neighbours() {
