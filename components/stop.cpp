@@ -156,11 +156,11 @@ VaryingLaw varying_stop(std::span<const double> v) {
 std::optional<Misfit> without_room(std::span<const double> v) {
   if (std::isnan(v[0]) && std::isnan(v[1])) return Misfit{"lower", "and `upper` are both missing: give one of them, or both"};
   if (v[1] < v[0]) return Misfit{"upper", "is less than `lower`"};
-  if (std::isinf(v[2]) && std::isnan(v[3])) return Misfit{"damping", "is that of an elastic stop: a rigid one, with `stiffness = \"inf\"`, has a `restitution`"};
+  // NaN: a signal gives it.
+  if (std::isinf(v[2]) && v[3] != 0) return Misfit{"damping", "is that of an elastic stop: a rigid one, with `stiffness = \"inf\"`, has a `restitution`"};
   if (std::isnan(v[2]) || std::isnan(v[3])) {
     if (!std::isnan(v[5])) return Misfit{"d0", "needs a constant `stiffness` and `damping`: start from the positions of the nodes"};
   }
-  if (std::isinf(v[2]) && v[3] > 0) return Misfit{"damping", "is that of an elastic stop: a rigid one, with `stiffness = \"inf\"`, has a `restitution`"};
   if (!std::isinf(v[2]) && v[4] > 0) return Misfit{"restitution", "is that of a rigid stop, with `stiffness = \"inf\"`: an elastic one has a `damping`"};
   return {};
 }
@@ -197,7 +197,7 @@ const RegisterComponent register_stop({
                      "Contacts that are hit at one time share the impulses. A first set of impulses ends the approach of all of them; then each gives back e times its own. With one e "
                      "this is w after = -e w before at each of them. A contact that only touches gives nothing back.\n"
                      "Hops that grow ever shorter end in rest, once all that remain are within a quarter of `accuracy`: in velocity, and in time.\n"
-                     "An event marks each contact, each impact and each release.",
+                     "An event marks each contact, each impact and each release, and where the damping reaches the force of the spring or leaves it.",
         },
     .role = Role::deflection,
     .limits = {{.when = "stiffness = 0", .becomes = "", .applies = [](std::span<const double> v) { return v[2] == 0; }, .values = {}},

@@ -340,6 +340,7 @@ bool BlockSignals::fire(const std::vector<int>& limits) {
       const auto [upper, guard] = found->second;
       const signed char beyond = upper ? 1 : -1;
       const double over = upper ? v - block.law.upper : block.law.lower - v, now = side == beyond ? over : -over;
+      // The same double, as it is computed from the same inputs: no other event has changed it.
       if ((now == guard && follows) || now < 0) {
         side = side == beyond ? static_cast<signed char>(0) : beyond;
         fired_.push_back({index, side});

@@ -69,6 +69,7 @@ bool FunctionBlock::fire(const std::vector<std::size_t>& switches, const std::ve
   for (std::size_t i = 0; i < switches.size(); ++i) {
     const std::size_t k = switches[i];
     function_->switching_functions(arguments_, crossed, guards_);
+    // The same double, as it is computed from the same arguments: no other event has changed it.
     const bool same = guards_[k] == guards[i] && function_->switch_follows(k, arguments_, crossed, changing_);
     if (!same && !(guards_[k] < 0)) continue;
     function_->cross(k, arguments_, crossed);

@@ -39,6 +39,8 @@ void Dae::couple_shares(PatternBuilder& builder) {
   }
 }
 
+/// A row that has a share S of the balance r of a pivot is less S r: its derivative has the part -dS r. The entries of one parameter
+/// follow each other.
 void Dae::shares_jacobian(const double* yp, double* values) {
   if (share_couplings_.empty() || !yp) return;
   sum_forces();

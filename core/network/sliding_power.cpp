@@ -18,6 +18,7 @@ Dual SlidingPower::force(std::span<const double> arguments, int by) const {
 }
 
 std::optional<double> SlidingPower::value(std::span<const double> arguments, std::span<const double>) const {
+  if (arguments[0] == 0) return 0;  // however large the friction
   const double power = std::abs(arguments[0]) * force(arguments, -1).value;
   return std::isfinite(power) ? std::optional(power) : std::nullopt;
 }
@@ -25,7 +26,8 @@ std::optional<double> SlidingPower::value(std::span<const double> arguments, std
 std::optional<double> SlidingPower::value(std::span<const double> arguments, std::span<const double> sides, std::span<double> partials) const {
   std::fill(partials.begin(), partials.end(), 0.0);
   const double speed = std::abs(arguments[0]);
-  partials[0] = arguments[0] == 0 ? 0 : std::copysign(force(arguments, -1).value, arguments[0]);
+  if (speed == 0) return 0;
+  partials[0] = std::copysign(force(arguments, -1).value, arguments[0]);
   for (std::size_t k = 0; k < varying_.size(); ++k) partials[k + 1] = speed * force(arguments, static_cast<int>(k)).derivative;
   return value(arguments, sides);
 }
