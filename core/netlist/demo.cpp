@@ -18,7 +18,8 @@ const char* const demo_example = "k = [\"10 N/m\", \"1 kN/m\"], or with a step: 
 std::string unit_text(const TomlValue& value) {
   const std::size_t blank = value.is_string() ? value.text.find(' ') : std::string::npos;
   if (blank == std::string::npos || !identifiers_of(value.text).empty()) return "";
-  return value.text.substr(value.text.find_first_not_of(' ', blank));
+  const std::size_t unit = value.text.find_first_not_of(' ', blank);
+  return unit == std::string::npos ? "" : value.text.substr(unit);
 }
 
 std::string words_for(const Number& number) {
