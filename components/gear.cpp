@@ -20,7 +20,7 @@ Declaration declared(const char* type, const char* summary, const char* ratio) {
       .supported = true,
       .parameters = {{.name = "ratio", .quantity = Quantity::number, .lower = -unlimited, .symbol = "i", .description = ratio},
                      {.name = "efficiency", .quantity = Quantity::number, .fallback = 1.0, .upper = 1, .over = Quantity::velocity, .may_be_curve = true, .symbol = "eta_a",
-                      .description = "share of the power that arrives; or two values, [while a drives, while b drives]; 0 or less for b: self-locking"},
+                      .description = "share of the power that arrives, or two values, [while a drives, while b drives]. 0 or less for b: self-locking"},
                      {.name = "efficiency_b", .quantity = Quantity::number, .lower = -unlimited, .upper = 1, .over = Quantity::velocity, .may_be_curve = true, .second_of = "efficiency", .same_as = "efficiency", .symbol = "eta_b",
                       .description = "the second value of `efficiency`"},
                      {.name = "bearing", .quantity = Quantity::force, .fallback = 0.0, .lower_open = false, .over = Quantity::velocity, .may_be_curve = true, .symbol = "f_a",

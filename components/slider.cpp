@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "core/netlist/scene.hpp"
-#include "core/netlist/speed_curve.hpp"
 #include "core/network/component.hpp"
 #include "core/network/surrogate_laws.hpp"
 
@@ -25,7 +24,7 @@ std::optional<Misfit> breakaway_above_coulomb(std::span<const double> v) {
 /// on the curve see to it that no step passes over it: from far outside, a step to the other side of rest would not notice it.
 std::optional<MotionExpression> friction_over_speed(const LawValues& v) {
   if (v.size() < 6) return {};  // a rigid link
-  if (v.characteristic && !std::isinf(v[1])) return MotionExpression{.expression = {}, .names = {}, .parameter = 0, .function = std::make_shared<const SpeedCurve>(*v.characteristic, find_component("slider")->declaration.parameters[0])};
+  if (v.characteristic && !std::isinf(v[1])) return MotionExpression{.expression = {}, .names = {}, .parameter = 0};
   if (std::isnan(v[4])) return {};
   const double breakaway = (std::isnan(v[1]) ? v[0] : v[1]) * (std::isnan(v[3]) ? 1 : v[3]);
   if (std::isinf(breakaway)) return {};  // a rigid link

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "core/base/numerics.hpp"
@@ -301,7 +300,7 @@ bool BlockSignals::fire(const std::vector<int>& limits) {
   jumps_ = false;
   std::vector<std::vector<std::size_t>> switches(functions_.size());
   std::vector<std::vector<double>> guards(functions_.size());
-  std::map<int, std::pair<bool, double>> limiters;  // of a block: upper, guard
+  std::map<int, FiredLimit> limiters;  // by their blocks
   for (const int k : limits) {
     const auto [block, upper, which] = limits_[at(k)];
     if (function_of_[at(block)] >= 0) {
@@ -333,23 +332,30 @@ bool BlockSignals::fire(const std::vector<int>& limits) {
       changes[k] = function.changes();
       continue;
     }
-    const double v = block.law.gain * input(block).value;
     const bool follows = std::any_of(block.inputs.begin(), block.inputs.end(), changing);
-    signed char side = side_[k];
-    if (const auto found = limiters.find(index); found != limiters.end()) {
-      const auto [upper, guard] = found->second;
-      const signed char beyond = upper ? 1 : -1;
-      const double over = upper ? v - block.law.upper : block.law.lower - v, now = side == beyond ? over : -over;
-      // The same double, as it is computed from the same inputs: no other event has changed it.
-      if ((now == guard && follows) || now < 0) {
-        side = side == beyond ? static_cast<signed char>(0) : beyond;
-        fired_.push_back({index, side});
-      }
-    }
-    out_[k] = side > 0 ? block.law.upper : side < 0 ? block.law.lower : v;
-    changes[k] = side == 0 && follows;
+    changes[k] = fire_limiter(index, limiters, follows) && follows;
   }
   return jumps_;
+}
+
+/// The same for a block with limits, or without: its output is that of the side on which it is then. `limiters`: those whose guards have
+/// fired. Returns whether it is not at a limit.
+bool BlockSignals::fire_limiter(int index, const std::map<int, FiredLimit>& limiters, bool follows) {
+  const Blocks::Block& block = blocks_->blocks[at(index)];
+  const double v = block.law.gain * input(block).value;
+  signed char side = side_[at(index)];
+  if (const auto found = limiters.find(index); found != limiters.end()) {
+    const auto [upper, guard] = found->second;
+    const signed char beyond = upper ? 1 : -1;
+    const double over = upper ? v - block.law.upper : block.law.lower - v, now = side == beyond ? over : -over;
+    // The same double, as it is computed from the same inputs: no other event has changed it.
+    if ((now == guard && follows) || now < 0) {
+      side = side == beyond ? static_cast<signed char>(0) : beyond;
+      fired_.push_back({index, side});
+    }
+  }
+  out_[at(index)] = side > 0 ? block.law.upper : side < 0 ? block.law.lower : v;
+  return side == 0;
 }
 
 void BlockSignals::choose() {

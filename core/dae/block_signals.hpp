@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "core/base/index.hpp"
@@ -192,6 +193,8 @@ class BlockSignals {
   std::vector<signed char> side_;
   std::vector<Limit> limits_;
   struct Fired { int block; signed char side; };
+  struct FiredLimit { bool upper; double guard; };
+  bool fire_limiter(int index, const std::map<int, FiredLimit>& limiters, bool follows);
   std::vector<Fired> fired_;
   bool jumps_ = false;
   struct Taken { double t, value; };

@@ -114,8 +114,8 @@ class PositionFinder {
     }
   }
 
-  /// A mass may move little beside what moves it: as the difference of a large motion and a large deflection, its position would have
-  /// their errors.
+  /// The motion of a mass may be small beside the motion that drives it, as on a soft spring. The difference between that motion and a
+  /// deflection would have the errors of both, so the position of the mass is integrated.
   bool isolated(NodeId moving, NodeId mass) const {
     const int m = structure_.motion[at(moving)];
     return needed_[at(mass)] && structure_.kind[at(mass)] == Kind::massive && m >= 0 && moves(network_.motions[at(m)]);

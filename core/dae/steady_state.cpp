@@ -33,7 +33,7 @@ SteadyStart SteadyStateSolver::go() {
   open_contacts();
   refuse_stretching();
   hold_what_is_free();
-  FixedPoint sensed;
+  FixedPoint sensed(numerics::trials_combined);
   do {
     // A slider that breaks away releases the difference to its sliding force: then everything is to be found anew.
     do {

@@ -13,6 +13,7 @@
 #include "core/base/index.hpp"
 #include "core/dae/train_force_trials.hpp"
 #include "core/network/adjacent_elements.hpp"
+#include "core/network/overload_report.hpp"
 
 namespace rheonet {
 
@@ -166,7 +167,7 @@ void StickForces::solve(double t, const std::vector<double>& others, std::vector
       if (network_.sliders[k].varying.empty() && !network_.sliders[k].contact && network_.sliders[k].train < 0) continue;
       shared.bound(i, -box.backward.breakaway.value, box.forward.breakaway.value);
     }
-    if (!(lossy(shared) ? solve_with_losses(shared, train_force) : shared.solve())) report_unbalanced(t, shared);
+    if (!(lossy(shared) ? solve_with_losses(t, shared, train_force) : shared.solve())) report_unbalanced(t, shared);
     for (std::size_t k = 0; k < shared.sliders.size(); ++k) force[shared.sliders[k]] = shared.force[k];
     for (std::size_t k = 0; k < shared.trains.size(); ++k) train_force[shared.trains[k]] = shared.force[shared.sliders.size() + k];
   }
@@ -178,7 +179,7 @@ bool StickForces::lossy(const Shared& shared) const {
 
 /// Forces within bounds that follow from the forces of the trains. The first ones are those without these bounds. `found`: the forces of
 /// the trains that sliders do not lock.
-bool StickForces::solve_with_losses(Shared& shared, std::vector<double> found) const {
+bool StickForces::solve_with_losses(double t, Shared& shared, std::vector<double> found) const {
   const auto bounds = [&](const std::vector<double>* forces) {
     for (std::size_t i = 0; i < shared.sliders.size(); ++i) {
       const int train = network_.sliders[shared.sliders[i]].train;
@@ -203,7 +204,7 @@ bool StickForces::solve_with_losses(Shared& shared, std::vector<double> found) c
     if (!solve()) return false;
     if (trials.agree(found)) return true;
   }
-  return true;
+  report_losses(network_, at_time(*network_.scene, t));
 }
 
 void StickForces::Shared::bound(std::size_t slider, double low, double high) {

@@ -25,15 +25,9 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
   // Within round-off it goes on as long as that brings more digits.
   const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
   if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off > before / 2)) return true;
-  Eigen::VectorXd next = trial_ + miss;
-  if (count_ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
-  if (count_++ > 0) {
-    const Eigen::VectorXd turn = miss - miss_before_;
-    const double share = turn.squaredNorm() > 0 ? turn.dot(miss) / turn.squaredNorm() : 0;
-    next -= share * (trial_ - before_ + turn);
-  }
-  before_ = std::exchange(trial_, std::move(next));
-  miss_before_ = std::move(miss);
+  Eigen::VectorXd next = points_.next(trial_, trial_ + miss);
+  if (count_++ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
+  trial_ = std::move(next);
   return false;
 }
 

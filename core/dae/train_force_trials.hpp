@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "core/dae/inputs.hpp"
+#include "core/nonsmooth/fixed_point.hpp"
 #include "core/network/network.hpp"
 
 namespace rheonet {
 
 /// Trial forces of the trains. The bounds of losses depend on the forces of their trains, which follow from a balance of forces within
 /// these bounds: the balance is solved again until both agree. Each is a piecewise linear function of the other, so that a secant
-/// through two trials (D. G. Anderson, Journal of the ACM 12 (1965) 547) meets them.
+/// through two trials (FixedPoint) meets them.
 class TrainForceTrials {
  public:
   /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
@@ -34,7 +35,8 @@ class TrainForceTrials {
   double forces_, off_ = std::numeric_limits<double>::infinity();
   int count_ = 0;
   bool near_ = false;  ///< the second trial is near the first
-  Eigen::VectorXd trial_, before_, miss_before_;
+  Eigen::VectorXd trial_;
+  FixedPoint points_{2};
 };
 
 }  // namespace rheonet

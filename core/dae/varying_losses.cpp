@@ -14,7 +14,7 @@ void Dae::follow_losses() {
     train_forces_[at(train)][2] -= line.factor - 1;
   }
   if (!train_shares_) return;
-  const Eigen::MatrixXd shares = train_shares_->at(train_forces_);
+  const Eigen::MatrixXd& shares = train_shares_->take(train_forces_);
   for (std::size_t r = 0; r < equations_.size(); ++r) {
     for (std::size_t i = 0; i < equations_[r].shares.size(); ++i) {
       equations_[r].shares[i].factor = shares(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r));
@@ -46,7 +46,6 @@ void Dae::shares_jacobian(const double* yp, double* values) {
   sum_forces();
   std::vector<double> balance(at(size_));
   balances(yp, balance.data());
-  const Eigen::MatrixXd shares = train_shares_->at(train_forces_);
   std::vector<std::array<double, 3>> rates(train_forces_.size());
   Eigen::MatrixXd rate;
   const ShareCoupling* last = nullptr;
@@ -56,7 +55,7 @@ void Dae::shares_jacobian(const double* yp, double* values) {
       const double factor = inputs_->loss_slope(c.slider, slip_side_[c.slider], b_drives_[train] != 0, c.parameter).factor;
       rates.assign(rates.size(), {});
       rates[train] = {factor, 0, -factor};
-      rate = train_shares_->rate(shares, train_forces_, rates);
+      rate = train_shares_->rate(rates);
       last = &c;
     }
     values[c.coupling.entry] -= balance[at(iv_[at(equations_[static_cast<std::size_t>(c.pivot)].pivot)])] * rate(c.share, c.pivot) * slope(c.coupling);

@@ -10,6 +10,7 @@
 #include "core/base/index.hpp"
 #include "core/netlist/run_time_expression.hpp"
 #include "core/netlist/speed_curve.hpp"
+#include "core/network/block_order.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/network.hpp"
 #include "core/network/resolved.hpp"
@@ -67,8 +68,8 @@ class Finder {
       refuse(loop, loop.size() > 1 ? "make a loop in which each needs the output of another at the same instant; put a `lag` into it"
                                    : "needs its own output at the same instant; put a `lag` between");
     };
-    result_.order = sort([](const Blocks::Block& b) { return b.breaks_loops(); }, refuse_loop);
-    sort([](const Blocks::Block& b) { return b.law.state; }, refuse_delays);
+    result_.order = block_order(result_.blocks, [](const Blocks::Block& b) { return b.breaks_loops(); }, refuse_loop);
+    block_order(result_.blocks, [](const Blocks::Block& b) { return b.law.state; }, refuse_delays);
     for (const Network::Force& force : network_.forces) {
       std::vector<char> seen(result_.blocks.size(), 0);
       if (force.energy >= 0) refuse_energy_of_forces(force, force.energy, seen);
@@ -140,11 +141,11 @@ class Finder {
   /// value: a limiter sees to it.
   void add_parameter(const Network::Slider& slider, Network::VaryingParameter& varying) {
     const int e = slider.branch.element;
-    if (slider.train >= 0) {
-      const SceneElement& gear = scene_.elements[at(e)];
-      const std::size_t k = at(varying.parameter);
-      const Parameter& bounds = components()[at(gear.declaration)]->declaration.parameters[k];
-      varying.block = add_function(slider.branch, {.expression = {}, .names = {}, .function = std::make_shared<const SpeedCurve>(*gear.characteristic(k), bounds)});
+    const SceneElement& element = scene_.elements[at(e)];
+    const auto k = at(varying.parameter);
+    if (const auto curve = element.characteristic(k)) {
+      const Parameter& bounds = components()[at(element.declaration)]->declaration.parameters[k];
+      varying.block = add_of_motion(slider.branch, {.element = e, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = std::make_shared<const SpeedCurve>(*curve, bounds)});
       return;
     }
     if (const auto over = over_velocity(*slider.component, slider.law_values());
@@ -211,21 +212,23 @@ class Finder {
   /// Adds a block for a quantity of an element that depends on its displacement and velocity, and on the outputs of blocks by these
   /// names. Returns its index.
   int add_function(const Branch& branch, const MotionExpression& of, const std::vector<std::pair<std::string, int>>& parameters = {}) {
-    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}, .function = of.function};
-    if (!block.function) {
-      Environment names;
-      for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
-      std::vector<RunTimeExpression::Variable> variables{{"d", {}}, {"w", {}}};
-      for (const auto& [name, from] : parameters) variables.push_back({name, {}});
-      const bool beside = network_.places[at(branch.element)].role == Role::deflection;
-      if (beside) {
-        block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, branch.element, -1, -1}), 1, variables.size()});
-        variables.push_back({"f", {}});
-      }
-      variables.push_back({"t", {}});
-      block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
+    Blocks::Block block{.element = branch.element, .law = {}, .generates = false, .signal = {}, .inputs = {}};
+    Environment names;
+    for (const auto& [name, value] : of.names) names.names[name] = Number{.value = value, .dimension = {}};
+    std::vector<RunTimeExpression::Variable> variables{{"d", {}}, {"w", {}}};
+    for (const auto& [name, from] : parameters) variables.push_back({name, {}});
+    if (network_.places[at(branch.element)].role == Role::deflection) {
+      block.inputs.push_back({false, sensor({Blocks::Sensor::What::force, branch.element, -1, -1}), 1, variables.size()});
+      variables.push_back({"f", {}});
     }
+    variables.push_back({"t", {}});
+    block.function = std::make_shared<const RunTimeExpression>(std::get<RunTimeExpression>(RunTimeExpression::compile(of.expression, variables, names)));
     for (std::size_t k = 0; k < parameters.size(); ++k) block.inputs.push_back({true, parameters[k].second, 1, 2 + k});
+    return add_of_motion(branch, std::move(block));
+  }
+
+  /// Adds the block of a function whose first two arguments are the displacement and the velocity of an element.
+  int add_of_motion(const Branch& branch, Blocks::Block block) {
     for (const auto& [node, sign] : {std::pair{branch.a, 1.0}, std::pair{branch.b, -1.0}}) {
       if (node <= ground) continue;
       const int motion = motion_of(node), giver = motion < 0 ? -1 : network_.motions[at(motion)].block;
@@ -410,40 +413,6 @@ class Finder {
                             fmt::format("the energy that `{}` stores depends on `{}`: it may depend on displacements, velocities and states of blocks alone",
                                         scene_.elements[at(force.element)].name, scene_.sensed[at(sensor.record)].path));
     }
-  }
-
-  /// Depth-first topological sort: a block follows the blocks whose outputs it needs. `stops`: it needs no present input.
-  template <class Stops, class Refuse>
-  std::vector<int> sort(const Stops& stops, const Refuse& refuse_loop) const {
-    enum : char { fresh, open, done };
-    std::vector<char> mark(result_.blocks.size(), fresh);
-    std::vector<int> order;
-    for (std::size_t first = 0; first < mark.size(); ++first) {
-      std::vector<std::pair<int, std::size_t>> path;  // blocks, and number of their inputs visited
-      if (mark[first] == fresh) path.emplace_back(static_cast<int>(first), 0);
-      while (!path.empty()) {
-        auto& [index, next] = path.back();
-        const Blocks::Block& block = result_.blocks[at(index)];
-        mark[at(index)] = open;
-        while (next < block.inputs.size() && (stops(block) || !block.inputs[next].from_block || mark[at(block.inputs[next].index)] == done)) ++next;
-        if (next == block.inputs.size()) {
-          mark[at(index)] = done;
-          order.push_back(index);
-          path.pop_back();
-          continue;
-        }
-        const int needed = block.inputs[next].index;
-        if (mark[at(needed)] == open) {
-          std::vector<int> loop;
-          for (const auto& [on_path, unused] : path)
-            if (!loop.empty() || on_path == needed) loop.push_back(on_path);
-          std::reverse(loop.begin(), loop.end());
-          refuse_loop(loop);
-        }
-        path.emplace_back(needed, 0);
-      }
-    }
-    return order;
   }
 
   [[noreturn]] void refuse(const std::vector<int>& loop, const std::string& why) const {

@@ -291,13 +291,12 @@ struct LawValues : std::span<const double> {
 };
 using Values = std::vector<LawValues>;  ///< of each element of a batch
 
-/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, over `names`, and, beside a deflection law, over its force `f` [N]; in SI. Or a function of d, w
-/// and the time.
+/// An expression over the displacement `d` [m] and the velocity `w` [m/s] of an element, over `names`, and, beside a deflection law,
+/// over its force `f` [N]; in SI. Empty where the characteristic of the parameter stands in its place.
 struct MotionExpression {
   std::string expression;
   std::map<std::string, double> names;
   int parameter = -1;  ///< whose value it is; -1: it is a force
-  std::shared_ptr<const SwitchedFunction> function = {};  ///< in place of the expression
 };
 
 /// A law where signals give some of its parameters, in SI: expressions over d and w, as in MotionExpression, and over the names of its
@@ -333,7 +332,7 @@ struct Component {
   /// Of a transmission (Role::slip, rigid): velocity of its first node over that of its second, relative to its support. See
   /// transmission.hpp.
   std::function<double(std::span<const double>)> ratio = {};
-  /// Of a transmission that may have losses: four of its values, or those of the characteristics in their place at the present speed.
+  /// Of a transmission that may have losses. Where a characteristic stands in place of a value, this gets its value at the present speed.
   std::function<Loss(std::span<const double>)> loss = {};
   /// For Role::slip: a parameter that depends on the velocity; absent if none does.
   std::function<std::optional<MotionExpression>(const LawValues&)> over_velocity = {};

@@ -1,4 +1,3 @@
-#include "core/netlist/characteristic.hpp"
 #include "core/network/network.hpp"
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "core/base/numerics.hpp"
+#include "core/netlist/characteristic.hpp"
 #include "core/network/assumptions.hpp"
 #include "core/network/effects.hpp"
 #include "core/network/linear_law.hpp"

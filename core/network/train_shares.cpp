@@ -1,7 +1,5 @@
 #include "core/network/train_shares.hpp"
 
-#include <Eigen/Dense>
-
 #include <utility>
 
 #include "core/base/index.hpp"
@@ -12,12 +10,12 @@ namespace rheonet {
 TrainShares::TrainShares(const Network& network, const std::vector<Structure::Tied>& tied, const std::vector<NodeId>& head, std::vector<NodeId> node)
     : nodes_(std::move(node)), trains_(static_cast<Eigen::Index>(tied.size())) {
   std::vector<Eigen::Index> place(head.size(), -1), pivot(head.size(), -1);
-  for (std::size_t i = 0; i < nodes_.size(); ++i) place[rheonet::at(nodes_[i])] = static_cast<Eigen::Index>(i);
-  for (std::size_t r = 0; r < tied.size(); ++r) pivot[rheonet::at(tied[r].pivot)] = static_cast<Eigen::Index>(r);
+  for (std::size_t i = 0; i < nodes_.size(); ++i) place[at(nodes_[i])] = static_cast<Eigen::Index>(i);
+  for (std::size_t r = 0; r < tied.size(); ++r) pivot[at(tied[r].pivot)] = static_cast<Eigen::Index>(r);
   for (std::size_t r = 0; r < tied.size(); ++r) {
-    const std::size_t train = rheonet::at(tied[r].train);
+    const std::size_t train = at(tied[r].train);
     for (std::size_t end = 0; end < 3; ++end) {
-      const std::size_t n = rheonet::at(head[rheonet::at(network.trains[train].node[end])]);
+      const std::size_t n = at(head[at(network.trains[train].node[end])]);
       const auto column = static_cast<Eigen::Index>(r);
       if (place[n] >= 0) of_nodes_.push_back({train, end, place[n], column});
       if (pivot[n] >= 0) of_pivots_.push_back({train, end, pivot[n], column});
@@ -31,18 +29,15 @@ Eigen::MatrixXd TrainShares::fill(const std::vector<Place>& places, Eigen::Index
   return result;
 }
 
-Eigen::MatrixXd TrainShares::at(const std::vector<std::array<double, 3>>& train_forces) const {
-  const auto nodes = static_cast<Eigen::Index>(nodes_.size());
-  const Eigen::FullPivLU<Eigen::MatrixXd> pivots(fill(of_pivots_, trains_, trains_, train_forces).transpose());
-  return pivots.solve(fill(of_nodes_, nodes, trains_, train_forces).transpose()).transpose();
+const Eigen::MatrixXd& TrainShares::take(const std::vector<std::array<double, 3>>& train_forces) {
+  pivots_.compute(fill(of_pivots_, trains_, trains_, train_forces).transpose());
+  shares_ = pivots_.solve(fill(of_nodes_, static_cast<Eigen::Index>(nodes_.size()), trains_, train_forces).transpose()).transpose();
+  return shares_;
 }
 
-Eigen::MatrixXd TrainShares::rate(const Eigen::MatrixXd& shares, const std::vector<std::array<double, 3>>& train_forces,
-                                  const std::vector<std::array<double, 3>>& rates) const {
-  const auto nodes = static_cast<Eigen::Index>(nodes_.size());
-  const Eigen::FullPivLU<Eigen::MatrixXd> pivots(fill(of_pivots_, trains_, trains_, train_forces).transpose());
-  const Eigen::MatrixXd right = fill(of_nodes_, nodes, trains_, rates) - shares * fill(of_pivots_, trains_, trains_, rates);
-  return pivots.solve(right.transpose()).transpose();
+Eigen::MatrixXd TrainShares::rate(const std::vector<std::array<double, 3>>& rates) const {
+  const Eigen::MatrixXd right = fill(of_nodes_, shares_.rows(), trains_, rates) - shares_ * fill(of_pivots_, trains_, trains_, rates);
+  return pivots_.solve(right.transpose()).transpose();
 }
 
 }  // namespace rheonet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 #include <vector>
 
@@ -15,11 +16,11 @@ class TrainShares {
   /// `node`: those that get shares, and `head`: of each node the one that stands for it (Structure::rigid).
   TrainShares(const Network& network, const std::vector<Structure::Tied>& tied, const std::vector<NodeId>& head, std::vector<NodeId> node);
 
-  /// One row for each node, one column for each pivot, where the trains have these forces at their nodes (Structure::train_forces).
-  Eigen::MatrixXd at(const std::vector<std::array<double, 3>>& train_forces) const;
-  /// Their rate where these forces have these rates. `shares`: those at these forces.
-  Eigen::MatrixXd rate(const Eigen::MatrixXd& shares, const std::vector<std::array<double, 3>>& train_forces,
-                       const std::vector<std::array<double, 3>>& rates) const;
+  /// Takes the present forces of the trains at their nodes (Structure::train_forces), and gives the shares: one row for each node, one
+  /// column for each pivot.
+  const Eigen::MatrixXd& take(const std::vector<std::array<double, 3>>& train_forces);
+  /// The rate of the shares where the forces last taken have these rates.
+  Eigen::MatrixXd rate(const std::vector<std::array<double, 3>>& rates) const;
 
   const std::vector<NodeId>& nodes() const { return nodes_; }
 
@@ -30,6 +31,8 @@ class TrainShares {
   std::vector<NodeId> nodes_;
   Eigen::Index trains_;
   std::vector<Place> of_nodes_, of_pivots_;
+  Eigen::FullPivLU<Eigen::MatrixXd> pivots_;  ///< of P, transposed
+  Eigen::MatrixXd shares_;
 };
 
 }  // namespace rheonet

@@ -139,8 +139,8 @@ class Trains {
     for (const Structure::Tied& tied : s_.tied) nodes.erase(tied.pivot);
     std::vector<NodeId> heads;
     for (std::size_t n = 0; n < head_.size(); ++n) heads.push_back(head(static_cast<NodeId>(n)));
-    const TrainShares shares(network_, s_.tied, heads, {nodes.begin(), nodes.end()});
-    const Eigen::MatrixXd values = shares.at(s_.train_forces);
+    TrainShares shares(network_, s_.tied, heads, {nodes.begin(), nodes.end()});
+    const Eigen::MatrixXd& values = shares.take(s_.train_forces);
     const bool vary = std::any_of(network_.sliders.begin(), network_.sliders.end(), [](const Network::Slider& slider) { return slider.train >= 0 && !slider.varying.empty(); });
     for (std::size_t r = 0; r < s_.tied.size(); ++r) {
       s_.tied[r].shares.clear();

@@ -2,14 +2,12 @@
 
 #include <Eigen/QR>
 
-#include "core/base/numerics.hpp"
-
 namespace rheonet {
 
 Eigen::VectorXd FixedPoint::next(const Eigen::VectorXd& x, const Eigen::VectorXd& g) {
   values_.push_back(g);
   misses_.push_back(g - x);
-  if (values_.size() > static_cast<std::size_t>(numerics::trials_combined)) {
+  if (values_.size() > most_) {
     values_.pop_front();
     misses_.pop_front();
   }

@@ -42,7 +42,7 @@ const std::vector<Function> comparisons{
     {"(% == 0 ? 1 : 0)", [](double x) { return x == 0 ? 1 : 0; }}, {"sign(%)", [](double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }},
 };
 
-/// A mass that passes 0 to and fro: x = start + v t for a drive by velocity, x = -cos(w t) for one by position.
+/// A node that passes 0, at a constant velocity or as an oscillator. `x`: its position over time [m].
 struct Motion {
   std::string toml;
   std::function<double(double)> x;

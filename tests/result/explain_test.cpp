@@ -76,7 +76,7 @@ TEST_CASE("what is kept is an unknown") {
   const Explanation e = explain(kept);
   CHECK(unknown(e, "deflection", true) == Names{"k1", "k2", "k3", "k4"});
   CHECK(left_out(e, "position of", "") == Names{"mid", "rub"});  // they follow from deflections
-  CHECK(unknown(e, "position", true) == Names{"block"});          // a mass may move little beside what moves it
+  CHECK(unknown(e, "position", true) == Names{"block"});          // its motion may be small beside that of the grip
   CHECK(left_out(e, "element", "unasked").empty());
   CHECK(left_out(e, "node", "bundles").empty());
   CHECK(left_out(e, "deflection of", "given").empty());

@@ -71,6 +71,8 @@ class ReferenceNetwork {
   bool could_slip_on(const ReferenceNetwork& before) const;
 
  private:
+  /// The stretch of a series spring that is left, against the largest displacement in the step.
+  static constexpr double little_stretch = 1e-9;
   double span(const Input& input) const { return before_ > 0 ? (before_ + input.h) / 2 : input.h; }
   bool minimise(const Input& input);
   bool minimise(const Input& input, double factor);
