@@ -150,4 +150,5 @@ TEST_CASE("values are written as engineers do") {
   CHECK(engineering(std::numeric_limits<double>::infinity(), "N") == "∞");
   CHECK(in_print("sigma") == "σ");
   CHECK(in_print("Fc") == "Fc");
+  CHECK(in_print("eta_b") == "ηb");
 }

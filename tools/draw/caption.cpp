@@ -215,8 +215,9 @@ std::vector<std::string> signal_of(const Scene& scene, int index, std::size_t wh
 
 std::string in_print(const std::string& symbol) {
   static const std::map<std::string, std::string> letters = {{"sigma", "σ"}, {"eta", "η"}, {"tau", "τ"}, {"mu", "µ"}};
-  const auto found = letters.find(symbol);
-  return found == letters.end() ? symbol : found->second;
+  const std::size_t end = symbol.find('_');
+  const auto found = letters.find(symbol.substr(0, end));
+  return found == letters.end() ? symbol : found->second + (end == symbol.npos ? "" : symbol.substr(end + 1));
 }
 
 std::string engineering(double value, const std::string& unit) {
@@ -254,7 +255,9 @@ Caption caption_of(const Scene& scene, int index, bool with_values, const Typed&
   for (std::size_t i = 0; i < declaration.parameters.size(); ++i) {
     const auto& signals = element.signal_parameters;
     const auto signal = std::find(signals.begin(), signals.end(), static_cast<int>(i));
-    const std::string symbol = in_print(declaration.parameters[i].symbol);
+    std::string symbol = in_print(declaration.parameters[i].symbol);
+    // A force that a normal force multiplies is a coefficient of friction.
+    if (quantity_of(declaration, element, i) != declaration.parameters[i].quantity) symbol.replace(0, 1, "µ");
     if (element.characteristic(i)) {
       if (declaration.parameters[i].second_of.empty() || element.characteristic(i) != element.characteristic(i - 1)) said.push_back({symbol, {"by its curve"}});
     } else if (signal != signals.end())
