@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/index.hpp"
@@ -37,13 +38,19 @@ GlobalErrorModel::GlobalErrorModel(const Network& network, const Structure& stru
   power_.assign(parts_.size(), 0);
 }
 
-bool GlobalErrorModel::Swing::turns(double x) {
+long GlobalErrorModel::Swing::follow(double x) {
   largest = std::max(largest, std::abs(x));
-  if (std::abs(x) <= numerics::turn_magnitude * largest) return false;
+  if (std::abs(x) <= numerics::turn_magnitude * largest) return 0;
   const signed char now = x > 0 ? 1 : -1;
   const bool turned = side == -now;
   side = now;
-  return turned;
+  if (turned) {
+    of_turn = largest;
+    ++turns;
+    return 1;
+  }
+  // The quantity has grown so much that its turns so far were among values to be ignored: those of the first steps from rest.
+  return of_turn <= numerics::turn_magnitude * largest ? -std::exchange(turns, 0) : 0;
 }
 
 int GlobalErrorModel::part_of(const Branch& b) const { return std::max(part_of_node_[at(b.a)], part_of_node_[at(b.b)]); }
@@ -53,8 +60,7 @@ void GlobalErrorModel::follow(double t, const Dae::View& view) {
   time_ = t;
   ++steps_;
   for (Mover& m : movers_) {
-    const bool velocity = m.velocity.turns(view.velocity[at(m.node)]), acceleration = m.acceleration.turns(view.acceleration[at(m.node)]);
-    if (velocity || acceleration) ++parts_[at(m.part)].turns;
+    parts_[at(m.part)].turns += m.velocity.follow(view.velocity[at(m.node)]) + m.acceleration.follow(view.acceleration[at(m.node)]);
   }
   if (!mode_changes_) account(step, view);
 }

@@ -36,11 +36,13 @@ class GlobalErrorModel {
     double energy = 0;     ///< largest recent stored energy less the heat released since [J]
     double forgotten = 0;  ///< how many times `energy` has been dissipated
   };
-  /// Detects sign changes of a quantity; values below `of_any_size` of its largest magnitude are ignored.
+  /// Counts the sign changes of a quantity; values below `numerics::turn_magnitude` of its largest magnitude are ignored.
   struct Swing {
     double largest = 0;    ///< magnitude so far
+    double of_turn = 0;    ///< `largest` at the last sign change
+    long turns = 0;
     signed char side = 0;  ///< sign of its last value that was not ignored
-    bool turns(double x);
+    long follow(double x);  ///< returns the change of `turns`
   };
   /// A mass that moves freely.
   struct Mover {

@@ -50,7 +50,7 @@ struct Memory {
   }
 };
 
-/// Whether a word stands in a text, in any case, with no letter beside it.
+/// Whether a word stands in a text, in any case, with no letter beside it, nor the dots at which a message cuts a long line.
 bool has_word(std::string_view text, std::string_view word) {
   const auto letter = [&](std::size_t k) { return k < text.size() && std::isalpha(static_cast<unsigned char>(text[k])); };
   const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
@@ -58,7 +58,8 @@ bool has_word(std::string_view text, std::string_view word) {
     at = std::search(at, text.end(), word.begin(), word.end(), same);
     if (at == text.end()) return false;
     const auto k = static_cast<std::size_t>(at - text.begin());
-    if (!(k > 0 && letter(k - 1)) && !letter(k + word.size())) return true;
+    const bool cut = text.substr(0, k).ends_with("...") || text.substr(k + word.size()).starts_with("...");
+    if (!cut && !(k > 0 && letter(k - 1)) && !letter(k + word.size())) return true;
   }
 }
 

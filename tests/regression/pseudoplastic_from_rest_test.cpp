@@ -66,3 +66,26 @@ m = { type = "mass", at = "end", mass = 0.02090124107228199 }
                                            1.143800640772574, 61),
                              1e-6, {"e1.force", "e3.force", "end.velocity", "n2.velocity"});
 }
+
+// A gear gives a mass hardly any motion beside its neighbours: its acceleration turns in the first step of 1e-15 s. Turns as often as
+// that until the end would have asked for steps that no double can express.
+TEST_CASE("a pseudoplastic dashpot at a gear, all from rest") {
+  test::check_against_closer(test::netlist({}, R"([elements]
+drive = { type = "motion", at = "end", velocity = { sine = -1.94, frequency = 2.91 } }
+e1 = { type = "sfm", between = ["ground", "n1"], stiffness = 11.64, coulomb = 0.9518, exponent = 0 }
+e2 = { type = "sfm", between = ["n1", "end"], stiffness = 28.82, coulomb = 0.8055, exponent = 0 }
+e3 = { type = "spring", between = ["n1", "n4"], stiffness = 23.76 }
+e4 = { type = "slider", between = ["n2", "n4"], coulomb = 1.675 }
+e5 = { type = "spring", between = ["ground", "n4"], stiffness = 28.59 }
+e6 = { type = "sfm", between = ["n2", "ground"], stiffness = 51.85, coulomb = 0.4039, exponent = 1 }
+e7 = { type = "dashpot", between = ["n3", "ground"], damping = 1.303, flow_index = 0.5 }
+e8 = { type = "vfm", between = ["end", "n4"], stiffness = 7.222, damping = 1.18 }
+e9 = { type = "gear", between = ["n4", "n3"], ratio = 1.976, support = "n1" }
+m1 = { type = "mass", at = "n1", mass = 0.02305 }
+m2 = { type = "mass", at = "n2", mass = 0.07619 }
+m3 = { type = "mass", at = "n3", mass = 0.03021 }
+m4 = { type = "mass", at = "n4", mass = 0.02059 }
+)",
+                                           0.8194, 61),
+                             1e-6, {"e7.force", "n3.velocity", "n4.velocity", "e8.force"}, 1e-9);
+}

@@ -54,8 +54,7 @@ void check_at_all_accuracies(const std::string& toml, const Expectations& expect
   }
 }
 
-void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns) {
-  constexpr double closest = 1e-10;
+void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns, double closest) {
   INFO(toml);
   const RunTable run = simulate(toml, accuracy), closer = simulate(toml, closest);
   for (const std::string& column : columns) {

@@ -34,7 +34,7 @@ void check_at_all_accuracies(const std::string& toml, const Expectations& expect
 
 /// Where there is no closed form: runs the netlist at `accuracy` and much closer, and checks each of these columns, which do
 /// not jump, at every row: off by at most 10 accuracy max(abs(closer)).
-void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns);
+void check_against_closer(const std::string& toml, double accuracy, const std::vector<std::string>& columns, double closest = 1e-10);
 
 /// A function that begins at `start`; before it, the constant `before`.
 Exact from(double start, Exact after, double before = 0);
