@@ -50,6 +50,7 @@ struct Sfm : SolidFriction {
     begin(p, f, direction);
     return p;
   }
+  bool linear() const { return i == 0; }
   bool can_hold() const { return false; }
   void hold_rates(const Dual&, Dual&, Dual&) const {}
   bool hold(double, int) { return false; }

@@ -22,6 +22,7 @@ struct Spring : MemorylessLaw {
   double start_with(double f) const { return f / k; }
   double stored_energy(double p) const { return k * p * p / 2; }
   static constexpr bool lossless = true;
+  static constexpr bool linear() { return true; }
 };
 
 LinearSpring linear(std::span<const double> v) { return {.stiffness = v[0], .rest = v[1], .force = v[2], .displacement = v[3]}; }

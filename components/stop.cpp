@@ -29,6 +29,7 @@ struct BetweenBounds : MemorylessLaw {
   double below(double p) const { return from < 0 ? p : upper - lower + p; }
   double from_bound(double d) const { return d - (from < 0 ? lower : upper); }
   int contact() const { return side; }
+  static constexpr bool linear() { return true; }
   static constexpr bool lossless = true;
 };
 

@@ -37,6 +37,7 @@ struct Vfm : MemorylessLaw {
     return lag == 0 ? f * f / B : f * (w - dp);
   }
   double delay() const { return lag; }
+  bool linear() const { return lag == 0; }
 };
 
 bool no_force(std::span<const double> v) { return v[0] == 0 || v[1] == 0; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "core/base/numerics.hpp"
 
@@ -343,6 +344,26 @@ Inputs::Reach Inputs::reach() const {
   }
   for (const Force& f : forces_) result.force = std::max(result.force, f.piece.largest(f.piece.origin, std::min(f.piece.end, stop_)));
   return result;
+}
+
+std::optional<Inputs::TimeFunctions> Inputs::time_functions() const {
+  TimeFunctions all;
+  std::set<double> omegas;
+  bool simple = true;
+  const auto look = [&](const Piece& piece, int integrals) {
+    simple = simple && piece.curve == nullptr && (piece.amplitude == 0 || piece.chirp == 0);
+    if (piece.slope != 0) all.degree = std::max(all.degree, 1 + integrals);
+    else if (piece.level != 0 || piece.amplitude != 0) all.degree = std::max(all.degree, integrals);
+    if (piece.amplitude != 0 && piece.omega != 0) omegas.insert(piece.omega);
+  };
+  for (const Motion& m : motions_) {
+    if (m.block < 0) look(m.piece, m.by_position ? 0 : 1);
+  }
+  for (const Force& f : forces_) look(f.piece, 0);
+  for (const BlockSignals::Generator& g : blocks_.generators()) look(*g.piece, 0);
+  if (!simple || omegas.size() > numerics::arc_frequencies) return {};
+  all.omegas.assign(omegas.begin(), omegas.end());
+  return all;
 }
 
 double Inputs::fastest() const {

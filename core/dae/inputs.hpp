@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -104,6 +105,11 @@ class Inputs {
   /// Estimates of the largest force [N] and velocity [m/s] on the present pieces.
   struct Reach { double force = 0, velocity = 0; };
   Reach reach() const;
+
+  /// What positions, velocities and forces are on the present pieces: polynomials in time up to this degree, and sines of these angular
+  /// frequencies [rad/s], which ascend. Absent if some piece is neither.
+  struct TimeFunctions { int degree = 0; std::vector<double> omegas; };
+  std::optional<TimeFunctions> time_functions() const;
 
   /// Largest angular frequency of the present pieces [rad/s]: 0 if nothing oscillates.
   double fastest() const;

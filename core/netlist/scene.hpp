@@ -202,6 +202,10 @@ struct Scene {
   std::vector<EffectLeftOut> without;  ///< effects that are left out
   std::vector<std::string> keep;       ///< names of reductions that are not applied: core/network/reductions.hpp
 
+  /// How the time between two events is crossed.
+  enum class Method { automatic, ida, exact };
+  Method method = Method::automatic;
+  Spot method_spot;
   enum class StartFrom {
     given,   ///< the start values of nodes and elements
     rest,    ///< at rest, all forces balanced

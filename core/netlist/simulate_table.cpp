@@ -68,17 +68,17 @@ void read_output(const TomlEntry* output, const Environment& environment, Contex
   }
 }
 
-void read_start_from(const TomlEntry* entry, DiagnosticList& diagnostics, Scene& scene) {
-  if (!entry || !expect_string(entry->value, "`start_from`", diagnostics)) return;
-  const std::vector<std::string> words{"given", "rest", "steady"};  // in the order of Scene::StartFrom
+/// The enumerator whose word is given; the words are in the order of the enumerators, of which there are three.
+template <class Enumeration>
+void read_one_of(const TomlEntry* entry, const std::vector<std::string>& words, DiagnosticList& diagnostics, Enumeration& chosen) {
+  if (!entry || !expect_string(entry->value, "`" + entry->key + "`", diagnostics)) return;
   const auto found = std::find(words.begin(), words.end(), entry->value.text);
   if (found == words.end()) {
-    diagnostics.error(entry->value.spot,
-                   "`start_from` must be `given`, `rest` or `steady`, but is `" + entry->value.text + "`",
-                   did_you_mean(entry->value.text, words));
+    diagnostics.error(entry->value.spot, "`" + entry->key + "` must be `" + words[0] + "`, `" + words[1] + "` or `" + words[2] + "`, but is `" + entry->value.text + "`",
+                      did_you_mean(entry->value.text, words));
     return;
   }
-  scene.start_from = static_cast<Scene::StartFrom>(found - words.begin());
+  chosen = static_cast<Enumeration>(found - words.begin());
 }
 
 }  // namespace
@@ -95,7 +95,10 @@ const TomlEntry* read_simulate(const TomlEntry& simulate, const Environment& env
     return formula.evaluate_finite(environment, quantity, context.domain, diagnostics).value_or(not_given);
   };
   scene.start = value(reader.find("start"), Quantity::time, 0);
-  read_start_from(reader.find("start_from"), diagnostics, scene);
+  read_one_of(reader.find("start_from"), {"given", "rest", "steady"}, diagnostics, scene.start_from);
+  const TomlEntry* method = reader.find("method");
+  read_one_of(method, {"auto", "ida", "exact"}, diagnostics, scene.method);
+  if (method) scene.method_spot = method->value.spot;
   const TomlEntry* stop = reader.require("stop", simulate.spot, "when the run ends: stop = \"1 s\"");
   reader.find("stop_when");  // see StopCondition
   scene.stop = value(stop, Quantity::time, not_given);

@@ -107,6 +107,8 @@ class DeflectionBatch {
     double slope;
     return force_along(i, p, 0, slope);
   }
+  /// Until the next event the force is linear in the deflection, and the creep in the force.
+  virtual bool linear(std::size_t i) const = 0;
   /// The force does not depend on the deflection until the next event: friction at its bound.
   virtual bool constant(std::size_t i) const = 0;
 

@@ -153,6 +153,7 @@ class IwanBatch final : public DeflectionBatch {
   double force_along(std::size_t i, double p, double step, double& slope) const override {
     return bundles_[i].force_along(p, step, slope);
   }
+  bool linear(std::size_t) const override { return false; }
   bool constant(std::size_t i) const override { return bundles_[i].all_yielded(); }
   Steady steady(std::size_t i) const override { return {bundles_[i].total_force(), 0, bundles_[i].total_force()}; }
   double settle(std::size_t i, double p, double f, int direction) override;

@@ -24,7 +24,7 @@ namespace rheonet {
 ///
 /// Optional members: `force_reached(p)`, the force within its bounds, if `force` continues beyond a bound until the event
 /// there; `follow(p, step)` for a memory that also changes between reversals, as the deflection goes from p to p + step;
-/// `steady` and `settle` for a law that creeps; `delay()` [s] for a response to past velocities; `recentre(p)` for a
+/// `linear()`, unless the force bends between events; `steady` and `settle` for a law that creeps; `delay()` [s] for a response to past velocities; `recentre(p)` for a
 /// deflection that may count from a reversal; `contact()` for a law with contacts. See DeflectionBatch.
 struct MemorylessLaw {
   static constexpr bool creeping = false;
@@ -148,6 +148,10 @@ class DeflectionBatchOf final : public DeflectionBatch {
     }();
     slope = f.derivative;
     return f.value;
+  }
+  bool linear(std::size_t i) const override {
+    if constexpr (requires { laws_[i].linear(); }) return laws_[i].linear();
+    return false;
   }
   bool constant(std::size_t i) const override { return laws_[i].constant(); }
   Steady steady(std::size_t i) const override { return laws_[i].steady(); }

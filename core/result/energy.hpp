@@ -41,6 +41,7 @@ class EnergyAccount {
   void remember(double t, const Power& power);
   /// The integral over a step from the powers at step ends; absent if they are too few or not smooth enough.
   std::optional<Power> from_past(double a, double b) const;
+  Power along_arc(const Integrator& integrator, double a, double b);
   Power lobatto(const Integrator& integrator, double a, double b, const Power& pa, const Power& pb, int depth);
 
   Dae* dae_ = nullptr;

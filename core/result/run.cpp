@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/base/numerics.hpp"
+#include "core/network/linearity.hpp"
 #include "core/netlist/switched_function.hpp"
 #include "core/network/influence_cone.hpp"
 #include "core/network/network.hpp"
@@ -72,9 +73,10 @@ class Recorder final : public Observer {
       claimed_.attach(dae, consistency);
       claims_.begin(t, claimed_.read(t, y, yp), dae.inputs().fastest());
     }
-    // A row at an output time also serves as the row after the event.
+    // A row at an output time also serves as the row after the event, unless an input jumps there too, by round-off later.
     bool written = false;
-    for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack(); ++next_) {
+    const double jump = dae.inputs().next_break();
+    for (; next_ <= scene_.output_intervals && row_time(next_) <= t + slack() && !(jump <= row_time(next_) + slack()); ++next_) {
       write(row_time(next_), channels_.read(t, y, yp));
       written = true;
     }
@@ -294,6 +296,17 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
 
 namespace {
 
+/// Whether exact arcs cross the time between events; throws SimulationError where the scene asks for that in vain.
+bool by_arcs(const Network& network) {
+  const Scene& scene = *network.scene;
+  if (scene.method == Scene::Method::ida) return false;
+  const std::optional<NotLinear> obstacle = not_linear(network);
+  if (scene.method == Scene::Method::exact && obstacle) {
+    throw SimulationError(obstacle->spot, fmt::format("`method = \"exact\"` needs equations that are linear between events, but {}; `\"auto\"` and `\"ida\"` simulate any scene", obstacle->reason));
+  }
+  return !obstacle && (scene.method == Scene::Method::exact || network.nodes() <= static_cast<std::size_t>(numerics::arc_unknowns));
+}
+
 /// One scene as a whole.
 Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_events) {
   if (const std::optional<Scene> converted = in_common_units(scene)) return integrate(*converted, settings, locate_events);
@@ -303,9 +316,12 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   Profile profile;
+  const bool exact = by_arcs(network);
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),
                                .order = settings.order,
+                               .exact = exact,
+                               .arc_steps = scene.method == Scene::Method::exact ? std::numeric_limits<double>::infinity() : numerics::arc_steps,
                                .locate_events = locate_events,
                                .switch_times = settings.events != nullptr || settings.event,
                                .interrupt = settings.interrupt,

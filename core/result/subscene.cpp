@@ -80,6 +80,8 @@ class Taker {
     scene_.without = whole_.without;
     scene_.keep = whole_.keep;
     scene_.start_from = whole_.start_from;
+    scene_.method = whole_.method;
+    scene_.method_spot = whole_.method_spot;
     scene_.common_units = whole_.common_units;
     scene_.start = whole_.start;
     scene_.stop = whole_.stop;

@@ -10,9 +10,11 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/base/index.hpp"
 #include "core/base/numerics.hpp"
+#include "core/solve/exact_arc.hpp"
 #include "core/solve/newton.hpp"
 #include "core/solve/vectors.hpp"
 
@@ -52,6 +54,10 @@ struct Integrator::Implementation {
   bool started = false;
   long rejected = 0;    // error tests failed since the restart
   int grown_back = 0;   // steps in a row whose increase was rejected at order 1
+  std::unique_ptr<ExactArc> arc;
+  bool on_arc = false, arc_begins = false;  // since the restart; with the next one
+  long arc_steps = 0;   // since then
+  double longest_step = std::numeric_limits<double>::infinity();  // s
 
   Implementation(Dae& d, EventFunctions& e, const std::vector<double>& tol, const std::vector<double>& least,
                  const Options& options)
@@ -88,6 +94,7 @@ struct Integrator::Implementation {
     fired.assign(at(event_functions.count()), 0);
     for (std::vector<double>* functions : {&left, &between, &right, &band}) functions->assign(fired.size(), 0);
     locate = options.locate_events;
+    if (options.exact) arc = std::make_unique<ExactArc>(dae, tol, options.arc_steps);
   }
 
   ~Implementation() {
@@ -170,6 +177,11 @@ struct Integrator::Implementation {
   void go_to(double t) {
     time = t;
     refine(t);
+    if (on_arc) {
+      arc->evaluate(t, 0, y.data());
+      arc->evaluate(t, 1, yp.data());
+      return;
+    }
     require(IDAGetDky(ida, t - lost_by_step, 0, ny), "IDAGetDky");
     require(IDAGetDky(ida, t - lost_by_step, 1, np), "IDAGetDky");
   }
@@ -186,6 +198,14 @@ struct Integrator::Implementation {
     std::transform(left.begin(), left.end(), right.begin(), fired.begin(), has_fired);
     left.swap(right);
     return std::find(fired.begin(), fired.end(), 1) != fired.end();
+  }
+
+  Outcome step_along_arc() {
+    ++arc_steps;
+    const double end = arc->step(time, longest_step);
+    go_to(end);
+    if (meets_event()) return Outcome::event;
+    return end == length() ? Outcome::stop : Outcome::step;
   }
 
   /// True if some function has fallen through 0 since `left`.
@@ -237,6 +257,7 @@ struct Integrator::Implementation {
 
   Failures failures() const {
     Failures f;
+    if (on_arc) return f;
     IDAGetNumErrTestFails(ida, &f.error_tests);
     f.convergence = newton.counts().failures;
     return f;
@@ -244,6 +265,10 @@ struct Integrator::Implementation {
 
   Statistics present() const {
     Statistics s;
+    if (on_arc) {
+      s.steps = arc_steps;
+      return s;
+    }
     IDAGetNumSteps(ida, &s.steps);
     s.residuals = newton.counts().residuals;
     s.jacobians = newton.counts().jacobians;
@@ -255,7 +280,7 @@ struct Integrator::Implementation {
   /// The unknown with the largest error estimate relative to its tolerance, of those for which `counts` is true; -1 if none.
   template <class Counts>
   int worst(Counts counts) const {
-    if (dae.unknowns() == 0 || IDAGetEstLocalErrors(ida, nw) < 0) return -1;
+    if (on_arc || dae.unknowns() == 0 || IDAGetEstLocalErrors(ida, nw) < 0) return -1;
     int worst = -1;
     double largest = 0;
     for (std::size_t i = 0; i < work.size(); ++i) {
@@ -276,6 +301,10 @@ Integrator::Integrator(Dae& dae, EventFunctions& events, const std::vector<doubl
 
 Integrator::~Integrator() = default;
 
+bool Integrator::begins_arc(TimePoint t, const std::vector<double>& y, TimePoint stop) {
+  return impl_->arc_begins = impl_->arc && impl_->arc->begin(t, y, stop.since(t));
+}
+
 void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop) {
   Implementation& s = *impl_;
   const Statistics sum = statistics();
@@ -286,10 +315,14 @@ void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::v
   s.stop = stop;
   s.time = s.previous = 0;
   s.lost = s.lost_by_step = s.reached = 0;
-  require(IDAReInit(s.ida, 0, s.ny, s.np), "IDAReInit");
-  require(IDASetInitStep(s.ida, h), "IDASetInitStep");
-  require(IDASetStopTime(s.ida, s.length()), "IDASetStopTime");
-  s.newton.restart();
+  s.arc_steps = 0;
+  s.on_arc = std::exchange(s.arc_begins, false);
+  if (!s.on_arc) {
+    require(IDAReInit(s.ida, 0, s.ny, s.np), "IDAReInit");
+    require(IDASetInitStep(s.ida, h), "IDASetInitStep");
+    require(IDASetStopTime(s.ida, s.length()), "IDASetStopTime");
+    s.newton.restart();
+  }
   if (!s.fired.empty()) s.evaluate(s.left);
   s.started = true;
   s.rejected = 0;
@@ -305,6 +338,7 @@ void Integrator::go_on(TimePoint stop) {
 Integrator::Outcome Integrator::step() {
   Implementation& s = *impl_;
   s.previous = s.time;
+  if (s.on_arc) return s.step_along_arc();
   double reached = s.time;
   const int flag = IDASolve(s.ida, s.length(), &reached, s.ny, s.np, IDA_ONE_STEP);
   if (flag == IDA_SUCCESS) s.keep_time();
@@ -335,6 +369,7 @@ Integrator::Statistics& Integrator::Statistics::operator+=(const Statistics& oth
 }
 
 void Integrator::limit_step(double longest) {
+  impl_->longest_step = longest;
   require(IDASetMaxStep(impl_->ida, std::isfinite(longest) ? longest : 0), "IDASetMaxStep");
 }
 
@@ -345,6 +380,7 @@ void Integrator::cut(double t, int which) {
   s.fired[at(which)] = 1;
 }
 
+bool Integrator::exact() const { return impl_->on_arc; }
 double Integrator::time() const { return impl_->point(impl_->time).t; }
 double Integrator::previous_time() const { return impl_->point(impl_->previous).t; }
 const std::vector<double>& Integrator::y() const { return impl_->y; }
@@ -352,6 +388,10 @@ const std::vector<double>& Integrator::yp() const { return impl_->yp; }
 const std::vector<int>& Integrator::events() const { return impl_->fired; }
 
 void Integrator::interpolate(double t, int derivative, std::vector<double>& out) const {
+  if (impl_->on_arc) {
+    out.resize(impl_->y.size());
+    return impl_->arc->evaluate(impl_->since_begin(t), derivative, out.data());
+  }
   require(IDAGetDky(impl_->ida, impl_->since_begin(t) - impl_->lost_by_step, derivative, impl_->nw), "IDAGetDky");
   out = impl_->work;
 }
@@ -368,7 +408,7 @@ Integrator::Failures Integrator::failures() const { return impl_->failures(); }
 
 int Integrator::last_order() const {
   int order = 0;
-  require(IDAGetLastOrder(impl_->ida, &order), "IDAGetLastOrder");
+  if (!impl_->on_arc) require(IDAGetLastOrder(impl_->ida, &order), "IDAGetLastOrder");
   return order;
 }
 

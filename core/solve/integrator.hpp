@@ -21,8 +21,8 @@ class EventFunctions {
   virtual double band(int /*k*/) const { return 0; }
 };
 
-/// SUNDIALS IDA: variable-order, variable-step BDF in the form of Hindmarsh et al., ACM TOMS 31 (2005) 363. One step at a
-/// time; output never changes the steps.
+/// Crosses the time between events, one step at a time; output never changes the steps. By SUNDIALS IDA: variable-order, variable-step BDF
+/// in the form of Hindmarsh et al., ACM TOMS 31 (2005) 363; or, where that is asked for and possible, by exact arcs.
 class Integrator {
  public:
   enum class Outcome {
@@ -41,6 +41,8 @@ class Integrator {
     int dense = numerics::dense_integration_limit;  ///< linear algebra is dense up to this many unknowns
     /// Locate each event within its step; if false, an event is taken to be at the end of its step, as many programs do.
     bool locate_events = true;
+    bool exact = false;  ///< by exact arcs (exact_arc.hpp) wherever equations and inputs allow it
+    double arc_steps = numerics::arc_steps;  ///< but for intervals that may take more steps
   };
 
   /// `tolerance[i]` is the allowed local error of unknown i (absolute, > 0), and a change of it below `grain[i]` is
@@ -49,7 +51,9 @@ class Integrator {
              const Options& options);
   ~Integrator();
 
-  /// Restarts at t from a consistent state, with first step h [s]. No step passes `stop`.
+  /// Whether an exact arc leads from this state at t to `stop`. Call before `restart`.
+  bool begins_arc(TimePoint t, const std::vector<double>& y, TimePoint stop);
+  /// Restarts at t from a consistent state, with first step h [s] unless an arc begins. No step passes `stop`.
   void restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop);
   /// Continues with the same history past the stop time, if the discontinuity there is negligible, to another stop time.
   void go_on(TimePoint stop);
@@ -59,6 +63,8 @@ class Integrator {
   /// Shortens the last step to end at t, at a missed event of function `which`.
   void cut(double t, int which);
 
+  /// Since the last restart the solution is an exact arc.
+  bool exact() const;
   double time() const;
   double previous_time() const;  ///< where the last step began
   const std::vector<double>& y() const;

@@ -42,7 +42,7 @@ class Run {
         transition_(network, classified_, inputs_),
         error_model_(network, classified_, settings.stop),
         tolerances_(network, tolerance(error_model_.local_share())),
-        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events}),
+        mode_cache_(network, classified_, inputs_, needed, modes_, tolerances_, {.order = settings.order, .locate_events = settings.locate_events, .exact = settings.exact, .arc_steps = settings.arc_steps}),
         mode_changes_(network, inputs_),
         chatter_(network.scene->elements.size() + 1, settings.accuracy),
         regularisation_(network) {
@@ -251,7 +251,7 @@ class Run {
     steps_ = 0;
     if (until - t <= time_roundoff(t)) return until;  // too short for a step: a discontinuity just before the stop, say
     double shrink = 1;
-    if (smooth_) {
+    if (smooth_ && !system_->integrator.exact()) {
       go_on(t, until);
     } else {
       restart(t, until, shrink);
@@ -287,9 +287,7 @@ class Run {
       if (settings_.profile) settings_.profile->step(system_->integrator);
       error_model_.follow(t, view);
       tolerances_.trust(true);
-      const double local = tolerance(error_model_.local_share());
-      if (local <= numerics::least_step_tolerance) ++statistics_.finest_steps;
-      tolerances_.allow(local, network_.bundles ? tolerance(error_model_.dense_share()) : local);
+      if (allow_errors() <= numerics::least_step_tolerance && !on_arc_) ++statistics_.finest_steps;
       tolerances_.follow(t, system_->integrator.y(), system_->integrator.yp(), view);
       if (network_.bundles) deflections_ = view.p;
       observer_.step(system_->integrator);
@@ -372,6 +370,8 @@ class Run {
   }
 
   void restart(double t, double until, double shrink) {
+    on_arc_ = system_->integrator.begins_arc(inputs_.exact(t), y_, inputs_.exact_break(until));
+    if (settings_.exact) allow_errors();
     double ahead = numerics::lookahead_time * course(t);
     std::vector<double> ypp;
     // The difference step must exceed the round-off of time, even in a short interval.
@@ -413,7 +413,14 @@ class Run {
     system_->integrator.limit_step(longest_step(inputs_, events.sticks(), events.slips_along(), settings_.accuracy));
   }
 
-  double tolerance(double share) const { return std::max(share * settings_.accuracy, numerics::least_step_tolerance); }
+  double tolerance(double share) const { return std::max(share * (on_arc_ ? numerics::arc_accuracy : settings_.accuracy), numerics::least_step_tolerance); }
+
+  /// Sets the tolerances of the next step. Returns the one relative to the scale of an unknown.
+  double allow_errors() {
+    const double local = tolerance(error_model_.local_share());
+    tolerances_.allow(local, network_.bundles ? tolerance(error_model_.dense_share()) : local);
+    return local;
+  }
 
   void tell_overload() const {
     const double t = std::max(left_, system_->integrator.time());
@@ -447,6 +454,7 @@ class Run {
   double left_ = 0;  ///< time of `state_` [s]
   bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
   double impact_ = -1, hopped_ = 0;  ///< time of the last impact after which a contact was thrown back, and of the one before [s]
+  bool on_arc_ = false;  ///< since the last restart the solution is an exact arc
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
   long steps_ = 0;       ///< in the last interval
   bool smooth_ = false;  ///< the last discontinuity was negligible

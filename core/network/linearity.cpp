@@ -1,0 +1,75 @@
+#include "core/network/linearity.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <variant>
+
+#include "core/base/index.hpp"
+#include "core/base/numerics.hpp"
+#include "core/netlist/switched_function.hpp"
+
+namespace rheonet {
+
+namespace {
+
+/// What of a signal is neither a constant, a straight line nor a sine; empty if nothing is.
+std::string bent(const Signal& signal) {
+  const auto of = [](const auto& shape) -> std::string {
+    using Shape = std::decay_t<decltype(shape)>;
+    if constexpr (std::is_same_v<Shape, Signal::Chirp>) return shape.frequency == shape.end_frequency ? "" : "a chirp";
+    else if constexpr (std::is_same_v<Shape, Signal::Table>) return shape.smooth ? "a smooth table" : "";
+    else return "";
+  };
+  return std::visit(of, signal.shape());
+}
+
+double frequency(const Signal& signal) {
+  const auto* sine = std::get_if<Signal::Sine>(&signal.shape());
+  return sine ? sine->frequency : 0;
+}
+
+}  // namespace
+
+std::optional<NotLinear> not_linear(const Network& network) {
+  const auto name_of = [&](int element) -> const std::string& { return network.scene->elements[at(element)].name; };
+  const auto wrong = [&](int element, const std::string& reason) { return NotLinear{network.spot_of(element), reason}; };
+  const auto curved = [&](const auto& all, const auto& branches) -> std::optional<NotLinear> {
+    for (const auto& laws : all) {
+      for (std::size_t i = 0; i < laws.batch->size(); ++i) {
+        if (laws.batch->linear(i)) continue;
+        const Branch& branch = branches[at(laws.first) + i];
+        return wrong(branch.element, fmt::format("the law of `{}`{} is not linear", network.name_of(branch), laws.component ? " (" + laws.component->declaration.type + ")" : ""));
+      }
+    }
+    return {};
+  };
+  if (auto found = curved(network.deflection_laws, network.deflections)) return found;
+  if (auto found = curved(network.rate_laws, network.rates)) return found;
+  for (const Blocks::Block& block : network.blocks.blocks) {
+    if (block.function) return wrong(block.element, fmt::format("`{}` computes `{}`", name_of(block.element), block.function->text()));
+    if (block.law.delay > 0) return wrong(block.element, fmt::format("`{}` delays a signal", name_of(block.element)));
+  }
+  for (const Network::Slider& slider : network.sliders) {
+    if (slider.varying.size() > 1) return wrong(slider.branch.element, fmt::format("several parameters of `{}` vary", network.name_of(slider.branch)));
+  }
+  std::set<double> frequencies;
+  const auto look = [&](int element, const Signal& signal) -> std::optional<NotLinear> {
+    if (const double f = frequency(signal); f > 0) frequencies.insert(f);
+    if (const std::string what = bent(signal); !what.empty()) return wrong(element, fmt::format("the signal of `{}` is {}", name_of(element), what));
+    if (frequencies.size() <= numerics::arc_frequencies) return {};
+    return wrong(element, fmt::format("the inputs have more than {} frequencies", numerics::arc_frequencies));
+  };
+  for (const Network::Motion& m : network.motions) {
+    if (auto found = look(m.element, m.signal)) return found;
+  }
+  for (const Network::Force& f : network.forces) {
+    if (auto found = look(f.element, f.signal)) return found;
+  }
+  for (const Blocks::Block& block : network.blocks.blocks) {
+    if (auto found = look(block.element, block.signal)) return found;
+  }
+  return {};
+}
+
+}  // namespace rheonet
