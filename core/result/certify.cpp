@@ -109,7 +109,9 @@ class Certification {
       if (!measured->failure && measure(measured, *tighter)) break;
       const double next = tighter->tolerance / numerics::certificate_ratio;
       if (next > (1 - numerics::equal_tolerances) * numerics::tightest_tolerance) {
-        measured = std::exchange(tighter, measuring_run(next));
+        const std::shared_ptr<Attempt> looser = std::exchange(tighter, measuring_run(next));
+        // No tolerance changes an exact arc.
+        if (!on_arcs(*measured)) measured = looser;
         count(*tighter);
       } else if (tighter->tolerance > (1 + numerics::equal_tolerances) * numerics::tightest_tolerance) {
         // No tolerance left that is `certificate_ratio` times tighter: measure a looser run by the tightest one.
@@ -143,14 +145,21 @@ class Certification {
     return result;
   }
 
-  /// A run that measures another one.
+  static bool on_arcs(const Attempt& run) {
+    const Summary& summary = run.reference.trajectory.summary;
+    return summary.steps > 0 && summary.arc_steps == summary.steps;
+  }
+
+  /// A run that measures another one: by IDA, whose errors have nothing in common with those of exact arcs.
   std::shared_ptr<Attempt> measuring_run(double tolerance) const {
-    if (tolerance > numerics::certificate_roundoff * (1 + numerics::equal_tolerances)) return attempt(settings_, tolerance);
+    RunSettings by_ida = settings_;
+    by_ida.method = Scene::Method::ida;
+    if (tolerance > numerics::certificate_roundoff * (1 + numerics::equal_tolerances)) return attempt(by_ida, tolerance);
     auto beside = std::async(std::launch::async, [&] {
       const int other_order = settings_.order > 1 ? settings_.order - 1 : 2;
-      return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .order = other_order, .account = false});
+      return run_as_reference(scene_, shift_, {.interrupt = settings_.interrupt, .tolerance = tolerance, .method = Scene::Method::ida, .order = other_order, .account = false});
     });
-    std::shared_ptr<Attempt> result = attempt(settings_, tolerance);
+    std::shared_ptr<Attempt> result = attempt(by_ida, tolerance);
     try {
       result->other = beside.get();
     } catch (const SimulationError&) {

@@ -334,6 +334,7 @@ class Explainer {
   void find_rates(Dae& dae, Consistency& consistency, double t, const std::vector<double>& y, const std::vector<double>& yp) {
     Explanation::Cost& cost = result_.cost;
     cost.unknowns = dae.unknowns();
+    cost.no_arcs = no_arcs(scene_);
     cost.entries = dae.unknowns() > 0 ? dae.pattern().entries() : 0;
     cost.sparse = dae.unknowns() > numerics::dense_integration_limit;
     const double rate = dae.unknowns() > 0 ? consistency.fastest_rate(t, scene_.stop - scene_.start, y, yp) : 0;

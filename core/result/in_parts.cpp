@@ -195,6 +195,7 @@ class SideBySide {
       sum.unknowns += s.unknowns;
       sum.sparse = sum.sparse || s.sparse;
       sum.steps += s.steps;
+      sum.arc_steps += s.arc_steps;
       sum.rejected_steps += s.rejected_steps;
       sum.finest_steps += s.finest_steps;
       sum.residual_evaluations += s.residual_evaluations;

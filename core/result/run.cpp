@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,9 +13,9 @@
 #include <utility>
 
 #include "core/base/numerics.hpp"
-#include "core/network/linearity.hpp"
 #include "core/netlist/switched_function.hpp"
 #include "core/network/influence_cone.hpp"
+#include "core/network/linearity.hpp"
 #include "core/network/network.hpp"
 #include "core/network/transmission.hpp"
 #include "core/result/certify.hpp"
@@ -296,15 +297,17 @@ Summary run_divided(const Scene& scene, const RunSettings& settings) {
 
 namespace {
 
-/// Whether exact arcs cross the time between events; throws SimulationError where the scene asks for that in vain.
-bool by_arcs(const Network& network) {
-  const Scene& scene = *network.scene;
-  if (scene.method == Scene::Method::ida) return false;
+/// Why exact arcs do not cross the time between events; "" if they do. Throws SimulationError where they are asked for in vain.
+std::string no_arcs(const Network& network, Scene::Method method) {
+  if (method == Scene::Method::ida) return "the netlist asks for it";
   const std::optional<NotLinear> obstacle = not_linear(network);
-  if (scene.method == Scene::Method::exact && obstacle) {
-    throw SimulationError(obstacle->spot, fmt::format("`method = \"exact\"` needs equations that are linear between events, but {}; `\"auto\"` and `\"ida\"` simulate any scene", obstacle->reason));
+  if (method == Scene::Method::exact && obstacle) {
+    throw SimulationError(network.scene->method == method ? network.scene->method_spot : obstacle->spot,
+                          fmt::format("`method = \"exact\"` needs equations that are linear between events, but {}; `\"auto\"` and `\"ida\"` simulate any scene", obstacle->reason));
   }
-  return !obstacle && (scene.method == Scene::Method::exact || network.nodes() <= static_cast<std::size_t>(numerics::arc_unknowns));
+  if (obstacle) return obstacle->reason;
+  const bool large = method == Scene::Method::automatic && network.nodes() > static_cast<std::size_t>(numerics::arc_unknowns);
+  return large ? fmt::format("there are more than {} nodes", numerics::arc_unknowns) : "";
 }
 
 /// One scene as a whole.
@@ -316,12 +319,13 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   Profile profile;
-  const bool exact = by_arcs(network);
+  const Scene::Method method = settings.method.value_or(scene.method);
+  const bool exact = no_arcs(network, method).empty();
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),
                                .order = settings.order,
                                .exact = exact,
-                               .arc_steps = scene.method == Scene::Method::exact ? std::numeric_limits<double>::infinity() : numerics::arc_steps,
+                               .arc_steps = method == Scene::Method::exact ? std::numeric_limits<double>::infinity() : numerics::arc_steps,
                                .locate_events = locate_events,
                                .switch_times = settings.events != nullptr || settings.event,
                                .interrupt = settings.interrupt,
@@ -333,6 +337,7 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   summary.unknowns = recorder.unknowns();
   summary.sparse = statistics.integrator.sparse;
   summary.steps = statistics.integrator.steps;
+  summary.arc_steps = statistics.integrator.arc_steps;
   summary.rejected_steps = statistics.integrator.rejected;
   summary.finest_steps = statistics.finest_steps;
   summary.residual_evaluations = statistics.integrator.residuals;
@@ -373,12 +378,18 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
 
 }  // namespace
 
+std::string no_arcs(const Scene& scene) {
+  if (const std::optional<Scene> converted = in_common_units(scene)) return no_arcs(*converted);
+  return no_arcs(build_network(scene), scene.method);
+}
+
 Summary run_whole(const Scene& scene, const RunSettings& settings) { return integrate(scene, settings, true); }
 
 Summary run_by(const SimulationMethod& method, const Scene& asked, const RunSettings& settings) {
   const Scene& scene = method.scene.empty() ? asked : method.scene.front();
   RunSettings by_method = settings;
   by_method.order = method.order;
+  if (method.method) by_method.method = method.method;
   if (method.certified) return run_certified(scene, by_method);
   return method.locate_events ? run(scene, by_method) : integrate(scene, by_method, false);
 }

@@ -33,6 +33,7 @@ struct RunSettings {
   std::function<void(double fraction)> progress =
       {};  ///< called from time to time with the fraction of the run completed
   std::optional<double> tolerance = {};  ///< accuracy of the integrator in place of the scene's; > 0
+  std::optional<Scene::Method> method = {};  ///< in place of the scene's
   int order = 5;                         ///< largest order of the integration method; 1 to 5
   int threads = 1;                       ///< for the integration of independent parts in parallel; >= 1
   bool account = true;                   ///< keeps the energy account; without it the energies of the Summary are 0
@@ -46,6 +47,7 @@ struct Summary {
   int parts = 1;  ///< independent parts integrated with their own steps
   bool sparse = false;  ///< KLU rather than dense linear algebra
   long steps = 0;
+  long arc_steps = 0;  ///< of these, in closed form
   long rejected_steps = 0;
   long finest_steps = 0;  ///< at the least tolerance that double precision allows
   long residual_evaluations = 0;
@@ -72,6 +74,9 @@ struct Summary {
   double cpu_seconds = 0;  ///< of the thread that called `run`
   std::vector<std::string> notes;  ///< assumptions, and remarks on the result for the user
 };
+
+/// Why exact arcs do not solve a scene; "" if they do. Throws SimulationError where the scene asks for them in vain.
+std::string no_arcs(const Scene& scene);
 
 /// Simulates a scene and writes its records. Throws SimulationError; the rows up to that time have then been written.
 Summary run(const Scene& scene, const RunSettings& settings = {});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace rheonet {
 /// A way to simulate a scene.
 struct SimulationMethod {
   std::string name = {};          ///< "order up to 4"
+  std::optional<Scene::Method> method = {};  ///< in place of the scene's
   int order = RunSettings{}.order;  ///< largest order of the integration method
   bool locate_events = true;      ///< see Integrator::Options
   bool certified = false;         ///< repeated runs until one is shown to be accurate (certify.hpp)

@@ -17,7 +17,7 @@ namespace rheonet {
 namespace {
 
 RunSettings settings_of(const Setting& setting, const PriceListSettings& settings) {
-  return {.interrupt = settings.interrupt, .tolerance = setting.tolerance, .order = setting.order, .account = false};
+  return {.interrupt = settings.interrupt, .tolerance = setting.tolerance, .method = Scene::Method::ida, .order = setting.order, .account = false};
 }
 
 class Pricing {
@@ -31,7 +31,8 @@ class Pricing {
     find_reference();
     for (std::size_t method = 0; method < settings_.methods.size(); ++method) {
       list_.methods.push_back(settings_.methods[method].name);
-      for (const double tolerance : tolerances_) {
+      const bool exact = settings_.methods[method].method == Scene::Method::exact;
+      for (const double tolerance : exact ? std::vector{tolerances_.back()} : tolerances_) {
         list_.prices.push_back(price({tolerance, settings_.methods[method].order, static_cast<int>(method)}));
         tell_progress();
         if (slow(list_.prices.back())) break;

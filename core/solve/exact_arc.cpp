@@ -219,13 +219,17 @@ struct LinearEquations {
     regular = A.allFinite() && L.allFinite() && of_states.allFinite() && of_given.allFinite();
   }
 
-  /// Begins with the shortest steps for these inputs.
-  void respond_to(const TimeFunctions& inputs, double longest) {
+  /// Chooses the length of the shortest steps for these inputs on an interval of this length.
+  void respond_to(const TimeFunctions& inputs, double interval) {
+    double fastest = A.size() == 0 ? 0 : A.cwiseAbs().colwise().sum().maxCoeff();
+    for (const double omega : inputs.omegas) fastest = std::max(fastest, omega);
+    const double slow_enough = fastest > 0 ? numerics::arc_shortest / fastest : std::numeric_limits<double>::infinity();
+    const bool fits = shortest <= interval && (shortest == slow_enough || interval <= length(numerics::arc_levels));
+    if (!levels.empty() && functions == inputs && fits) return;
     functions = inputs;
     levels.clear();
-    double fastest = A.size() == 0 ? 0 : A.cwiseAbs().colwise().sum().maxCoeff();
-    for (const double omega : functions.omegas) fastest = std::max(fastest, omega);
-    shortest = fastest > 0 ? std::min(numerics::arc_shortest / fastest, longest) : longest;
+    // A power of 2, so that another interval seldom asks for another length.
+    shortest = std::min(slow_enough, std::exp2(std::floor(std::log2(interval))));
   }
 
   const Level& level(int k) {
@@ -282,7 +286,7 @@ struct ExactArc::Implementation {
 
   bool linear() const {
     const Network& network = dae.network();
-    if (dae.unknowns() == 0 || dae.rough() || dae.inputs().history().any()) return false;
+    if (dae.rough() || dae.inputs().history().any()) return false;
     for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
         if (!laws.batch->linear(i)) return false;
@@ -464,7 +468,7 @@ bool ExactArc::begin(TimePoint t, const std::vector<double>& y, double length) {
   LinearEquations& e = s.equations();
   if (!e.regular) return false;
   const TimeFunctions of_inputs{functions->degree, functions->omegas};
-  if (e.levels.empty() || !(e.functions == of_inputs) || e.shortest > length) e.respond_to(of_inputs, length);
+  e.respond_to(of_inputs, length);
   if (length > s.most_steps * e.length(numerics::arc_levels)) return false;
   if (!s.find_given(of_inputs)) return false;
   s.z = VectorXd::Zero(e.A.rows());

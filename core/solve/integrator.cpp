@@ -5,6 +5,7 @@
 #include <sundials/sundials_nonlinearsolver.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -193,7 +194,12 @@ struct Integrator::Implementation {
       return false;
     }
     evaluate(right);
-    if (locate && falls(right)) go_to_event();
+    return locate_event(previous);
+  }
+
+  /// The same where `left` holds the functions at `begin`, and `right` those at the end.
+  bool locate_event(double begin) {
+    if (locate && falls(right)) go_to_event(begin);
     const auto has_fired = [&](double before, double now) { return now <= 0 && (before > 0 || !locate) ? 1 : 0; };
     std::transform(left.begin(), left.end(), right.begin(), fired.begin(), has_fired);
     left.swap(right);
@@ -203,9 +209,74 @@ struct Integrator::Implementation {
   Outcome step_along_arc() {
     ++arc_steps;
     const double end = arc->step(time, longest_step);
-    go_to(end);
-    if (meets_event()) return Outcome::event;
+    if (fired.empty()) {
+      go_to(end);
+    } else if (passes_event(end)) {
+      return Outcome::event;
+    }
     return end == length() ? Outcome::stop : Outcome::step;
+  }
+
+  /// The event functions at a time within the last step.
+  std::vector<double> functions_at(double t) {
+    std::vector<double> functions(fired.size());
+    go_to(t);
+    evaluate(functions);
+    return functions;
+  }
+
+  /// True if a step of an exact arc passes an event. Such steps are long: a function may fall through 0 and come back. Between equal
+  /// parts it is a polynomial of degree 4 as far as one can see; where that one comes near 0, the function is looked at.
+  bool passes_event(double end) {
+    constexpr int parts = 4, finer = 4;
+    std::vector<double> times, lowest;
+    std::vector<std::vector<double>> functions{left};
+    for (int k = 0; k <= parts; ++k) times.push_back(k == parts ? end : previous + (end - previous) * k / parts);
+    for (int k = 1; k <= parts; ++k) functions.push_back(functions_at(times[at(k)]));
+    for (std::size_t f = 0; f < fired.size(); ++f) {
+      std::array<double, parts + 1> g;
+      for (std::size_t k = 0; k < g.size(); ++k) g[k] = functions[k][f];
+      const auto [least, most] = std::minmax_element(g.begin(), g.end());
+      if (!(*least > 0)) continue;
+      double lowest_value = *least, lowest_place = 0;
+      for (int k = 0; k <= parts * finer; ++k) {
+        const double place = static_cast<double>(k) / finer, value = through(g, place);
+        if (value < lowest_value) lowest_value = value, lowest_place = place;
+      }
+      if (lowest_value <= numerics::arc_dip * (*most - *least)) lowest.push_back(previous + (end - previous) * lowest_place / parts);
+    }
+    for (const double t : lowest) {
+      const auto behind = std::lower_bound(times.begin(), times.end(), t);
+      if (*behind == t) continue;
+      functions.insert(functions.begin() + (behind - times.begin()), functions_at(t));
+      times.insert(behind, t);
+    }
+    for (std::size_t k = 1; k < times.size(); ++k) {
+      left = functions[k - 1];
+      right = functions[k];
+      if (!falls(right)) continue;
+      go_to(times[k]);
+      locate_event(times[k - 1]);
+      return true;
+    }
+    std::fill(fired.begin(), fired.end(), 0);
+    left = functions.back();
+    go_to(end);
+    return false;
+  }
+
+  /// Lagrange's polynomial through values at 0, 1, 2, ...
+  template <std::size_t count>
+  static double through(const std::array<double, count>& values, double place) {
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      double product = values[i];
+      for (std::size_t j = 0; j < count; ++j) {
+        if (j != i) product *= (place - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
+      }
+      sum += product;
+    }
+    return sum;
   }
 
   /// True if some function has fallen through 0 since `left`.
@@ -218,8 +289,8 @@ struct Integrator::Implementation {
 
   /// Shortens the step to just behind the first event, by the Illinois variant of the rule of false position (Dowell and
   /// Jarratt, BIT 11 (1971) 168), applied to the function that falls first.
-  void go_to_event() {
-    double begin = previous, end = time;
+  void go_to_event(double begin) {
+    double end = time;
     const double near = numerics::event_time_ulps * std::numeric_limits<double>::epsilon() * (std::abs(end) + (end - begin));
     for (std::size_t k = 0; k < left.size(); ++k) {
       const double b = left[k] > 0 && right[k] <= 0 ? event_functions.band(static_cast<int>(k)) : 0;
@@ -266,7 +337,7 @@ struct Integrator::Implementation {
   Statistics present() const {
     Statistics s;
     if (on_arc) {
-      s.steps = arc_steps;
+      s.steps = s.arc_steps = arc_steps;
       return s;
     }
     IDAGetNumSteps(ida, &s.steps);
@@ -307,8 +378,8 @@ bool Integrator::begins_arc(TimePoint t, const std::vector<double>& y, TimePoint
 
 void Integrator::restart(TimePoint t, const std::vector<double>& y, const std::vector<double>& yp, double h, TimePoint stop) {
   Implementation& s = *impl_;
-  const Statistics sum = statistics();
-  s.history = {sum.steps, sum.rejected, sum.residuals, sum.jacobians, sum.restarts + 1, sum.sparse};
+  s.history = statistics();
+  ++s.history.restarts;
   s.y = y;
   s.yp = yp;
   s.begin = t;
@@ -360,6 +431,7 @@ Integrator::Outcome Integrator::step() {
 
 Integrator::Statistics& Integrator::Statistics::operator+=(const Statistics& other) {
   steps += other.steps;
+  arc_steps += other.arc_steps;
   rejected += other.rejected;
   residuals += other.residuals;
   jacobians += other.jacobians;

@@ -86,7 +86,7 @@ class Integrator {
   int last_order() const;  ///< order of the last step
 
   struct Statistics {
-    long steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;
+    long steps = 0, arc_steps = 0, rejected = 0, residuals = 0, jacobians = 0, restarts = 0;
     bool sparse = false;
     Statistics& operator+=(const Statistics& other);
   };

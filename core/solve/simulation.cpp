@@ -278,7 +278,7 @@ class Run {
         continue;
       }
       const Dae::View& view = view_of_step();
-      if (const auto missed = settings_.locate_events ? system_->events.missed(system_->integrator, view) : std::nullopt) {
+      if (const auto missed = settings_.locate_events && !on_arc_ ? system_->events.missed(system_->integrator, view) : std::nullopt) {
         system_->integrator.cut(missed->t, missed->which);
         outcome = Integrator::Outcome::event;
         view_of_step();

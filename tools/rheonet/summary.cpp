@@ -55,10 +55,12 @@ std::string describe(const Summary& s, long rows, const std::string& destination
   line("rows", grouped(rows), "to " + destination);
   line("unknowns", grouped(s.unknowns),
        s.unknowns == 0 ? "every motion is prescribed"
+       : s.arc_steps == s.steps && s.steps > 0 ? "linear between events: solved in closed form"
        : s.sparse      ? "sparse linear algebra (KLU)"
                        : "dense linear algebra");
   if (s.parts > 1) line("independent parts", grouped(s.parts), "each with steps of its own: the figures are their sums");
-  line("steps", grouped(s.steps), fmt::format("{} rejected", grouped(s.rejected_steps)));
+  line("steps", grouped(s.steps), fmt::format("{} rejected{}", grouped(s.rejected_steps),
+                                                 s.arc_steps > 0 && s.arc_steps < s.steps ? fmt::format(", {} in closed form", grouped(s.arc_steps)) : ""));
   line("residual evaluations", grouped(s.residual_evaluations), "");
   line("Jacobian evaluations", grouped(s.jacobian_evaluations), "");
   line("events", grouped(s.events), busiest(s.switched));
