@@ -70,6 +70,11 @@ class ConvexNetwork {
   Bounds bounds(int branch) const { return {branches_[at(branch)].law.low, branches_[at(branch)].law.high}; }
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound if only others keep its ends together.
   int direction(int branch) const;
+  /// Sign of w: 0 also for a branch at a bound whose ends others keep together.
+  int motion(int branch) const {
+    const double w = branches_[at(branch)].w;
+    return w > 0 ? 1 : w < 0 ? -1 : 0;
+  }
   /// Whether sticking branches join these nodes. After `solve`.
   bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
   /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one. After `solve`.

@@ -196,6 +196,35 @@ void Inputs::apply_blocks() {
   }
 }
 
+bool Inputs::bounds_follow(std::size_t k, NodeId node) const {
+  const std::vector<Network::VaryingParameter>& varying = network_->sliders[k].varying;
+  return std::any_of(varying.begin(), varying.end(), [&](const Network::VaryingParameter& v) { return blocks_.follows_velocity(v.block, node); });
+}
+
+Box Inputs::supposed_box(std::size_t k, NodeId node, double velocity) {
+  const Network::Slider& slider = network_->sliders[k];
+  std::vector<int> blocks;
+  for (const Network::VaryingParameter& v : slider.varying) blocks.push_back(v.block);
+  const std::vector<Dual> outputs = blocks_.supposed(blocks, node, velocity);
+  std::vector<Dual> values(slider.values.begin(), slider.values.end());
+  for (std::size_t i = 0; i < outputs.size(); ++i) values[at(slider.varying[i].parameter)] = Dual(slider.varying[i].sign) * outputs[i];
+  if (slider.train < 0) return slider.component->box(values);
+  std::vector<double> present, slopes;
+  for (const Dual& value : values) {
+    present.push_back(value.value);
+    slopes.push_back(value.derivative);
+  }
+  const Loss loss = loss_law(slider)(present), by = loss_law(slider)(slopes);
+  const double force = train_force_[at(slider.train)];
+  const auto lost = [&](int side) -> Bounds {
+    const Loss::Line line = loss.slope(side, loss.b_drives(side, force), by);
+    const double value = loss.lost(side, force);
+    const Dual bound(value, value > 0 ? side * (line.factor * force + line.offset) : 0);
+    return {bound, bound};
+  };
+  return {lost(1), lost(-1)};
+}
+
 const std::function<Loss(std::span<const double>)>& Inputs::loss_law(const Network::Slider& slider) const {
   return components()[at(network_->element_of(slider.branch).declaration)]->loss;
 }

@@ -92,6 +92,10 @@ class Inputs {
     const int side = s.contact ? network_->contact_of(s) : 0;
     return side == 0 ? box_[slider] : s.contact->at(side);
   }
+  /// Whether the bounds of a slider depend on the velocity of this node at the same time.
+  bool bounds_follow(std::size_t slider, NodeId node) const;
+  /// The box of such a slider if the velocity of the node were this one, all else being as last sensed. Derivatives are by that velocity.
+  Box supposed_box(std::size_t slider, NodeId node, double velocity);
   /// Bounds of the losses of trains with these forces [N].
   void transmit(const std::vector<double>& train_force);
   /// Losses of a train at its present speed.
