@@ -62,6 +62,8 @@ class ConvexNetwork {
   Outcome solve();
 
   double value(int node) const { return base_[at(node)] + u_[at(node)]; }
+  /// Change from the start value.
+  double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }
   double difference(int a, int b) const;
   /// Force of a branch, after `solve`.
   double force(int branch) const;
@@ -118,7 +120,6 @@ class ConvexNetwork {
   double nodal_difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }
-  double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }
   void follow(int node, int head);
   double force(const Branch& b, double w, int side) const;
   double slope(const Branch& b, double w) const;

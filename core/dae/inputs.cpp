@@ -302,6 +302,14 @@ void Inputs::sense(double t, const State& state) {
   anew();
 }
 
+void Inputs::accelerate(const std::vector<double>& acceleration) {
+  for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
+    if (sensor.what == Blocks::Sensor::What::velocity) base_[blocks_.states() + k].derivative = acceleration[at(sensor.index)];
+  }
+  time_ = std::numeric_limits<double>::quiet_NaN();
+}
+
 void Inputs::settle_blocks(double t, State& state) {
   if (!blocks_.any()) return;
   blocks_.evaluate_time(t, history_);

@@ -53,6 +53,8 @@ class Inputs {
   /// Gives blocks the state of the network at t; limiters take the sides that fit it. Afterwards `evaluate` extrapolates states
   /// and sensor values at their present rates (velocities stay). Without blocks just `evaluate`.
   void sense(double t, const State& state);
+  /// Afterwards `evaluate` extrapolates the velocities that blocks sense too, at these accelerations of the nodes; until the next `sense`.
+  void accelerate(const std::vector<double>& acceleration);
   BlockSignals& blocks() { return blocks_; }
   const BlockSignals& blocks() const { return blocks_; }
   /// Takes forces, velocities, parameters of sliders and their rates from the present outputs of the blocks.
