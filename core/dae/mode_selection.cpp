@@ -81,6 +81,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     if (holds(selection, k)) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
   }
+  hold_by_trains(held);
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     // A slider at its bound, while others hold its ends, sticks: the forces of all of them are those of least norm.
@@ -149,6 +150,27 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     report_undecided(network_, at_time(*network_.scene, t));
   }
   return selection;
+}
+
+/// A train whose other two nodes are held together holds its last node there too, if its equation permits equal velocities. At ground it does: all are 0.
+void EventTransition::hold_by_trains(DisjointSets& held) const {
+  for (bool again = true; again;) {
+    again = false;
+    for (const Network::Train& train : network_.trains) {
+      double sum = 0, size = 0;
+      for (const double factor : train.factor) {
+        sum += factor;
+        size += std::abs(factor);
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const NodeId last = train.node[i], one = train.node[(i + 1) % 3], other = train.node[(i + 2) % 3];
+        if (held.find(one) != held.find(other) || held.find(last) == held.find(one)) continue;
+        if (held.find(one) != held.find(ground) && std::abs(sum) > numerics::equal_given_values * size) continue;
+        held.join(last, one);
+        again = true;
+      }
+    }
+  }
 }
 
 /// Whether a slider joins its ends after the event.
