@@ -18,6 +18,11 @@ std::vector<char> firm(const Structure& classified) {
 
 }  // namespace
 
+double start_velocity(const Network& network, const Network::Motion& motion) {
+  const double given = network.node(motion.node).velocity;
+  return std::isnan(given) ? 0 : given;
+}
+
 Inputs::Inputs(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
     : network_(&network),
       stop_(network.scene->stop - network.scene->start),
@@ -27,11 +32,11 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
-    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}, .anchor_time = start};
+    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .by_acceleration = m.acceleration, .piece = {}, .anchor_time = start};
     moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
     motion.anchor = positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests at its position before the run.
-    motion.piece.level = m.position ? motion.anchor : 0;
+    motion.piece.level = m.position ? motion.anchor : m.acceleration ? start_velocity(network, m) : 0;
     motions_.push_back(std::move(motion));
   }
   for (const Network::Force& f : network.forces) forces_.push_back({f.element, f.signal, {}});
@@ -78,7 +83,12 @@ void Inputs::enter(double t, bool jumps) {
     const double before = position_of(m, now), rounding = m.piece.rounding(t);
     m.anchor = before;
     m.anchor_time = now;
-    m.piece = m.signal.piece(t);
+    Piece next = m.signal.piece(t);
+    if (m.by_acceleration) {
+      next = next.integral_from(t, m.piece.value(t));
+      next.begin_value += (m.piece.rate(t) - next.rate(t)) * now.rest;  // they meet at the exact time
+    }
+    m.piece = next;
     const double step = position_of(m, now) - before;
     // A corner of a position signal leaves a difference of round-off, which is no step.
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
@@ -111,7 +121,7 @@ std::vector<Inputs::Break> Inputs::breaks(double t) const {
     const double change = jumps ? step : bends ? bend : 0;
     result.push_back({element, jumps ? "jump" : "corner", change < 0 ? -1 : change > 0 ? 1 : 0});
   };
-  for (const Motion& m : motions_) look(m.element, m.signal, m.piece);
+  for (const Motion& m : motions_) look(m.element, m.signal, m.piece.integrand());
   for (const Force& f : forces_) look(f.element, f.signal, f.piece);
   for (const BlockSignals::Generator& g : blocks_.generators()) look(g.element, *g.signal, *g.piece);
   for (const int block : blocks_.due(t)) result.push_back({blocks_.blocks().blocks[static_cast<std::size_t>(block)].element, "sample", 0});

@@ -15,6 +15,9 @@
 
 namespace rheonet {
 
+/// Velocity with which a motion by acceleration begins [m/s].
+double start_velocity(const Network& network, const Network::Motion& motion);
+
 /// All given functions of time: prescribed motions and applied forces, each on the smooth piece of its signal that holds now. A
 /// force or velocity given by a block depends on more than time: see `sense`.
 class Inputs {
@@ -119,8 +122,8 @@ class Inputs {
     int element;
     int block;
     Signal signal;
-    bool by_position;
-    Piece piece;
+    bool by_position, by_acceleration;
+    Piece piece;             ///< of the position, or of the velocity
     TimePoint anchor_time;
     double anchor = 0;  ///< position at a time, from which a velocity is integrated
   };
