@@ -26,8 +26,8 @@ const RegisterComponent register_motion({
             .equation = R"(x(t),\ v(t)\ \text{or}\ a(t)\ \text{given, or the output of a block})",
             .source = "definition",
             .notes = "Its force is the force that it applies to the node; it supplies that force times the velocity. "
-                     "A block that prescribes its position or velocity must have a known rate: see the netlist format. An acceleration "
-                     "is integrated to the accuracy of the run.",
+                     "A block that prescribes its position or velocity must have a known rate: see the netlist format. The acceleration "
+                     "of a block is integrated to the accuracy of the run, that of a signal exactly.",
         },
     .role = Role::motion,
     .drawing = {.lines = "M0 .22 V.78 M0 .5 H.8", .solid = "M1 .5 L.72 .36 V.64 Z"},

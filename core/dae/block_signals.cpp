@@ -240,6 +240,50 @@ void BlockSignals::run(bool sides) {
   }
 }
 
+bool BlockSignals::senses_velocities() const {
+  return std::any_of(blocks_->sensors.begin(), blocks_->sensors.end(), [](const Blocks::Sensor& sensor) { return sensor.what == What::velocity && sensor.motion < 0; });
+}
+
+bool BlockSignals::follows_velocity(int block, NodeId node) const {
+  for (std::size_t k = 0; k < sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_->sensors[k];
+    if (sensor.what == What::velocity && sensor.motion < 0 && sensor.index == node && depends(block, state.size() + k)) return true;
+  }
+  return false;
+}
+
+std::vector<Dual> BlockSignals::supposed(const std::vector<int>& blocks, NodeId node, double velocity) {
+  const std::vector<Dual> sensed_before = sensed, out_before = out_;
+  const int undefined = undefined_;
+  for (std::vector<Dual>* list : {&sensed, &out_}) {
+    for (Dual& x : *list) x.derivative = 0;
+  }
+  for (std::size_t k = 0; k < sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_->sensors[k];
+    if (sensor.what == What::velocity && sensor.motion < 0 && sensor.index == node) sensed[k] = Dual(velocity, 1);
+  }
+  stale_ = stale_ || has_functions();
+  for (const int index : run_) {
+    const std::size_t k = at(index);
+    const Blocks::Block& block = blocks_->blocks[k];
+    if (block.law.state || !follows_velocity(index, node)) continue;
+    const Dual u = input(block);
+    if (block.function) {
+      // Not the rate of the output, which time changes too.
+      out_[k] = of_function(index, false).value;
+      for (const Blocks::Input& in : block.inputs) out_[k].derivative += function(index)->partial(in.argument) * in.sign * source(in).derivative;
+    } else {
+      out_[k] = sampler_of_[k] >= 0 ? Dual(sampled(block)) : limited(block, {block.law.gain * u.value, block.law.gain * u.derivative});
+    }
+  }
+  std::vector<Dual> result;
+  for (const int block : blocks) result.push_back(out_[at(block)]);
+  sensed = sensed_before;
+  out_ = out_before;
+  undefined_ = undefined;
+  return result;
+}
+
 double BlockSignals::rate(std::size_t k) const {
   const Blocks::Block& block = blocks_->blocks[at(state_blocks_[k])];
   return block.law.gain * input(block).value - block.law.leak * state[k].value;

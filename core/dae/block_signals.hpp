@@ -70,6 +70,12 @@ class BlockSignals {
   /// function has its value.
   void run(bool sides);
   Dual out(int block) const { return out_[at(block)]; }
+  /// The outputs of these blocks if the velocity of a node were this one, all else being equal. Derivatives are by that velocity.
+  std::vector<Dual> supposed(const std::vector<int>& blocks, NodeId node, double velocity);
+  /// Whether any block senses a velocity that is not given as a function of time.
+  bool senses_velocities() const;
+  /// Whether an output depends on the velocity of a node at the same time.
+  bool follows_velocity(int block, NodeId node) const;
   /// Rate of a state [unit/s].
   double rate(std::size_t k) const;
 

@@ -62,6 +62,8 @@ class ConvexNetwork {
   Outcome solve();
 
   double value(int node) const { return base_[at(node)] + u_[at(node)]; }
+  /// Change from the start value.
+  double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }
   double difference(int a, int b) const;
   /// Force of a branch, after `solve`.
   double force(int branch) const;
@@ -70,6 +72,11 @@ class ConvexNetwork {
   Bounds bounds(int branch) const { return {branches_[at(branch)].law.low, branches_[at(branch)].law.high}; }
   /// Sign of w: 0 for a branch that joins its ends, the side of its force's bound if only others keep its ends together.
   int direction(int branch) const;
+  /// Sign of w: 0 also for a branch at a bound whose ends others keep together.
+  int motion(int branch) const {
+    const double w = branches_[at(branch)].w;
+    return w > 0 ? 1 : w < 0 ? -1 : 0;
+  }
   /// Whether sticking branches join these nodes. After `solve`.
   bool joined(int a, int b) const { return cluster_[at(a)] == cluster_[at(b)]; }
   /// Whether a prescribed node cannot move as prescribed, because laws without a bound hold it to another one. After `solve`.
@@ -113,7 +120,6 @@ class ConvexNetwork {
   double nodal_difference(const Branch& b) const {
     return b.law.of_change ? change(b.a) - change(b.b) : difference(b.a, b.b);
   }
-  double change(int node) const { return (base_[at(node)] - origin_[at(node)]) + u_[at(node)]; }
   void follow(int node, int head);
   double force(const Branch& b, double w, int side) const;
   double slope(const Branch& b, double w) const;

@@ -114,6 +114,7 @@ class EventTransition {
                    const Nodal& now, const std::vector<double>& train_force);
   bool breaks_loose(const ModeSelection& selection) const;
   bool holds(const ModeSelection& selection, std::size_t slider) const;
+  void hold_by_trains(DisjointSets& held) const;
   void count_from_turns(State& state) const;
   void stop_at_turns(const Fired& fired, const Modes& modes, State& state);
   void add_nodes(ModeSelection& selection, const State& state) const;

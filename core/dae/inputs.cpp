@@ -19,6 +19,11 @@ std::vector<char> firm(const Structure& classified) {
 
 }  // namespace
 
+double start_velocity(const Network& network, const Network::Motion& motion) {
+  const double given = network.node(motion.node).velocity;
+  return std::isnan(given) ? 0 : given;
+}
+
 Inputs::Inputs(const Network& network, const Structure& classified, double start, const std::vector<double>& positions)
     : network_(&network),
       stop_(network.scene->stop - network.scene->start),
@@ -28,11 +33,11 @@ Inputs::Inputs(const Network& network, const Structure& classified, double start
   base_.assign(blocks_.atoms(), {});
 
   for (const Network::Motion& m : network.motions) {
-    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .piece = {}, .anchor_time = start};
+    Motion motion{.element = m.element, .block = m.block, .signal = m.signal, .by_position = m.position, .by_acceleration = m.acceleration, .piece = {}, .anchor_time = start};
     moves_by_blocks_ = moves_by_blocks_ || m.block >= 0;
     motion.anchor = positions[static_cast<std::size_t>(m.node)];
     // Until the first `enter` the node rests at its position before the run.
-    motion.piece.level = m.position ? motion.anchor : 0;
+    motion.piece.level = m.position ? motion.anchor : m.acceleration ? start_velocity(network, m) : 0;
     motions_.push_back(std::move(motion));
   }
   for (const Network::Force& f : network.forces) forces_.push_back({f.element, f.signal, {}});
@@ -79,7 +84,12 @@ void Inputs::enter(double t, bool jumps) {
     const double before = position_of(m, now), rounding = m.piece.rounding(t);
     m.anchor = before;
     m.anchor_time = now;
-    m.piece = m.signal.piece(t);
+    Piece next = m.signal.piece(t);
+    if (m.by_acceleration) {
+      next = next.integral_from(t, m.piece.value(t));
+      next.begin_value += (m.piece.rate(t) - next.rate(t)) * now.rest;  // they meet at the exact time
+    }
+    m.piece = next;
     const double step = position_of(m, now) - before;
     // A corner of a position signal leaves a difference of round-off, which is no step.
     steps_[i] = std::abs(step) <= rounding + m.piece.rounding(t) ? 0 : step;
@@ -112,7 +122,7 @@ std::vector<Inputs::Break> Inputs::breaks(double t) const {
     const double change = jumps ? step : bends ? bend : 0;
     result.push_back({element, jumps ? "jump" : "corner", change < 0 ? -1 : change > 0 ? 1 : 0});
   };
-  for (const Motion& m : motions_) look(m.element, m.signal, m.piece);
+  for (const Motion& m : motions_) look(m.element, m.signal, m.piece.integrand());
   for (const Force& f : forces_) look(f.element, f.signal, f.piece);
   for (const BlockSignals::Generator& g : blocks_.generators()) look(g.element, *g.signal, *g.piece);
   for (const int block : blocks_.due(t)) result.push_back({blocks_.blocks().blocks[static_cast<std::size_t>(block)].element, "sample", 0});
@@ -197,6 +207,35 @@ void Inputs::apply_blocks() {
   }
 }
 
+bool Inputs::bounds_follow(std::size_t k, NodeId node) const {
+  const std::vector<Network::VaryingParameter>& varying = network_->sliders[k].varying;
+  return std::any_of(varying.begin(), varying.end(), [&](const Network::VaryingParameter& v) { return blocks_.follows_velocity(v.block, node); });
+}
+
+Box Inputs::supposed_box(std::size_t k, NodeId node, double velocity) {
+  const Network::Slider& slider = network_->sliders[k];
+  std::vector<int> blocks;
+  for (const Network::VaryingParameter& v : slider.varying) blocks.push_back(v.block);
+  const std::vector<Dual> outputs = blocks_.supposed(blocks, node, velocity);
+  std::vector<Dual> values(slider.values.begin(), slider.values.end());
+  for (std::size_t i = 0; i < outputs.size(); ++i) values[at(slider.varying[i].parameter)] = Dual(slider.varying[i].sign) * outputs[i];
+  if (slider.train < 0) return slider.component->box(values);
+  std::vector<double> present, slopes;
+  for (const Dual& value : values) {
+    present.push_back(value.value);
+    slopes.push_back(value.derivative);
+  }
+  const Loss loss = loss_law(slider)(present), by = loss_law(slider)(slopes);
+  const double force = train_force_[at(slider.train)];
+  const auto lost = [&](int side) -> Bounds {
+    const Loss::Line line = loss.slope(side, loss.b_drives(side, force), by);
+    const double value = loss.lost(side, force);
+    const Dual bound(value, value > 0 ? side * (line.factor * force + line.offset) : 0);
+    return {bound, bound};
+  };
+  return {lost(1), lost(-1)};
+}
+
 const std::function<Loss(std::span<const double>)>& Inputs::loss_law(const Network::Slider& slider) const {
   return components()[at(network_->element_of(slider.branch).declaration)]->loss;
 }
@@ -272,6 +311,14 @@ void Inputs::sense(double t, const State& state) {
   blocks_.choose();
   blocks_.take_samples();
   anew();
+}
+
+void Inputs::accelerate(const std::vector<double>& acceleration) {
+  for (std::size_t k = 0; k < blocks_.sensed.size(); ++k) {
+    const Blocks::Sensor& sensor = blocks_.blocks().sensors[k];
+    if (sensor.what == Blocks::Sensor::What::velocity) base_[blocks_.states() + k].derivative = acceleration[at(sensor.index)];
+  }
+  time_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 void Inputs::settle_blocks(double t, State& state) {

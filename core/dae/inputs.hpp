@@ -16,6 +16,9 @@
 
 namespace rheonet {
 
+/// Velocity with which a motion by acceleration begins [m/s].
+double start_velocity(const Network& network, const Network::Motion& motion);
+
 /// All given functions of time: prescribed motions and applied forces, each on the smooth piece of its signal that holds now. A
 /// force or velocity given by a block depends on more than time: see `sense`.
 class Inputs {
@@ -54,6 +57,8 @@ class Inputs {
   /// Gives blocks the state of the network at t; limiters take the sides that fit it. Afterwards `evaluate` extrapolates states
   /// and sensor values at their present rates (velocities stay). Without blocks just `evaluate`.
   void sense(double t, const State& state);
+  /// Afterwards `evaluate` extrapolates the velocities that blocks sense too, at these accelerations of the nodes; until the next `sense`.
+  void accelerate(const std::vector<double>& acceleration);
   BlockSignals& blocks() { return blocks_; }
   const BlockSignals& blocks() const { return blocks_; }
   /// Takes forces, velocities, parameters of sliders and their rates from the present outputs of the blocks.
@@ -93,6 +98,10 @@ class Inputs {
     const int side = s.contact ? network_->contact_of(s) : 0;
     return side == 0 ? box_[slider] : s.contact->at(side);
   }
+  /// Whether the bounds of a slider depend on the velocity of this node at the same time.
+  bool bounds_follow(std::size_t slider, NodeId node) const;
+  /// The box of such a slider if the velocity of the node were this one, all else being as last sensed. Derivatives are by that velocity.
+  Box supposed_box(std::size_t slider, NodeId node, double velocity);
   /// Bounds of the losses of trains with these forces [N].
   void transmit(const std::vector<double>& train_force);
   /// Losses of a train at its present speed.
@@ -119,8 +128,8 @@ class Inputs {
     int element;
     int block;
     Signal signal;
-    bool by_position;
-    Piece piece;
+    bool by_position, by_acceleration;
+    Piece piece;             ///< of the position, or of the velocity
     TimePoint anchor_time;
     double anchor = 0;  ///< position at a time, from which a velocity is integrated
   };

@@ -36,6 +36,7 @@ struct EventTransition::ModeSelection {
   std::vector<double> creep, at_rest;  // of each deflection branch
   std::vector<int> slider, bound_side;
   std::vector<double> train_force;  // of each train, at the end of h: the bounds of losses depend on it; empty: gears with losses stand still
+  std::vector<Loss> loss;           // of each train, at the end of h
 
   void meet(const Structure& structure, const Branch& b, double slope) {
     for (const NodeId n : {b.a, b.b}) {
@@ -51,10 +52,22 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   for (std::size_t m = 0; m < network_.motions.size(); ++m) state.velocity[at(network_.motions[m].node)] = inputs_.velocity[m];
   const Nodal now = nodal(state, force, true);
   stop_at_turns(fired, modes, state);
-  ModeSelection selection = look_ahead(t, h, fired, state, modes, force, now);
+  const auto ahead = [&](double step) {
+    ModeSelection selection = look_ahead(t, step, fired, state, modes, force, now);
+    if (!inputs_.blocks().senses_velocities()) return selection;
+    // Forces and bounds that blocks compute from velocities change with the accelerations. A first solution gives these.
+    std::vector<double> acceleration(nodes, 0);
+    for (std::size_t n = 0; n < nodes; ++n) {
+      if (structure_.kind[n] == Kind::massive) acceleration[n] = selection.problem.change(slot(static_cast<NodeId>(n))) / step;
+    }
+    inputs_.accelerate(acceleration);
+    inputs_.evaluate(t);
+    return look_ahead(t, step, fired, state, modes, force, now);
+  };
+  ModeSelection selection = ahead(h);
   const double least = std::max(time_roundoff(t), numerics::present_step * h);
-  if (breaks_loose(selection) && h > least && !breaks_loose(look_ahead(t, least, fired, state, modes, force, now))) {
-    while (breaks_loose(selection)) selection = look_ahead(t, h = std::max(least, numerics::onset_step_ratio * h), fired, state, modes, force, now);
+  if (breaks_loose(selection) && h > least && !breaks_loose(ahead(least))) {
+    while (breaks_loose(selection)) selection = ahead(h = std::max(least, numerics::onset_step_ratio * h));
   }
   const ConvexNetwork& problem = selection.problem;
   refuse_blocked_motions(t, problem);
@@ -68,6 +81,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     if (holds(selection, k)) held.join(network_.sliders[k].branch.a, network_.sliders[k].branch.b);
   }
+  hold_by_trains(held);
   for (std::size_t k = 0; k < selection.slider.size(); ++k) {
     const Branch& b = network_.sliders[k].branch;
     // A slider at its bound, while others hold its ends, sticks: the forces of all of them are those of least norm.
@@ -83,7 +97,7 @@ std::vector<int> EventTransition::select_modes(double t, double h, const Fired& 
   rest_beside_sliders(fired, state, modes);
   for (std::size_t k = 0; k < network_.trains.size(); ++k) {
     const Network::Train& train = network_.trains[k];
-    if (train.loss) modes.b_drives[k] = inputs_.loss(k).b_drives(modes.slider[at(train.friction)], selection.train_force[k]);
+    if (train.loss) modes.b_drives[k] = selection.loss[k].b_drives(modes.slider[at(train.friction)], selection.train_force[k]);
   }
   return broken;
 }
@@ -123,7 +137,7 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
               .problem = ConvexNetwork(static_cast<int>(nodes)), .slope_around = std::vector<double>(nodes, 0),
               .law = std::vector<int>(state.p.size(), -1), .creep = std::vector<double>(state.p.size()),
               .at_rest = std::vector<double>(state.p.size()), .slider = std::vector<int>(network_.sliders.size()),
-              .bound_side = std::vector<int>(network_.sliders.size()), .train_force = train_force};
+              .bound_side = std::vector<int>(network_.sliders.size()), .train_force = train_force, .loss = {}};
   add_nodes(selection, state);
   add_inputs(selection);
   add_deflection_laws(selection, state);
@@ -136,6 +150,27 @@ EventTransition::ModeSelection EventTransition::look_ahead(double t, double h, c
     report_undecided(network_, at_time(*network_.scene, t));
   }
   return selection;
+}
+
+/// A train whose other two nodes are held together holds its last node there too, if its equation permits equal velocities. At ground it does: all are 0.
+void EventTransition::hold_by_trains(DisjointSets& held) const {
+  for (bool again = true; again;) {
+    again = false;
+    for (const Network::Train& train : network_.trains) {
+      double sum = 0, size = 0;
+      for (const double factor : train.factor) {
+        sum += factor;
+        size += std::abs(factor);
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const NodeId last = train.node[i], one = train.node[(i + 1) % 3], other = train.node[(i + 2) % 3];
+        if (held.find(one) != held.find(other) || held.find(last) == held.find(one)) continue;
+        if (held.find(one) != held.find(ground) && std::abs(sum) > numerics::equal_given_values * size) continue;
+        held.join(last, one);
+        again = true;
+      }
+    }
+  }
 }
 
 /// Whether a slider joins its ends after the event.
@@ -184,6 +219,7 @@ void EventTransition::add_inputs(ModeSelection& selection) {
     selection.problem.load(slot(network_.forces[k].a), change_of_load);
     if (network_.forces[k].b >= 0) selection.problem.load(slot(network_.forces[k].b), -change_of_load);
   }
+  for (std::size_t k = 0; k < network_.trains.size(); ++k) selection.loss.push_back(inputs_.loss(k));
   inputs_.evaluate(selection.t);
 }
 
@@ -259,7 +295,7 @@ void EventTransition::add_sliders(ModeSelection& selection) const {
       continue;
     }
     const auto change = [&](int side) {
-      return train < 0 ? selection.h * bound_rate(k, side) : inputs_.loss(at(train)).lost(side, selection.train_force[at(train)]) - bound(k, side);
+      return train < 0 ? selection.h * bound_rate(k, side) : selection.loss[at(train)].lost(side, selection.train_force[at(train)]) - bound(k, side);
     };
     const double forward = change(1), backward = change(-1);
     ConvexNetwork::Law law{.low = -bound(k, -1) - force - backward, .high = bound(k, 1) - force + forward};

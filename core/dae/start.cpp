@@ -86,8 +86,9 @@ void follow_displacements(const Network& network, std::vector<double>& x, std::v
 }
 
 /// Velocity at the start; not_given if a block gives it.
-double initial_velocity(const Network::Motion& motion) {
+double initial_velocity(const Network& network, const Network::Motion& motion) {
   if (motion.block >= 0) return not_given;
+  if (motion.acceleration) return start_velocity(network, motion);
   return motion.position ? motion.signal.piece(0).rate(0) : motion.signal.value(0);
 }
 
@@ -151,7 +152,7 @@ void follow_motion(const Network& network, const Network::Motion& motion, Places
     }
     x = there_already ? after : before;
   }
-  if (const double velocity = initial_velocity(motion); contradicts(node, velocity)) {
+  if (const double velocity = initial_velocity(network, motion); contradicts(node, velocity)) {
     refuse_velocity(network, node,
                     fmt::format("motion `{}` gives it {}; leave out one of them", name, with_unit(scene, node, velocity, Quantity::velocity)));
   }
@@ -192,7 +193,7 @@ void refuse_velocities_against_links(const Network& network) {
   const auto leader_of = [&](NodeId node) -> Leader& { return leader[static_cast<std::size_t>(linked.find(node))]; };
   leader_of(ground) = {ground, 0, "the ground"};
   for (const Network::Motion& m : network.motions) {
-    const double velocity = initial_velocity(m);
+    const double velocity = initial_velocity(network, m);
     leader_of(m.node) = {m.node, velocity, fmt::format("node `{}`, which motion `{}` gives {}", network.node_name(m.node),
                                                network.scene->elements[static_cast<std::size_t>(m.element)].name,
                                                with_unit(*network.scene, network.node(m.node), velocity, Quantity::velocity))};

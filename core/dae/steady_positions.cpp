@@ -79,7 +79,7 @@ ConvexNetwork SteadyStateSolver::position_problem(const Forces& forces, const st
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     const Network::Slider& s = network_.sliders[k];
     if (direction[k] != 0) {
-      const double f = result_.slider_force[k] = direction[k] * bound(k, direction[k]);
+      const double w = difference(s.branch), f = result_.slider_force[k] = direction[k] * friction(k, direction[k], w).at(direction[k] * w);
       problem.load(slot(s.branch.a), -f);
       problem.load(slot(s.branch.b), f);
       continue;
@@ -103,15 +103,17 @@ bool SteadyStateSolver::find_positions() {
   for (int n = 0; again; ++n) {
     problem = position_problem(forces, slip_, slider_branch);
     open = fix_positions(problem, forces.hang);
-    solve(problem, std::numeric_limits<double>::infinity());
-    again = n < numerics::contact_iterations && press_contacts(problem, slider_branch);
+    const ConvexNetwork::Outcome outcome = problem.solve();
     take_train_forces(problem, trials);
-    again = !agree(trials) || again;
+    again = !agree(trials);
+    if (!again) refuse_unbalanced(problem, outcome, std::numeric_limits<double>::infinity());
+    const bool balanced = outcome == ConvexNetwork::Outcome::solved;
+    again = (balanced && n < numerics::contact_iterations && press_contacts(problem, slider_branch)) || again;
   }
   std::vector<int> slid(slip_.size(), 0), direction = slip_;
   for (std::size_t k = 0; k < slip_.size(); ++k) {
     if (slip_[k] != 0 || has_contact(k)) continue;
-    direction[k] = slid[k] = problem.direction(slider_branch[k]);
+    direction[k] = slid[k] = problem.motion(slider_branch[k]);
   }
   if (break_away(slid)) return false;
   // Once more, with tangents and with the forces of sliders that have slid on the way: this removes the effect of regularising slopes.

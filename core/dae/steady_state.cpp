@@ -17,10 +17,16 @@ SteadyStateSolver::SteadyStateSolver(const Network& network, const Structure& cl
       velocity_(classified.kind.size(), 0),
       load_(velocity_),
       load_magnitude_(velocity_),
-      broken_(network.sliders.size(), 0) {
-  if (std::any_of(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); })) losses_ = Losses::none;
+      follows_(network.sliders.size(), -1),
+      broken_(network.sliders.size(), 0),
+      losses_known_(std::none_of(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); })) {
   result_.modes = {std::vector<signed char>(network.sliders.size(), Modes::stuck), std::vector<char>(network.trains.size(), 0)};
   result_.slider_force.assign(network.sliders.size(), 0);
+  for (std::size_t k = 0; k < network.sliders.size(); ++k) {
+    for (const NodeId node : {network.sliders[k].branch.a, network.sliders[k].branch.b}) {
+      if (follows_[k] < 0 && inputs_.bounds_follow(k, node)) follows_[k] = node;
+    }
+  }
   for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       laws_.push_back({laws.batch.get(), i, laws.batch->steady(i), 0});

@@ -67,11 +67,20 @@ class SteadyStateSolver {
 
   /// A displacement that has a bound cannot change for ever in its direction.
   double bound(std::size_t slider, int side) const {
-    if (network_.sliders[slider].train >= 0 && losses_ != Losses::known) return losses_ == Losses::none ? 0 : std::numeric_limits<double>::infinity();
-    const std::optional<Contact>& contact = network_.sliders[slider].contact;
-    const Bounds& bounds = (contact ? contact->at(side) : inputs_.box(slider)).at(side);
-    return broken_[slider] ? bounds.sliding.value : bounds.breakaway.value;
+    if (network_.sliders[slider].train >= 0 && !losses_known_) return 0;
+    return friction(slider, side, 0).at(0);
   }
+  /// The state that blocks sense.
+  const State& trial() const { return block_trials_ > 0 ? trial_ : begun_; }
+  bool follows_speed(std::size_t slider) const { return follows_[slider] >= 0; }
+  Bounds bounds_at(std::size_t slider, int side, double w) const;
+  /// Force of a slider that slips to one side, as a function of its speed: a tangent where that rises, a constant where it would fall.
+  struct Friction {
+    double speed, force, slope;
+    double at(double faster) const { return std::max(0.0, force + slope * (faster - speed)); }
+    double slope_at(double faster) const { return at(faster) > 0 ? slope : 0; }
+  };
+  Friction friction(std::size_t slider, int side, double w) const;
   bool has_contact(std::size_t slider) const { return network_.sliders[slider].contact.has_value(); }
   bool rigid(std::size_t slider) const { return is_rigid_link(network_.sliders[slider]); }
 
@@ -105,9 +114,11 @@ class SteadyStateSolver {
   void add_trains(ConvexNetwork& problem, Slot slot_of) const {
     for (const Network::Train& train : network_.trains) problem.tie({slot_of(train.node[0]), slot_of(train.node[1]), slot_of(train.node[2])}, train.factor, 0);
   }
+  void add_steady_laws(ConvexNetwork& problem, std::vector<int>& branch_of) const;
+  void add_steady_sliders(ConvexNetwork& problem, std::vector<int>& branch_of) const;
   void add_rates(ConvexNetwork& problem, double scale) const;
   double natural_speed(double force) const;
-  void solve(ConvexNetwork& problem, double far) const;
+  void refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const;
   void take_velocities(const ConvexNetwork& problem);
   bool refine_velocities(double scale, TrainForceTrials& trials);
   void refuse_motion() const;
@@ -136,15 +147,15 @@ class SteadyStateSolver {
   std::vector<double> load_, load_magnitude_;  ///< applied at each node
   std::vector<NodeId> leader_;    ///< of each node: the node that represents all that move with it
   std::vector<NodeId> pinned_;    ///< their velocity is given because nothing else determines it
+  std::vector<NodeId> follows_;   ///< of each slider whose bounds depend on its own velocity: the end whose velocity they are evaluated with; else -1
   std::vector<char> broken_;      ///< of each slider: it has broken away
   std::vector<int> slip_;         ///< of each slider: its direction
   std::vector<double> pressed_;   ///< of each slider with a gauge: estimate of its force [N]
   double contact_stiffness_ = 0;  ///< of these estimates [N/m]
   double largest_load_ = 0;
   TrainForceTrials trials_{network_, inputs_, std::vector<double>(network_.trains.size(), 0), 0};  ///< for the balance at the velocities
-  /// What trains with losses do: the first balance is without losses, the second one, if that has no answer, with gears that stand still.
-  enum class Losses : char { none, locked, known };
-  Losses losses_ = Losses::known;
+  bool losses_known_;  ///< of the trains; the first balance is without losses
+  bool along_curves_ = false;  ///< friction is that at each velocity, not the tangent at the last trial
   State begun_, trial_;   ///< the state that blocks sense: at first, and at the last trial
   int block_trials_ = 0;  ///< after the first one
   SteadyStart result_;

@@ -1,3 +1,6 @@
+#include <array>
+#include <limits>
+
 #include "core/base/numerics.hpp"
 #include "core/dae/rate_law.hpp"
 #include "core/dae/steady_state_solver.hpp"
@@ -24,52 +27,38 @@ bool SteadyStateSolver::find_velocities() {
   DisjointSets rigid(velocity_.size());
   for_each_rigid([&](const Branch& b) { rigid.join(b.a, b.b); });
   lead(rigid);
-  ConvexNetwork problem = velocity_problem();
-  std::vector<int> law_branch(laws_.size(), -1), slider_branch(network_.sliders.size(), -1);
   double scale = largest_load_;
   for (const Law& law : laws_) {
     for (double f : {law.steady.rest, law.steady.bound}) scale = std::isfinite(f) ? std::max(scale, f) : scale;
   }
-  for (std::size_t j = 0; j < laws_.size(); ++j) {
-    const Branch& b = network_.deflections[j];
-    const DeflectionBatch::Steady& s = laws_[j].steady;
-    if (together(b)) continue;
-    ConvexNetwork::Law law{.low = -s.rest, .high = s.rest, .backward = s.slope, .forward = s.slope};
-    if (s.slope > 0 && std::isfinite(s.bound)) {
-      law.beyond = [s](double w, double& slope) {
-        const double f = s.slope * w;
-        slope = std::abs(f) < s.bound ? s.slope : numerics::steady_bound_slope * s.slope;
-        return std::clamp(f, -s.bound, s.bound);
-      };
-    }
-    law_branch[j] = problem.add(leader(b.a), leader(b.b), law);
-  }
-  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
-    const Network::Slider& s = network_.sliders[k];
-    if (!together(s.branch)) {
-      slider_branch[k] = problem.add(leader(s.branch.a), leader(s.branch.b), {.low = -bound(k, -1), .high = bound(k, 1)});
-    }
-  }
-  add_rates(problem, scale);
-  if (losses_ != Losses::none) {
-    solve(problem, numerics::unresisted_speed * natural_speed(scale));
-  } else if (problem.solve() != ConvexNetwork::Outcome::solved) {
-    losses_ = Losses::locked;
-    return false;
-  }
-
-  if (losses_ != Losses::known) {
-    losses_ = Losses::known;
+  ConvexNetwork problem(0);
+  std::vector<int> law_branch, slider_branch;
+  const auto solve = [&](bool along_curves) {
+    along_curves_ = along_curves;
+    problem = velocity_problem();
+    add_steady_laws(problem, law_branch);
+    add_steady_sliders(problem, slider_branch);
+    add_rates(problem, scale);
+    return problem.solve();
+  };
+  ConvexNetwork::Outcome outcome = solve(false);
+  // Friction that rises with the speed may balance at some speed what it does not balance along its tangent at the present trial.
+  const bool rises = std::any_of(follows_.begin(), follows_.end(), [](NodeId node) { return node >= 0; });
+  if (outcome == ConvexNetwork::Outcome::unbounded && losses_known_ && rises) outcome = solve(true);
+  if (!losses_known_) {
+    losses_known_ = true;
     state_.train_force = problem.forces_of_equations();
     trials_ = TrainForceTrials(network_, inputs_, state_.train_force, scale);
     inputs_.transmit(state_.train_force);
     return false;
   }
+  // The losses at trial forces may be too small to hold the load: only forces that agree with their losses show an overload.
   take_train_forces(problem, trials_);
   if (!agree(trials_)) return false;
+  refuse_unbalanced(problem, outcome, numerics::unresisted_speed * natural_speed(scale));
   slip_.assign(network_.sliders.size(), 0);
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    slip_[k] = slider_branch[k] < 0 ? 0 : problem.direction(slider_branch[k]);
+    slip_[k] = slider_branch[k] < 0 ? 0 : problem.motion(slider_branch[k]);
   }
   if (break_away(slip_)) return false;
   for (std::size_t j = 0; j < laws_.size(); ++j) {
@@ -88,6 +77,43 @@ bool SteadyStateSolver::find_velocities() {
   return true;
 }
 
+/// Laws with a memory, by their steady forces; `branch_of`: of each, its branch of the problem, or -1.
+void SteadyStateSolver::add_steady_laws(ConvexNetwork& problem, std::vector<int>& branch_of) const {
+  branch_of.assign(laws_.size(), -1);
+  for (std::size_t j = 0; j < laws_.size(); ++j) {
+    const Branch& b = network_.deflections[j];
+    const DeflectionBatch::Steady& s = laws_[j].steady;
+    if (together(b)) continue;
+    ConvexNetwork::Law law{.low = -s.rest, .high = s.rest, .backward = s.slope, .forward = s.slope};
+    if (s.slope > 0 && std::isfinite(s.bound)) {
+      law.beyond = [s](double w, double& slope) {
+        const double f = s.slope * w;
+        slope = std::abs(f) < s.bound ? s.slope : numerics::steady_bound_slope * s.slope;
+        return std::clamp(f, -s.bound, s.bound);
+      };
+    }
+    branch_of[j] = problem.add(leader(b.a), leader(b.b), law);
+  }
+}
+
+void SteadyStateSolver::add_steady_sliders(ConvexNetwork& problem, std::vector<int>& branch_of) const {
+  branch_of.assign(network_.sliders.size(), -1);
+  for (std::size_t k = 0; k < network_.sliders.size(); ++k) {
+    const Network::Slider& s = network_.sliders[k];
+    if (together(s.branch)) continue;
+    ConvexNetwork::Law law{.low = -bound(k, -1), .high = bound(k, 1)};
+    if (follows_speed(k) && (s.train < 0 || losses_known_)) {
+      law.beyond = [this, k, tangents = std::array{friction(k, -1, 0), friction(k, 1, 0)}](double w, double& slope) {
+        const int side = w > 0 ? 1 : -1;
+        const Friction of = along_curves_ ? friction(k, side, w) : tangents[side > 0];
+        slope = of.slope_at(side * w);
+        return side * of.at(side * w);
+      };
+    }
+    branch_of[k] = problem.add(leader(s.branch.a), leader(s.branch.b), std::move(law));
+  }
+}
+
 /// True if the forces of the trains are those that the bounds of their losses were found from. If not, there are new bounds.
 bool SteadyStateSolver::agree(TrainForceTrials& trials) {
   if (trials.agree(state_.train_force)) return true;
@@ -100,11 +126,34 @@ bool SteadyStateSolver::agree(TrainForceTrials& trials) {
 bool SteadyStateSolver::break_away(const std::vector<int>& direction) {
   bool any = false;
   for (std::size_t k = 0; k < direction.size(); ++k) {
+    if (direction[k] == 0 || broken_[k]) continue;
     const Bounds& bounds = inputs_.box(k).at(direction[k]);
-    if (direction[k] == 0 || broken_[k] || bounds.breakaway.value == bounds.sliding.value) continue;
+    if (!follows_speed(k) && bounds.breakaway.value == bounds.sliding.value) continue;
     broken_[k] = any = true;
   }
   return any;
+}
+
+/// Bounds of a slider at the velocity w. Those that depend on other quantities too are those at the present trial of these.
+Bounds SteadyStateSolver::bounds_at(std::size_t slider, int side, double w) const {
+  if (has_contact(slider)) return network_.sliders[slider].contact->at(side).at(side);
+  if (!follows_speed(slider)) return inputs_.box(slider).at(side);
+  const Branch& b = network_.sliders[slider].branch;
+  const bool first = follows_[slider] == b.a;
+  const double other = trial().velocity[at(first ? b.b : b.a)];
+  return inputs_.supposed_box(slider, follows_[slider], first ? other + w : other - w).at(side);
+}
+
+/// Friction around the velocity w, or around that of the present trial.
+SteadyStateSolver::Friction SteadyStateSolver::friction(std::size_t slider, int side, double w) const {
+  const Branch& b = network_.sliders[slider].branch;
+  if (follows_speed(slider) && !along_curves_) w = trial().velocity[at(b.a)] - trial().velocity[at(b.b)];
+  const Bounds bounds = bounds_at(slider, side, w);
+  const Dual bound = broken_[slider] ? bounds.sliding : bounds.breakaway;
+  // A curve that overflows resists any force.
+  if (std::isnan(bounds.sliding.value)) return {side * w, std::numeric_limits<double>::infinity(), 0};
+  const bool rises = follows_speed(slider) && side * w >= 0;
+  return {side * w, bound.value, rises ? std::max(0.0, side * (follows_[slider] == b.a ? 1 : -1) * bound.derivative) : 0};
 }
 
 ConvexNetwork SteadyStateSolver::velocity_problem() const {
@@ -148,9 +197,8 @@ double SteadyStateSolver::natural_speed(double force) const {
   return speed;
 }
 
-/// Solves the problem; values beyond `far` have run away.
-void SteadyStateSolver::solve(ConvexNetwork& problem, double far) const {
-  const ConvexNetwork::Outcome outcome = problem.solve();
+/// Refuses a problem without a solution; values beyond `far` have run away.
+void SteadyStateSolver::refuse_unbalanced(const ConvexNetwork& problem, ConvexNetwork::Outcome outcome, double far) const {
   if (outcome == ConvexNetwork::Outcome::solved) return;
   std::vector<NodeId> nodes;
   for (std::size_t n = 0; n < structure_.rank.size(); ++n) {
@@ -196,7 +244,13 @@ bool SteadyStateSolver::refine_velocities(double scale, TrainForceTrials& trials
     }
   }
   for (std::size_t k = 0; k < slip_.size(); ++k) {
-    if (slip_[k] != 0) push(network_.sliders[k].branch, slip_[k] * inputs_.box(k).at(slip_[k]).sliding.value);
+    if (slip_[k] == 0) continue;
+    const Branch& b = network_.sliders[k].branch;
+    const double speed = slip_[k] * difference(b);
+    const Friction of = friction(k, slip_[k], difference(b));
+    const double slope = of.slope_at(speed);
+    push(b, slip_[k] * (of.at(speed) - slope * speed));
+    if (slope > 0) problem.add(leader(b.a), leader(b.b), {.backward = slope, .forward = slope});
   }
   add_rates(problem, scale);
   if (problem.solve() != ConvexNetwork::Outcome::solved) return true;

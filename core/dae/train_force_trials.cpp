@@ -10,7 +10,8 @@
 namespace rheonet {
 
 TrainForceTrials::TrainForceTrials(const Network& network, const Inputs& inputs, const std::vector<double>& first, double forces)
-    : network_(&network), inputs_(&inputs), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))) {}
+    : network_(&network), inputs_(&inputs), forces_(forces), trial_(Eigen::Map<const Eigen::VectorXd>(first.data(), static_cast<Eigen::Index>(first.size()))),
+      points_(1 + static_cast<std::size_t>(std::count_if(network.trains.begin(), network.trains.end(), [](const Network::Train& train) { return train.loss.has_value(); }))) {}
 
 bool TrainForceTrials::agree(const std::vector<double>& found) {
   Eigen::VectorXd miss = Eigen::VectorXd::Zero(trial_.size());
@@ -24,7 +25,7 @@ bool TrainForceTrials::agree(const std::vector<double>& found) {
   }
   // Within round-off it goes on as long as that brings more digits.
   const double off = miss.lpNorm<Eigen::Infinity>(), before = std::exchange(off_, off);
-  if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off > before / 2)) return true;
+  if (off <= numerics::balance_roundoff * size && (off <= numerics::equation_roundoff * size || off >= before)) return true;
   Eigen::VectorXd next = points_.next(trial_, trial_ + miss);
   if (count_++ == 0 && near_) next = trial_ * (1 + numerics::near_trial);
   trial_ = std::move(next);

@@ -11,8 +11,8 @@
 namespace rheonet {
 
 /// Trial forces of the trains. The bounds of losses depend on the forces of their trains, which follow from a balance of forces within
-/// these bounds: the balance is solved again until both agree. Each is a piecewise linear function of the other, so that a secant
-/// through two trials (FixedPoint) meets them.
+/// these bounds: the balance is solved again until both agree. Each is a piecewise linear function of the other, which a combination of
+/// trials (FixedPoint) meets.
 class TrainForceTrials {
  public:
   /// `forces`: size of the forces in the balance [N]. Trials that agree to their round-off agree.
@@ -36,7 +36,7 @@ class TrainForceTrials {
   int count_ = 0;
   bool near_ = false;  ///< the second trial is near the first
   Eigen::VectorXd trial_;
-  FixedPoint points_{2};
+  FixedPoint points_;  ///< combines one trial more than trains have losses
 };
 
 }  // namespace rheonet

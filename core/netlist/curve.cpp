@@ -61,10 +61,12 @@ Curve::Curve(std::vector<double> times, std::vector<double> values) : times_(std
     for (std::size_t i = 1; i + 1 < n; ++i) rates_[i] = secants.monotone(rates_[i], i);
   }
   areas_.assign(1, 0);
+  areas_of_areas_.assign(1, 0);
   const auto enlarge = [](double& bound, double x) { bound = std::max(bound, std::abs(x)); };
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const Cubic c = from_point(i);
     const double h = secants.length[i];
+    areas_of_areas_.push_back(areas_of_areas_.back() + h * areas_.back() + twice(c, h));
     areas_.push_back(areas_.back() + h * (c.value + h * (c.rate / 2 + h * (c.square / 3 + h * c.cube / 4))));
     enlarge(largest_, values_[i]);
     enlarge(largest_, values_[i + 1]);
@@ -82,7 +84,7 @@ Curve::Curve(std::vector<double> times, std::vector<double> values) : times_(std
 Curve::Cubic Curve::from_point(std::size_t i) const {
   const double h = times_[i + 1] - times_[i], secant = (values_[i + 1] - values_[i]) / h;
   const double begins = rates_[i] - secant, ends = rates_[i + 1] - secant;
-  return {.tau = 0, .value = values_[i], .rate = rates_[i], .square = -(2 * begins + ends) / h, .cube = (begins + ends) / h / h, .area = areas_[i]};
+  return {.number = i, .tau = 0, .value = values_[i], .rate = rates_[i], .square = -(2 * begins + ends) / h, .cube = (begins + ends) / h / h, .area = areas_[i], .area_of_area = areas_of_areas_[i]};
 }
 
 Curve::Cubic Curve::at(double t) const {
@@ -106,6 +108,26 @@ double Curve::rate(double t) const {
 double Curve::curvature(double t) const {
   const Cubic c = at(t);
   return 2 * c.square + 6 * c.cube * c.tau;
+}
+
+/// Integral of the area from the beginning of the interval, up to tau.
+double Curve::twice(const Cubic& c, double tau) {
+  return tau * tau * (c.value / 2 + tau * (c.rate / 6 + tau * (c.square / 12 + tau * c.cube / 20)));
+}
+
+double Curve::area_of_area(double from, double to) const {
+  Cubic a = at(from);
+  const Cubic b = at(to);
+  if (a.number == b.number) {
+    // Within one interval, without the cancellation of a difference of two sums.
+    const double tau = a.tau;
+    a.value += (a.rate + (a.square + a.cube * tau) * tau) * tau;
+    a.rate += (2 * a.square + 3 * a.cube * tau) * tau;
+    a.square += 3 * a.cube * tau;
+    return twice(a, to - from);
+  }
+  const auto sum = [](const Cubic& c) { return c.area_of_area + c.tau * c.area + twice(c, c.tau); };
+  return (sum(b) - sum(a)) - (to - from) * area(from);
 }
 
 double Curve::area(double t) const {

@@ -19,6 +19,8 @@ class Curve {
   double curvature(double t) const;  ///< d2 value / dt2
   /// Integral of value from the first point to t.
   double area(double t) const;
+  /// Integral over t of the area from `from` to t, up to `to`.
+  double area_of_area(double from, double to) const;
 
   const std::vector<double>& rates() const { return rates_; }  ///< at the points
   double first() const { return times_.front(); }              ///< s
@@ -30,12 +32,13 @@ class Curve {
   double largest_third() const { return largest_third_; }  ///< of d3 value / dt3
 
  private:
-  /// value + (rate + (square + cube tau) tau) tau, where tau counts from the beginning of an interval; the area up to there.
-  struct Cubic { double tau, value, rate, square, cube, area; };
+  /// value + (rate + (square + cube tau) tau) tau, where tau counts from the beginning of an interval; the area up to there, and its integral.
+  struct Cubic { std::size_t number; double tau, value, rate, square, cube, area, area_of_area; };
   Cubic at(double t) const;
   Cubic from_point(std::size_t i) const;
+  static double twice(const Cubic& c, double tau);
 
-  std::vector<double> times_, values_, rates_, areas_;
+  std::vector<double> times_, values_, rates_, areas_, areas_of_areas_;
   double largest_ = 0, largest_rate_ = 0, largest_curvature_ = 0, largest_third_ = 0;
 };
 

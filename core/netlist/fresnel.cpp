@@ -30,15 +30,21 @@ struct Sweep {
 
   double angle(double t) const { return phase + (omega + chirp * t / 2) * t; }
 
-  double by_panels(double a, double b, double panels) const {
+  /// Of this function times (b - t)^power.
+  double by_panels(double a, double b, double panels, int power = 0) const {
     const double half = (b - a) / panels / 2;
     double sum = 0;
     for (double panel = 0; panel < panels; ++panel) {
       const double centre = a + (2 * panel + 1) * half;
       for (const auto& [x, weight] : gauss)
-        for (const double t : {centre - x * half, centre + x * half}) sum += weight * std::sin(angle(t));
+        for (const double t : {centre - x * half, centre + x * half}) sum += weight * (power == 0 ? 1 : b - t) * std::sin(angle(t));
     }
     return half * sum;
+  }
+
+  /// Panels that the interval takes.
+  double panels(double a, double b) const {
+    return std::max(1.0, std::ceil(std::max(std::abs(omega + chirp * a), std::abs(omega + chirp * b)) * std::abs(b - a) / panel_angle));
   }
 
   /// Integral from t to infinity, for chirp > 0; the frequency at t is `rate` >= 0 [rad/s].
@@ -86,14 +92,21 @@ double integral_of_chirp(double phase, double omega, double chirp, double a, dou
   if (b < a) return -integral_of_chirp(phase, omega, chirp, b, a);
   const Sweep sweep{phase, omega, chirp};
   const double before = omega + chirp * a, after = omega + chirp * b;
-  const double panels = std::ceil(std::max(std::abs(before), std::abs(after)) * (b - a) / panel_angle);
-  if (panels <= most_panels) return sweep.by_panels(a, b, std::max(1.0, panels));
+  const double panels = sweep.panels(a, b);
+  if (panels <= most_panels) return sweep.by_panels(a, b, panels);
   if (before >= 0) return sweep.tail(a, before) - sweep.tail(b, after);
   // In mirrored time the frequency also rises from its zero towards earlier times.
   const Sweep mirrored{phase, -omega, chirp};
   if (after <= 0) return mirrored.tail(-b, -after) - mirrored.tail(-a, -before);
   const double turn = -omega / chirp;
   return (mirrored.tail(-turn, 0) - mirrored.tail(-a, -before)) + (sweep.tail(turn, 0) - sweep.tail(b, after));
+}
+
+// With the angle phi, (b - t) sin(phi) = (phi'(b) sin(phi) - phi' sin(phi))/chirp.
+double area_of_chirp(double phase, double omega, double chirp, double a, double b) {
+  const Sweep sweep{phase, omega, chirp};
+  if (const double panels = sweep.panels(a, b); panels <= most_panels) return sweep.by_panels(a, b, panels, 1);
+  return ((omega + chirp * b) * integral_of_chirp(phase, omega, chirp, a, b) + std::cos(sweep.angle(b)) - std::cos(sweep.angle(a))) / chirp;
 }
 
 }  // namespace rheonet

@@ -15,4 +15,8 @@ std::complex<double> fresnel_tail(double z);
 /// turns. The error is the round-off of the angle at each end, divided by the angle's rate of change there.
 double integral_of_chirp(double phase, double omega, double chirp, double a, double b);
 
+/// The same for the integral of (b - t) sin(phase + omega t + chirp t^2/2), which is that of the integral above over its upper end. Over more than
+/// a turn it loses digits where the frequency hardly changes: as many as the ratio of the frequency to its change has.
+double area_of_chirp(double phase, double omega, double chirp, double a, double b);
+
 }  // namespace rheonet

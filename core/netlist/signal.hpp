@@ -14,7 +14,7 @@ class Curve;
 ///
 ///     value(t) = level + slope tau + amplitude sin(phase + omega tau + chirp tau^2 / 2)
 ///
-/// or a curve through points.
+/// or a curve through points; or the integral of such a function, for a motion whose acceleration is given.
 ///
 /// A piece may be evaluated slightly outside its range (the integrator extrapolates to the end of a step); it continues
 /// smoothly there.
@@ -28,12 +28,18 @@ struct Piece {
   double chirp = 0;      ///< rad/s^2
   const Curve* curve = nullptr;  ///< if given, the value is that of this curve; the Signal owns it
   double end = std::numeric_limits<double>::infinity();  ///< s: the next discontinuity of the signal or a derivative
+  bool integrated = false;  ///< the value is `begin_value` plus the integral of the function above from `begin` on
+  double begin = 0;         ///< s
+  double begin_value = 0;   ///< unit of the integral
 
+  /// The integral of this piece, with this value at t.
+  Piece integral_from(double t, double value) const;
+  /// The function that an integral is taken of; else the piece itself.
+  Piece integrand() const;
   double value(double t) const;
   double rate(double t) const;       ///< d value / dt
   double curvature(double t) const;  ///< d2 value / dt2
-  /// Integral of value from `from` to `to`, accurate to round-off: in closed form for chirp = 0, else by integral_of_chirp
-  /// (fresnel.hpp).
+  /// Integral of value from `from` to `to`, in closed form, accurate to round-off. For a chirp see fresnel.hpp.
   double integral(double from, double to) const;
   /// Bound on the round-off of value(t), including that of t and of breakpoints: where two pieces meet continuously their
   /// values differ by at most the sum of both bounds.
@@ -48,6 +54,13 @@ struct Piece {
 
  private:
   double spin(double a, double b) const;  ///< rad/s: the largest angular frequency
+  // Of the function without regard to `integrated`.
+  double function(double t) const;
+  double slope_at(double t) const;
+  double area(double from, double to) const;
+  double area_of_area(double from, double to) const;  ///< integral over t of area(from, t)
+  double largest_function(double a, double b) const;
+  double largest_slope(double a, double b) const;
 };
 
 /// A piecewise smooth function of time whose breakpoints are all known. All values are in SI. Frequencies are not negative;

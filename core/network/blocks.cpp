@@ -104,20 +104,15 @@ class Finder {
     return rates;
   }
 
-  /// Makes a motion whose acceleration is given follow the integral of that acceleration. Returns the blocks that integrate, each
-  /// after a generator of its signal if no block gives that; the first one gets the number `next`.
+  /// Makes a motion whose acceleration a block gives follow the integral of that acceleration. Returns the blocks that integrate; the first
+  /// one gets the number `next`.
   std::vector<Blocks::Block> integrate_accelerations(std::size_t next) {
     std::vector<Blocks::Block> added;
-    const auto number = [&] { return static_cast<int>(next + added.size()); };
     for (Network::Motion& motion : network_.motions) {
-      if (!motion.acceleration) continue;
-      Blocks::Input input{true, motion.block, motion.sign};
-      if (motion.block < 0) {
-        input = {true, number(), 1};
-        added.push_back(generator(motion.element, motion.signal));
-      }
+      if (!motion.acceleration || motion.block < 0) continue;
+      const Blocks::Input input{true, motion.block, motion.sign};
       const double velocity = network_.node(motion.node).velocity;
-      motion.block = number();
+      motion.block = static_cast<int>(next + added.size());
       motion.sign = 1;
       added.push_back({.element = motion.element, .law = {.state = true, .initial = std::isnan(velocity) ? 0 : velocity},
                        .generates = false, .signal = {}, .inputs = {input}});

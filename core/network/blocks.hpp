@@ -46,7 +46,7 @@ struct Blocks {
 };
 
 /// Finds the blocks of a network; time counts from the scene's start. A motion whose position a block gives follows an added
-/// block instead, whose output is the velocity; so does a motion whose acceleration is given. A transfer function gets a block for each of its states. Each varying parameter of a slider gets a block too. Throws SimulationError for an algebraic loop, for a loop closed by delays
+/// block instead, whose output is the velocity; so does a motion whose acceleration a block gives. A transfer function gets a block for each of its states. Each varying parameter of a slider gets a block too. Throws SimulationError for an algebraic loop, for a loop closed by delays
 /// alone, for a force that cannot be sensed, and for a position without a known rate.
 Blocks find_blocks(Network& network);
 

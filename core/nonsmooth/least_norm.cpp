@@ -1,6 +1,7 @@
 #include "core/nonsmooth/least_norm.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -31,7 +32,9 @@ class DualActiveSet {
     factors.compute(problem.balance.transpose());
     rows_ = factors.householderQ() * Eigen::MatrixXd::Identity(problem.balance.cols(), factors.rank());
     without_bounds_.setZero(problem.balance.cols());
-    if (factors.rank() > 0) without_bounds_ = rows_ * (problem.balance * rows_).colPivHouseholderQr().solve(load);
+    if (factors.rank() == 0) return;
+    without_bounds_ = rows_ * (problem.balance * rows_).colPivHouseholderQr().solve(load);
+    roundoff_ = numerics::equation_roundoff * without_bounds_.lpNorm<Eigen::Infinity>();
   }
 
   /// Meets all bounds. False if that is impossible: `cut` are the bounds that contradict the load, too narrow by the share `excess` of
@@ -89,7 +92,7 @@ class DualActiveSet {
     for (Eigen::Index k = 0; k < x.size(); ++k) {
       for (const Bound& b : {Bound{k, 1, -(1 + share_) * problem_.low[static_cast<std::size_t>(k)]},
                              Bound{k, -1, (1 + share_) * problem_.high[static_cast<std::size_t>(k)]}}) {
-        const double over = slack(b, x) + numerics::equation_roundoff * b.width;
+        const double over = slack(b, x) + numerics::equation_roundoff * b.width + roundoff_;
         if (over >= least) continue;
         least = over;
         worst = b;
@@ -123,6 +126,7 @@ class DualActiveSet {
   double share_;
   Eigen::MatrixXd rows_;            ///< orthonormal combinations of the balances, one a column
   Eigen::VectorXd without_bounds_;  ///< forces of least norm
+  double roundoff_ = 0;             ///< of forces: a bound of 0 cannot be met better
   std::vector<Bound> active_;
   std::vector<double> multipliers_;
 };
@@ -155,7 +159,12 @@ bool LeastNorm::solve(const std::vector<double>& load, std::vector<double>& forc
       worst = std::move(cut);
     }
     if (worst.empty()) {
-      x(open) = found;
+      // A force within round-off of a bound is set to it. With the bound 0, the round-off would exceed the dead band of the guard.
+      const double roundoff = numerics::equation_roundoff * found.lpNorm<Eigen::Infinity>();
+      for (std::size_t k = 0; k < open.size(); ++k) {
+        const double is = found[static_cast<Eigen::Index>(k)], nearest = std::clamp(is, rest.low[k], rest.high[k]);
+        x[open[k]] = std::abs(is - nearest) <= roundoff ? nearest : is;
+      }
       break;
     }
     for (const auto& [place, side, width] : worst) {

@@ -36,6 +36,38 @@ TEST_CASE("steady friction: closed forms") {
   for (const double acceleration : geared["b.acceleration"]) CHECK(std::abs(acceleration) < 1e-9);
 }
 
+TEST_CASE("steady friction: a constant torque against friction that rises with the speed") {
+  struct Case { const char* friction; double torque, speed; };
+  const std::string mass = "m = { type = \"inertia\", at = \"a\", inertia = 0.5 }\n";
+  const auto scene = [&](const Case& c, double sign) {
+    return steady(mass + fmt::format("T = {{ type = \"torque\", at = \"a\", torque = {:.17g} }}\ns = {{ type = \"slider\", between = [\"a\", \"ground\"], {} }}\n", sign * c.torque, c.friction),
+                  "\"a.velocity\"");
+  };
+  for (const Case& c : {Case{"coulomb = [[0, 1], [10, 6]]", 2, 2}, {"coulomb = [[0, 1], [1, 2], [2, 2.5], [10, 6]]", 3, 2 + 0.5 / 3.5 * 8},
+                        {"coulomb = \"T0*(1 + (w/w0)^2)\"", 5, 2}, {"coulomb = \"T0*(1 + (w/w0)^2)\"", 1.0001, 0.01},
+                        {"coulomb = \"T0*(2 - exp(-(w/w0)^2))\"", 1.5, std::sqrt(std::log(2))}, {"coulomb = \"T0*exp(abs(w)/w0)\"", 5, std::log(5)},
+                        {"coulomb = [[0, 1], [10, 6]], peak = 1.5", 3, 4}, {"coulomb = [[0, 1], [10, 6]], breakaway = 2.5", 3, 4},
+                        {"coulomb = [[0, 0.1], [10, 0.6]], normal = 10", 4, 6},
+                        // On both sides of breakaway; from above it speeds up until friction has risen again.
+                        {"coulomb = [[0, 1], [10, 6]], peak = 1.5", 1.49, 0}, {"coulomb = [[0, 1.5], [1, 0.5], [11, 5.5]]", 1.49, 0}, {"coulomb = [[0, 1.5], [1, 0.5], [11, 5.5]]", 2, 4}}) {
+    CAPTURE(std::string(c.friction));
+    for (const double sign : {1.0, -1.0}) {
+      const RunTable rows = simulate(scene(c, sign));
+      for (const double w : rows["a.velocity"]) CHECK(std::abs(w - sign * c.speed) <= 1e-9 * c.speed);
+    }
+  }
+  CHECK(refusal(scene({"coulomb = \"T0*(2 - exp(-(w/w0)^2))\"", 2.001, 0}, 1)).find("would go ever faster") != std::string::npos);
+  // Two in a row, and bearings of a gear, a driving: (0.2/2 + bearing)/0.5 = 3.
+  CHECK(error_of(simulate(steady(mass + "T = { type = \"torque\", at = \"a\", torque = 2 }\nn = { type = \"inertia\", at = \"b\", inertia = 1 }\n"
+                                        "s1 = { type = \"slider\", between = [\"a\", \"b\"], coulomb = [[0, 1], [10, 6]] }\n"
+                                        "s2 = { type = \"slider\", between = [\"b\", \"ground\"], coulomb = [[0, 1], [10, 3]] }\n", "\"a.velocity\"")),
+                 "a.velocity", [](double) { return 2.0 + 5.0; }) < 1e-12);
+  CHECK(error_of(simulate(steady(mass + "T = { type = \"torque\", at = \"a\", torque = 3 }\nn = { type = \"inertia\", at = \"b\", inertia = 1 }\n"
+                                        "g = { type = \"gear\", between = [\"a\", \"b\"], ratio = 2, efficiency = 0.5, bearing = [[0, 1], [10, 6]] }\n"
+                                        "s = { type = \"slider\", between = [\"b\", \"ground\"], coulomb = 0.2 }\n", "\"a.velocity\"")),
+                 "a.velocity", [](double) { return 0.8; }) < 1e-12);
+}
+
 TEST_CASE("steady friction: what starts in steady motion stays in it") {
   std::mt19937 random(11);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };

@@ -115,6 +115,40 @@ W = {{ type = "torque", at = "b", torque = 4 }}
   CHECK(held(0.1) != "");
 }
 
+TEST_CASE("starts with trains: gears with losses and a brake hold what they can, from either side") {
+  // Gears with losses and bearings in a row, then perhaps a soft shaft, then a brake.
+  const auto row = [](double load, const char* at, const char* brake, bool shaft, const std::string& what) {
+    return refusal(fmt::format(R"~(
+domain = "rotation"
+[elements]
+T = {{ type = "torque", at = "{}", torque = {:.17g} }}
+J0 = {{ type = "inertia", at = "x", inertia = 0.3 }}
+g0 = {{ type = "gear", between = ["x", "y"], ratio = 3, efficiency = [0.6, 0.9], bearing = 0.1 }}
+J1 = {{ type = "inertia", at = "y", inertia = 0.2 }}
+g1 = {{ type = "gear", between = ["y", "z"], ratio = -2, efficiency = [0.5, 0.8], bearing = 0.2 }}
+J2 = {{ type = "inertia", at = "z", inertia = 0.7 }}
+k = {{ type = "{}", between = ["z", "w"], {} }}
+J3 = {{ type = "inertia", at = "w", inertia = 0.4 }}
+b = {{ type = "slider", between = ["{}", "ground"], coulomb = 0.2, breakaway = 0.25, normal = 8 }}
+)~", at, load, shaft ? "spring" : "slider", shaft ? "stiffness = 30" : "coulomb = 100", brake) + start_from(what, 0.1));
+  };
+  const double from_x = ((2 / 2.0 + 0.2) / 0.5 / 3 + 0.1) / 0.6, from_w = 2 * ((3 * (2 / 0.9 + 0.1)) / 0.8 + 0.2);
+  for (const bool shaft : {false, true}) {
+    for (const char* what : {"rest", "steady"}) {
+      for (const double share : {0.3, 0.6, 0.8, 0.999, -0.999}) {
+        CAPTURE(share);
+        CHECK(row(share * from_x, "x", "w", shaft, what) == "");
+        CHECK(row(share * from_w, "w", "x", shaft, what) == "");
+      }
+      for (const double share : {1.001, -1.001, 3.0}) {
+        CAPTURE(share);
+        CHECK(row(share * from_x, "x", "w", shaft, what).find("cannot take the force `T` for ever") != std::string::npos);
+        CHECK(row(share * from_w, "w", "x", shaft, what).find("cannot take the force `T` for ever") != std::string::npos);
+      }
+    }
+  }
+}
+
 TEST_CASE("starts with trains: what starts at rest or in steady motion goes on like that") {
   std::mt19937 random(5);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
