@@ -68,21 +68,18 @@ bool Newton::solve(const Step& step, double* correction, const double* weight, d
   return false;
 }
 
-/// Iterates, starting from the residual of the correction. Power laws may need Jacobians on the way: where the ends of a dilatant dashpot
-/// move almost alike, their predicted difference is far too large, and so is the slope there.
+/// Iterates, starting from the residual of the correction.
 Newton::Verdict Newton::iterate(const Step& step, double* correction, const double* weight, double enough) {
-  for (int renewals = dae_.rough() ? numerics::newton_renewals : 0;; --renewals) {
-    // A Jacobian of another cj gives changes too large or too small: half of that is corrected (as in IDA).
-    const double scale = 2 / (1 + step.cj / jacobian_cj_);
-    for (int iteration = 0; iteration < numerics::newton_iterations; ++iteration) {
-      if (iteration > 0 && !evaluate(step, correction)) return Verdict::hopeless;
-      linear_.solve(change_.data());
-      for (std::size_t i = 0; i < change_.size(); ++i) correction[i] += change_[i] *= scale;
-      const Verdict verdict = judge(step, iteration, weight, enough);
-      if (verdict != Verdict::go_on) return verdict;
-    }
-    if (renewals <= 0 || !evaluate(step, correction) || !renew(step)) return Verdict::hopeless;
+  // A Jacobian of another cj gives changes too large or too small: half of that is corrected (as in IDA).
+  const double scale = 2 / (1 + step.cj / jacobian_cj_);
+  for (int iteration = 0; iteration < numerics::newton_iterations; ++iteration) {
+    if (iteration > 0 && !evaluate(step, correction)) break;
+    linear_.solve(change_.data());
+    for (std::size_t i = 0; i < change_.size(); ++i) correction[i] += change_[i] *= scale;
+    const Verdict verdict = judge(step, iteration, weight, enough);
+    if (verdict != Verdict::go_on) return verdict;
   }
+  return Verdict::hopeless;
 }
 
 Newton::Verdict Newton::judge(const Step& step, int iteration, const double* weight, double enough) {
