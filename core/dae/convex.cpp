@@ -84,23 +84,32 @@ double ConvexNetwork::slope(const Branch& b, double w) const {
 
 void ConvexNetwork::choose_weak() {
   constexpr double none = std::numeric_limits<double>::infinity();
-  std::vector<double> least(u_.size(), none);  // slope around each node
+  // Nodes that move with each other, up to those that are held: a soft element far along a chain may hold all of them.
+  DisjointSets together(u_.size());
+  for (const Branch& b : branches_) {
+    if (!restrained(at(b.a)) && !restrained(at(b.b))) together.join(b.a, b.b);
+  }
+  std::vector<double> least(u_.size(), none);  // slope around the nodes that move with each node, at their representative
+  const auto meet = [&](int node, double slope) {
+    double& least_there = least[at(together.find(node))];
+    least_there = std::min(least_there, slope);
+  };
   double farthest = 0, least_of_all = none;
   for (std::size_t k = 0; k < u_.size(); ++k) {
-    if (inertia_[k] > 0) least[k] = inertia_[k];
+    if (inertia_[k] > 0) meet(static_cast<int>(k), inertia_[k]);
     farthest = std::max(farthest, std::abs(base_[k] + u_[k]));
   }
   for (const Branch& b : branches_) {
     const double slope = std::max(b.law.forward, b.law.backward);
     if (slope == 0) continue;
-    for (int node : {b.a, b.b}) least[at(node)] = std::min(least[at(node)], slope);
+    for (int node : {b.a, b.b}) meet(node, slope);
   }
   for (const double slope : least) least_of_all = std::min(least_of_all, slope);
   for (Branch& b : branches_) {
     if (restrained(at(b.a)) && restrained(at(b.b))) continue;  // no regularisation needed
     const double steeper = std::max(b.law.forward, b.law.backward), flatter = std::min(b.law.forward, b.law.backward);
     if (!b.jumps && flatter > numerics::flat_law * steeper) continue;
-    const double around = std::min(least[at(b.a)], least[at(b.b)]);
+    const double around = std::min(least[at(together.find(b.a))], least[at(together.find(b.b))]);
     double bounds = 0;
     for (double bound : {b.law.low, b.law.high}) bounds += std::isfinite(bound) ? std::abs(bound) : 0;
     const bool by_bounds = farthest > 0 && bounds > 0;

@@ -291,6 +291,7 @@ class Dae {
   std::vector<double> places(const State& state) const;
   void set_rate_forms();
   void stiffen_resting_laws();
+  double held_force(const Branch& ends) const;
   double known_way(const Branch& ends, double t) const;
 
   const Network* network_;

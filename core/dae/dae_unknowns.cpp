@@ -35,12 +35,14 @@ void Dae::number_unknowns() {
   // is the softest linear dashpot at each node.
   DisjointSets told(network.nodes());
   std::vector<double> softest(network.nodes(), std::numeric_limits<double>::infinity());
+  std::vector<int> dashpots(network.nodes(), 0);  // at each node
   for (NodeId node : network.node_order) {
     if (!massless(node)) told.join(node, ground);
   }
   for (const Laws<RateBatch>& laws : network.rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const Branch& b = structure_->rates[at(laws.first) + i];
+      for (NodeId node : {b.a, b.b}) dashpots[at(node)] += b.a != b.b;
       if (!std::isfinite(laws.batch->impulse(i))) continue;
       told.join(b.a, b.b);
       if (laws.batch->impulse(i) == 0) continue;
@@ -62,13 +64,16 @@ void Dae::number_unknowns() {
       // velocity is.
       const bool needed = std::isfinite(impulse) || (told.find(b.a) != told.find(b.b) && !told_by_others[at(laws.first) + i]);
       const bool at_massless = massless(b.a) || massless(b.b);
-      // A linear dashpot much stiffer than its neighbours in series needs it too: the difference of the velocities of its ends
-      // would have lost its digits. At ground that difference is a velocity itself.
+      // A linear dashpot much stiffer than its neighbours in series needs it too, and one that holds a massless node against springs
+      // and friction alone: the difference of the velocities of its ends would have lost its digits. At ground that difference is
+      // a velocity itself.
       const bool moving = b.a != ground && b.b != ground;
       const auto stiff = [&](NodeId node) { return massless(node) && impulse > numerics::series_stiffness_ratio * softest[at(node)]; };
+      const auto alone = [&](NodeId node) { return massless(node) && dashpots[at(node)] == 1; };
+      const bool alone_moving = moving && (alone(b.a) || alone(b.b));
       const double least_mass = std::min(mass_of(b.a), mass_of(b.b));
       const bool stiff_between = moving && least_mass > 0 && impulse * length > numerics::equalising_ratio * least_mass;
-      const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between : power_law && needed && at_massless;
+      const bool by_force = linear ? stiff(b.a) || stiff(b.b) || stiff_between || alone_moving : power_law && needed && at_massless;
       by_force_.push_back(by_force && b.a != b.b);
       if (by_force_.back()) if_[at(laws.first) + i] = size_++;
     }

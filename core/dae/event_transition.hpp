@@ -67,6 +67,7 @@ class EventTransition {
   /// reverse. Returns false if the forces do not balance that way.
   bool settle_errors(double t, State& state, std::vector<double>& force) const;
   double farthest(const Jump& jump) const;
+  bool hardly_moves(const Jump& jump, const State& state) const;
   /// Displacement of a node in a jump [m].
   double moved(const Jump& jump, NodeId node) const { return jump.share * jump.problem.value(slot(speaker(node))); }
   /// Updates the positions.

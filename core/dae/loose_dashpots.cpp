@@ -45,6 +45,7 @@ void Dae::balance_loose_dashpots() {
   std::vector<double>& magnitude = work_;
   std::fill(magnitude.begin(), magnitude.end(), 0.0);
   const auto add = [&](const Branch& b, double f) {
+    if (b.a == b.b) return;
     magnitude[at(b.a)] += std::abs(f);
     magnitude[at(b.b)] += std::abs(f);
   };

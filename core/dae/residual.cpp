@@ -145,7 +145,9 @@ void Dae::magnitudes(double* r) const {
       if (row >= 0) r[row] += std::abs(x);
     }
   };
+  // A branch whose ends are joined is in no balance: its terms, which may be far larger, would hide imbalances.
   const auto add_branch = [&](const Branch& b, double f) {
+    if (b.a == b.b) return;
     add(b.a, f);
     add(b.b, f);
   };
@@ -216,14 +218,21 @@ void Dae::jacobian(double t, double cj, const double* y, const double* yp, doubl
 }
 
 /// A power law other than Newton's has slope 0 at rest, where its equation has no solution to first order. A secant up to the
-/// forces now acting takes its place: with it Newton's iteration leaves rest.
+/// forces now acting takes its place: with it Newton's iteration leaves rest. A law that is solved for its force has hardly any slope
+/// near rest either, and beside a law that is held at rest nothing else determines that force: below the round-off of the held force
+/// it has the secant up to that round-off.
 void Dae::stiffen_resting_laws() {
   double scale = -1;
   Inputs::Reach reach;
+  const bool any_held = std::find(moving_.begin(), moving_.end(), 0.0) != moving_.end();
   for (const Laws<RateBatch>& laws : network_->rate_laws) {
     for (std::size_t i = 0; i < laws.batch->size(); ++i) {
       const std::size_t r = at(laws.first) + i;
       if (secants_ && rate_in_[r] != 0) rate_d_[r] = std::max(rate_d_[r], rate_out_[r] / rate_in_[r]);
+      if (any_held && if_[r] >= 0 && rate_in_[r] != 0) {
+        const double lost = numerics::equation_roundoff * held_force(structure_->rates[r]);
+        if (std::abs(rate_in_[r]) < lost) rate_d_[r] = std::max(rate_d_[r], laws.batch->velocity_at(i, lost) / lost);
+      }
       if (rate_d_[r] != 0) continue;
       // A force that has reached its limit: its own secant will do.
       if (rate_in_[r] != 0 && rate_out_[r] != 0) rate_d_[r] = rate_out_[r] / rate_in_[r];
@@ -239,6 +248,16 @@ void Dae::stiffen_resting_laws() {
       rate_d_[r] = if_[r] >= 0 ? w / f : f / w;
     }
   }
+}
+
+/// Largest force of the laws that are held at rest between these ends [N].
+double Dae::held_force(const Branch& ends) const {
+  double largest = 0;
+  for (std::size_t j = 0; j < moving_.size(); ++j) {
+    const Branch& b = structure_->deflections[j];
+    if (moving_[j] == 0 && std::minmax(b.a, b.b) == std::minmax(ends.a, ends.b)) largest = std::max(largest, std::abs(view_.f[j]));
+  }
+  return largest;
 }
 
 void Dae::guess_forces(double t, double* y) {

@@ -105,4 +105,19 @@ Fired take_events(System& system, double t, const std::vector<double>& y, const 
   return fired;
 }
 
+Fired take_contradictions(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp) {
+  Fired fired;
+  const std::vector<NetworkEvents::Contradicted> laws = system.events.contradicted(t, y, yp);
+  if (laws.empty()) return fired;
+  const std::vector<double> p = system.dae.view(t, y.data(), yp.data()).p;
+  for (const auto& [branch, velocity] : laws) {
+    std::size_t i = 0;
+    DeflectionBatch& batch = system.dae.batch_of(branch, i);
+    fired.sudden.starts.push_back(branch);
+    batch.set_direction(i, p[at(branch)], velocity, velocity < 0 ? -1 : 1);
+    fired.elements.push_back(system.dae.network().deflections[at(branch)].element);
+  }
+  return fired;
+}
+
 }  // namespace rheonet

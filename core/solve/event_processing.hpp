@@ -18,4 +18,8 @@ struct Fired {
 /// held at rest together, and laws that reverse at the same velocity.
 Fired take_events(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
 
+/// Starts the laws that rest by their memory although the equations give them a velocity (NetworkEvents::contradicted), in the direction
+/// of that velocity. Mode selection solves a convex problem over a short time, whose round-off may hide the velocity.
+Fired take_contradictions(System& system, double t, const std::vector<double>& y, const std::vector<double>& yp);
+
 }  // namespace rheonet

@@ -201,6 +201,19 @@ std::vector<NetworkEvents::Turned> NetworkEvents::turned(double t, const std::ve
   return laws;
 }
 
+std::vector<NetworkEvents::Contradicted> NetworkEvents::contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp) {
+  const auto rests = [](const Watched& law) { return !law.batch->holds(law.i) && law.batch->direction(law.i) == 0; };
+  std::vector<Contradicted> laws;
+  if (std::none_of(watched_.begin(), watched_.end(), rests)) return laws;
+  const Dae::View& view = resolved(t, y.data(), yp.data());
+  for (const Watched& law : watched_) {
+    const double velocity = view.flow[at(law.branch)];
+    if (!rests(law) || law.batch->fits(law.i, velocity)) continue;
+    if (std::abs(velocity) > numerics::resolved_dead_bands * tolerances_.dead_band(law.branch)) laws.push_back({law.branch, velocity});
+  }
+  return laws;
+}
+
 std::vector<int> NetworkEvents::stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp,
                                               const std::vector<int>& stopped) {
   const Structure& structure = dae_.structure();

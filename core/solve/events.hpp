@@ -30,6 +30,9 @@ class NetworkEvents final : public EventFunctions {
   /// A law or slider that moves against the direction of its mode, at this speed [m/s].
   struct Turned { int branch; double speed; bool slides = false; };
   std::vector<Turned> turned(double t, const std::vector<double>& y, const std::vector<double>& yp);
+  /// A law whose memory says that it rests, while the equations of these modes give it a velocity far above its dead band [m/s].
+  struct Contradicted { int branch; double velocity; };
+  std::vector<Contradicted> contradicted(double t, const std::vector<double>& y, const std::vector<double>& yp);
   /// Slipping sliders that reverse as the sliders `stopped` stop, because a node of both loses the residual slip velocity.
   std::vector<int> stopped_along(double t, const std::vector<double>& y, const std::vector<double>& yp, const std::vector<int>& stopped);
 

@@ -254,7 +254,7 @@ class Run {
     if (smooth_ && !system_->integrator.exact()) {
       go_on(t, until);
     } else {
-      restart(t, until, shrink);
+      begin_steps(t, until, shrink);
     }
     chatter_.reset();
     while (true) {
@@ -274,7 +274,7 @@ class Run {
         if (settings_.profile) settings_.profile->blame_failure(system_->integrator);
         if (gets_nowhere(t, {solver()}) || chatter_.failing(t, numerics::failure_time * horizon(t))) fail(outcome);
         tolerances_.trust(false);
-        restart(t, until, shrink);
+        begin_steps(t, until, shrink);
         continue;
       }
       const Dae::View& view = view_of_step();
@@ -320,7 +320,7 @@ class Run {
       if (!hops && gets_nowhere(t, fired_)) report_chatter(t);
       until = std::min(until, inputs_.next_break());  // the event may be a discontinuity of a delayed signal
       if (t >= until) return until;
-      restart(t, until, shrink);
+      begin_steps(t, until, shrink);
     }
   }
 
@@ -363,6 +363,18 @@ class Run {
     fired.sudden.settles = settling_contacts(*system_, tolerances_, {t, settings_.accuracy, settings_.stop}, y_, yp_);
     const bool jumps = inputs_.blocks().fire(fired.limits);
     cross(t, jumps, fired.sudden);
+  }
+
+  /// Restarts the integrator, in modes that the velocities at t do not contradict.
+  void begin_steps(double t, double until, double shrink) {
+    for (int k = 0; k < numerics::mode_corrections; ++k) {
+      restart(t, until, shrink);
+      const Fired wrong = take_contradictions(*system_, t, y_, yp_);
+      if (wrong.elements.empty()) return;
+      leave(t);
+      cross(t, false, wrong.sudden);
+    }
+    restart(t, until, shrink);
   }
 
   void soften_laws() {
