@@ -399,16 +399,20 @@ std::optional<Inputs::TimeFunctions> Inputs::time_functions() const {
   bool simple = true;
   const auto look = [&](const Piece& piece, int integrals) {
     simple = simple && piece.curve == nullptr && (piece.amplitude == 0 || piece.chirp == 0);
+    if (piece.integrated) {
+      all.degree = std::max(all.degree, integrals);
+      ++integrals;
+    }
     if (piece.slope != 0) all.degree = std::max(all.degree, 1 + integrals);
     else if (piece.level != 0 || piece.amplitude != 0) all.degree = std::max(all.degree, integrals);
     if (piece.amplitude != 0 && piece.omega != 0) omegas.insert(piece.omega);
   };
   for (const Motion& m : motions_) {
-    if (m.block < 0) look(m.piece, m.by_position ? 0 : 1);
+    look(m.piece, m.by_position ? 0 : 1);
   }
   for (const Force& f : forces_) look(f.piece, 0);
   for (const BlockSignals::Generator& g : blocks_.generators()) look(*g.piece, 0);
-  if (!simple || omegas.size() > numerics::arc_frequencies) return {};
+  if (!simple || all.degree > 2 || omegas.size() > numerics::arc_frequencies) return {};
   all.omegas.assign(omegas.begin(), omegas.end());
   return all;
 }

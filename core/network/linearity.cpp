@@ -61,6 +61,8 @@ std::optional<NotLinear> not_linear(const Network& network) {
     return wrong(element, fmt::format("the inputs have more than {} frequencies", numerics::arc_frequencies));
   };
   for (const Network::Motion& m : network.motions) {
+    // It may part from rest like a power of time, below the round-off of a step.
+    if (m.block >= 0) return wrong(m.element, fmt::format("blocks give the motion `{}`", name_of(m.element)));
     if (auto found = look(m.element, m.signal)) return found;
   }
   for (const Network::Force& f : network.forces) {

@@ -196,7 +196,7 @@ class Certification {
     const std::optional<Imbalance> imbalance = balances_.raise(trajectory, scene_.accuracy, errors);
     const std::size_t worst = worst_of(errors);
     const RecordError error = errors.empty() ? RecordError{} : errors[worst];
-    result_.rounds.push_back({measured->tolerance, worst, error});
+    result_.rounds.push_back({tighter.tolerance * numerics::certificate_ratio, worst, error});
     result_.holds = error.relative() <= scene_.accuracy;
     double until = not_given;
     for (const RecordError& e : errors) until = std::fmin(until, e.beyond);

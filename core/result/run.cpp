@@ -303,7 +303,7 @@ std::string no_arcs(const Network& network, Scene::Method method) {
   const std::optional<NotLinear> obstacle = not_linear(network);
   if (method == Scene::Method::exact && obstacle) {
     throw SimulationError(network.scene->method == method ? network.scene->method_spot : obstacle->spot,
-                          fmt::format("`method = \"exact\"` needs equations that are linear between events, but {}; `\"auto\"` and `\"ida\"` simulate any scene", obstacle->reason));
+                          fmt::format("`method = \"exact\"` needs laws that are linear between events, but {}; `\"auto\"` and `\"ida\"` simulate any scene", obstacle->reason));
   }
   if (obstacle) return obstacle->reason;
   const bool large = method == Scene::Method::automatic && network.nodes() > static_cast<std::size_t>(numerics::arc_unknowns);
@@ -319,7 +319,9 @@ Summary integrate(const Scene& scene, const RunSettings& settings, bool locate_e
   const std::vector<char> needed = needed_positions(network);
   Recorder recorder(network, settings);
   Profile profile;
-  const Scene::Method method = settings.method.value_or(scene.method);
+  // A lower order is one of IDA.
+  const Scene::Method asked = settings.method.value_or(scene.method);
+  const Scene::Method method = asked == Scene::Method::automatic && settings.order < RunSettings{}.order ? Scene::Method::ida : asked;
   const bool exact = no_arcs(network, method).empty();
   const SimulationSettings how{.stop = scene.stop - scene.start,
                                .accuracy = settings.tolerance.value_or(scene.accuracy),

@@ -162,7 +162,8 @@ VectorXd balance(MatrixXd& A) {
 
 /// The matrices of one mode.
 struct LinearEquations {
-  MatrixXd K, M;
+  MatrixXd K;
+  MatrixXd both;  ///< [M; K]: the rows of M where there are derivatives, else those of K
   bool regular = false;
   MatrixXd A;
   MatrixXd L;               ///< b = L h
@@ -182,22 +183,19 @@ struct LinearEquations {
   void prepare(const Dae& dae) {
     const Index n = K.rows();
     std::vector<Index> states;
-    MatrixXd both = K;
     for (Index i = 0; i < n; ++i) {
-      if (!dae.differential(static_cast<int>(i))) continue;
-      both.row(i) = M.row(i);
-      states.push_back(i);
+      if (dae.differential(static_cast<int>(i))) states.push_back(i);
     }
-    // The units of rows differ by decades.
-    VectorXd rows(n);
-    for (Index i = 0; i < n; ++i) {
-      const double most = both.row(i).cwiseAbs().maxCoeff();
-      if (!(most > 0) || !std::isfinite(most)) return;
-      rows(i) = 1 / most;
+    // Units of rows and columns differ by decades.
+    VectorXd rows = VectorXd::Ones(n), columns = VectorXd::Ones(n);
+    const auto level = [](double most) { return most > 0 && std::isfinite(most) ? std::exp2(-std::round(std::log2(most))) : 1; };
+    for (int round = 0; round < numerics::arc_scalings; ++round) {
+      for (Index i = 0; i < n; ++i) rows(i) *= level((rows(i) * both.row(i) * columns.asDiagonal()).cwiseAbs().maxCoeff());
+      for (Index i = 0; i < n; ++i) columns(i) *= level((rows.asDiagonal() * both.col(i) * columns(i)).cwiseAbs().maxCoeff());
     }
-    const Eigen::FullPivLU<MatrixXd> factors(MatrixXd(rows.asDiagonal() * both));
+    const Eigen::FullPivLU<MatrixXd> factors(MatrixXd(rows.asDiagonal() * both * columns.asDiagonal()));
     if (!factors.isInvertible()) return;
-    const MatrixXd S = factors.inverse() * rows.asDiagonal();
+    const MatrixXd S = columns.asDiagonal() * factors.inverse() * rows.asDiagonal();
     const auto r = static_cast<Index>(states.size());
     of_states.resize(n, r);
     of_given = S;
@@ -286,7 +284,7 @@ struct ExactArc::Implementation {
 
   bool linear() const {
     const Network& network = dae.network();
-    if (dae.rough() || dae.inputs().history().any()) return false;
+    if (dae.unknowns() == 0 || dae.rough() || dae.inputs().history().any()) return false;
     for (const Laws<DeflectionBatch>& laws : network.deflection_laws) {
       for (std::size_t i = 0; i < laws.batch->size(); ++i) {
         if (!laws.batch->linear(i)) return false;
@@ -300,30 +298,28 @@ struct ExactArc::Implementation {
     return true;
   }
 
-  MatrixXd dense_jacobian(double t, double cj) {
-    dae.jacobian(t, cj, y0.data(), zero.data(), entries.data());
-    MatrixXd dense = MatrixXd::Zero(n, n);
+  MatrixXd dense() const {
+    MatrixXd matrix = MatrixXd::Zero(n, n);
     const Pattern& pattern = dae.pattern();
     for (int column = 0; column < pattern.size; ++column) {
-      for (int e = pattern.column_start[at(column)]; e < pattern.column_start[at(column) + 1]; ++e) dense(pattern.row[at(e)], column) += entries[at(e)];
+      for (int e = pattern.column_start[at(column)]; e < pattern.column_start[at(column) + 1]; ++e) matrix(pattern.row[at(e)], column) += entries[at(e)];
     }
-    return dense;
+    return matrix;
   }
 
   void find_equations() {
-    MatrixXd K = dense_jacobian(begin.t, 0), M = dense_jacobian(begin.t, 1) - K;
-    // Their difference rounds: entries are in one of both, but for the balances that trains share.
-    for (Index i = 0; i < n; ++i) {
-      if (!dae.differential(static_cast<int>(i))) M.row(i).setZero();
-    }
+    dae.jacobian(begin.t, 0, y0.data(), zero.data(), entries.data());
+    MatrixXd K = dense();
+    dae.consistency_matrix(begin.t, y0.data(), entries.data());
+    MatrixXd both = dense();
     for (present = 0; present < known.size(); ++present) {
-      if (known[present].K == K && known[present].M == M) return;
+      if (known[present].K == K && known[present].both == both) return;
     }
     if (known.size() >= numerics::arc_modes_kept) known.clear();
     present = known.size();
     known.push_back({});
     equations().K = std::move(K);
-    equations().M = std::move(M);
+    equations().both = std::move(both);
     equations().prepare(dae);
     next_level = 0;
   }
@@ -367,7 +363,11 @@ struct ExactArc::Implementation {
       for (double& of : scale) of = of > 0 ? of : 1;
       const MatrixXd scaled = values * scale.cwiseInverse().asDiagonal();
       MatrixXd solved = scaled.colPivHouseholderQr().solve(change);
-      if (!((scaled * solved - change).cwiseAbs().maxCoeff() <= numerics::arc_misfit * std::max(change.cwiseAbs().maxCoeff(), first.cwiseAbs().maxCoeff()))) return false;
+      const MatrixXd misfit = scaled * solved - change;
+      for (Index i = 0; i < n; ++i) {
+        const double terms = equations().K.row(i).cwiseAbs() * y0.cwiseAbs();
+        if (!(misfit.col(i).cwiseAbs().maxCoeff() <= numerics::arc_misfit * std::max({change.col(i).cwiseAbs().maxCoeff(), std::abs(first(i)), terms}))) return false;
+      }
       solved = scale.cwiseInverse().asDiagonal() * solved;
       given.rightCols(varying) = solved.transpose();
       // A cosine is 1 at the beginning.
@@ -387,7 +387,7 @@ struct ExactArc::Implementation {
         before += c.last_but_one[at(k)] * y(i, k);
         most = std::max(most, std::abs(y(i, k) + y0(i)));
       }
-      const double negligible = std::max(tolerance[at(static_cast<int>(i))], numerics::arc_ulps * std::numeric_limits<double>::epsilon() * most);
+      const double negligible = std::max(numerics::arc_share * tolerance[at(static_cast<int>(i))], numerics::arc_ulps * std::numeric_limits<double>::epsilon() * most);
       if (!(std::abs(last) + std::abs(before) <= negligible)) return false;
     }
     return true;

@@ -229,7 +229,9 @@ struct Integrator::Implementation {
   /// parts it is a polynomial of degree 4 as far as one can see; where that one comes near 0, the function is looked at.
   bool passes_event(double end) {
     constexpr int parts = 4, finer = 4;
-    std::vector<double> times, lowest;
+    std::vector<double> times;
+    struct Dip { std::size_t function; double time; };
+    std::vector<Dip> dips;
     std::vector<std::vector<double>> functions{left};
     for (int k = 0; k <= parts; ++k) times.push_back(k == parts ? end : previous + (end - previous) * k / parts);
     for (int k = 1; k <= parts; ++k) functions.push_back(functions_at(times[at(k)]));
@@ -238,14 +240,15 @@ struct Integrator::Implementation {
       for (std::size_t k = 0; k < g.size(); ++k) g[k] = functions[k][f];
       const auto [least, most] = std::minmax_element(g.begin(), g.end());
       if (!(*least > 0)) continue;
-      double lowest_value = *least, lowest_place = 0;
+      double lowest_value = *least, lowest_place = static_cast<double>(least - g.begin());
       for (int k = 0; k <= parts * finer; ++k) {
         const double place = static_cast<double>(k) / finer, value = through(g, place);
         if (value < lowest_value) lowest_value = value, lowest_place = place;
       }
-      if (lowest_value <= numerics::arc_dip * (*most - *least)) lowest.push_back(previous + (end - previous) * lowest_place / parts);
+      if (lowest_value <= numerics::arc_dip * (*most - *least)) dips.push_back({f, previous + (end - previous) * lowest_place / parts});
     }
-    for (const double t : lowest) {
+    for (const Dip& dip : dips) {
+      const double t = lowest_near(dip.function, dip.time, end, (end - previous) / (parts * finer));
       const auto behind = std::lower_bound(times.begin(), times.end(), t);
       if (*behind == t) continue;
       functions.insert(functions.begin() + (behind - times.begin()), functions_at(t));
@@ -263,6 +266,19 @@ struct Integrator::Implementation {
     left = functions.back();
     go_to(end);
     return false;
+  }
+
+  /// Where an event function is lowest near t within the last step, by parabolas through three of its values; or a time at which it is
+  /// not positive.
+  double lowest_near(std::size_t function, double t, double end, double apart) {
+    const auto value = [&](double then) { return functions_at(then)[function]; };
+    for (int n = 0; n < numerics::missed_event_refinements; ++n, apart /= 16) {
+      t = std::clamp(t, previous + apart, end - apart);
+      const double before = value(t - apart), here = value(t), after = value(t + apart), bend = before - 2 * here + after;
+      if (here <= 0 || !(bend > 0)) break;
+      t += std::clamp((before - after) / (2 * bend), -1.0, 1.0) * apart;
+    }
+    return t;
   }
 
   /// Lagrange's polynomial through values at 0, 1, 2, ...
@@ -341,6 +357,7 @@ struct Integrator::Implementation {
       return s;
     }
     IDAGetNumSteps(ida, &s.steps);
+    if (arc && dae.unknowns() == 0) s.arc_steps = s.steps;  // everything is given
     s.residuals = newton.counts().residuals;
     s.jacobians = newton.counts().jacobians;
     const Failures f = failures();

@@ -448,6 +448,7 @@ class Run {
     report_failure(*system_, tolerances_.values(), outcome);
   }
 
+  bool on_arc_ = false;  ///< since the last restart the solution is an exact arc
   const Network& network_;
   const SimulationSettings& settings_;
   Observer& observer_;
@@ -466,7 +467,6 @@ class Run {
   double left_ = 0;  ///< time of `state_` [s]
   bool ended_ = false;   ///< by `simulate.stop_when`, at the last event
   double impact_ = -1, hopped_ = 0;  ///< time of the last impact after which a contact was thrown back, and of the one before [s]
-  bool on_arc_ = false;  ///< since the last restart the solution is an exact arc
   bool stopped_ = false; ///< the last interval ended with a step that the integrator can continue from
   long steps_ = 0;       ///< in the last interval
   bool smooth_ = false;  ///< the last discontinuity was negligible

@@ -39,6 +39,7 @@ body = {{ type = "mass", at = "body", mass = {} }}
 k1 = {{ type = "spring", between = ["body", "ground"], stiffness = {} }}
 c1 = {{ type = "dashpot", between = ["body", "ground"], damping = {} }}
 [simulate]
+method = "ida"
 stop = 2
 accuracy = {}
 output = {{ points = {} }}
@@ -97,6 +98,7 @@ oil = {{ type = "dashpot", between = ["grip", "body"], damping = {} }}
 body = {{ type = "mass", at = "body", mass = {} }}
 rub = {{ type = "slider", between = ["body", "ground"], coulomb = 400 }}
 [simulate]
+method = "ida"
 stop = 2
 accuracy = {}
 record = ["body.position"]
@@ -122,6 +124,7 @@ oil = { type = "dashpot", between = ["grip", "body"], damping = 31 }
 body = { type = "mass", at = "body", mass = 1.3 }
 k1 = { type = "spring", between = ["body", "ground"], stiffness = 210 }
 [simulate]
+method = "ida"
 stop = 2
 record = ["body.position"]
 )"));

@@ -185,7 +185,7 @@ TEST_CASE("what is not linear is left to IDA, or named") {
     CAPTURE(element);
     const std::string toml = by_arcs(mass + element, 0.1);
     const std::string message = refusal(toml);
-    CHECK_MESSAGE(message.find("`method = \"exact\"` needs equations that are linear between events, but " + reason) != std::string::npos, message);
+    CHECK_MESSAGE(message.find("`method = \"exact\"` needs laws that are linear between events, but " + reason) != std::string::npos, message);
     Scene scene = scene_of(toml);
     scene.method = Scene::Method::automatic;
     Summary summary;

@@ -80,7 +80,9 @@ std::string describe(const Scene& scene, const Certificate& certificate) {
   if (!certificate.holds) return failure(scene, certificate);
   const Round& kept = certificate.result();
   return fmt::format("certified: every record is within {:g} of its largest magnitude\n", scene.accuracy) +
-         fmt::format("  a run to {:g}, measured by a run to {:g}; {}\n", kept.tolerance, tighter(kept), cost(certificate));
+         (certificate.summary.arc_steps > 0 && certificate.summary.arc_steps == certificate.summary.steps
+              ? fmt::format("  solved in closed form between events, measured by a run of IDA to {:g}; {}\n", tighter(kept), cost(certificate))
+              : fmt::format("  a run to {:g}, measured by a run to {:g}; {}\n", kept.tolerance, tighter(kept), cost(certificate)));
 }
 
 bool report_certificate(const Scene& scene, const Certificate& certificate, bool quiet) {

@@ -96,7 +96,7 @@ Passage cost_of(const Scene& scene, const Explanation& e) {
   const Explanation::Cost& c = e.cost;
   Passage passage{.heading = "cost"};
   const auto add = [&passage](std::string text) { passage.lines.push_back(plain(std::move(text))); };
-  if (c.unknowns > 0) add(c.no_arcs.empty() ? "linear between events: solved in closed form, exact to round-off" : "solved by SUNDIALS IDA: " + c.no_arcs);
+  add(c.no_arcs.empty() ? "linear between events: solved in closed form, exact to round-off" : "solved by SUNDIALS IDA: " + c.no_arcs);
   if (c.unknowns > 0)
     add(fmt::format("entries of the Jacobian: {}, factorised {}", c.entries, c.sparse ? "as a sparse matrix (KLU)" : "as a dense matrix"));
   std::vector<std::string> times;
